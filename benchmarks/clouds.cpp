@@ -12,7 +12,7 @@
 
 #include "meshes.h"
 #include "pcl_bv/estimation/point_cloud_view.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/synth/synth.h"
 #include "program.h"
 #include "shapes.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv::bench {

@@ -19,9 +19,9 @@
 #include "child_process.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
 #include "pcl_bv/synth/street.h"
 #include "program.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::bench {
 namespace {
@@ -59,9 +59,10 @@ class Talk {
     for (std::size_t i = 0; i < (tiny() ? 1U : 20U); ++i)
       clouds_.push_back(cloud_message(i));
     const auto end = Clock::now() + std::chrono::seconds(20);
-    while (!carrier_->wanted(points_) || answers_.empty()) {  // the other side knows us when it answers
+    // The other side knows us when it answers.
+    while (!carrier_->has_subscribers(points_) || answers_.empty()) {
       if (Clock::now() > end) throw std::runtime_error("bv_stream does not answer");
-      if (carrier_->wanted(points_)) send(0);
+      if (carrier_->has_subscribers(points_)) send(0);
       listen_until(Clock::now() + kPeriod);
     }
     listen_until(Clock::now() + 4 * kPeriod);
@@ -98,7 +99,7 @@ class Talk {
   }
 
  private:
-  std::unique_ptr<MessageCarrier> carrier_;
+  std::unique_ptr<MessageSender> carrier_;
   std::unique_ptr<MessageReceiver> markers_;
   std::size_t points_;
   std::vector<std::vector<std::byte>> clouds_;

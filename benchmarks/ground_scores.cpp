@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ground_scores [SEEDS [FRAMES [BEAMS...]]]: the ground of synth:verges-sequence as the pipeline's zones find
-// it, every tenth frame of FRAMES (300), of the seeds 1 to SEEDS (3), for 16, 32, 64 and 128 beams or those
-// given.
+// ground_scores [SEEDS [FRAMES [BEAMS...]]]: scores of the ground that the pipeline's zones find on
+// synth:rural-road-sequence: every tenth frame of FRAMES (300), seeds 1 to SEEDS (3), for 16, 32, 64 and 128
+// beams or the given ones.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -12,14 +12,14 @@
 
 #include "ground_score.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv::bench {
 namespace {
 
-void add_frame(FramePipeline& pipeline, const VergesOptions& options, std::size_t number,
+void add_frame(FramePipeline& pipeline, const RuralRoadOptions& options, std::size_t number,
                std::vector<GroundScore>& scores) {
-  const VergesFrame made = make_verges_frame(options, number);
+  const RuralRoadFrame made = make_rural_road_frame(options, number);
   const SynthCloud& cloud = made.cloud;
   Frame frame;
   frame.points = PointView::of(cloud.xyz.data(), 3 * sizeof(float), cloud.size());
@@ -30,7 +30,7 @@ void add_frame(FramePipeline& pipeline, const VergesOptions& options, std::size_
   std::vector<std::uint8_t> found(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     range[i] = std::hypot(cloud.xyz[3 * i], cloud.xyz[3 * i + 1]);
-    found[i] = labels[i] == label_ground;
+    found[i] = labels[i] == kLabelGround;
   }
   for (GroundScore& score : scores)
     score.add({range, cloud.object, cloud.ground, cloud.vegetation, found});

@@ -50,7 +50,7 @@ class Stream {
     config.track.enabled = true;
     pipeline_.set_config(config);
     sink_ = make_sink(parse_sink("ws:0"));
-    const std::string shows = sink_->take_remarks().at(0);
+    const std::string shows = sink_->take_warnings().at(0);
     port_ = static_cast<std::uint16_t>(std::stoul(shows.substr(shows.rfind(':') + 1)));
     StreetOptions street;
     street.points = points_in_this_run(130'000);
@@ -97,7 +97,7 @@ class Stream {
 };
 
 // Frames that come, until there are so many or none comes for 20 s.
-std::size_t count_frames(Client& client, std::size_t wanted) {
+std::size_t are_frame_numbers(Client& client, std::size_t wanted) {
   std::size_t count = 0;
   try {
     while (count < wanted)
@@ -121,7 +121,7 @@ void beside_viewers(benchmark::State& state) {
       stream.run(frames, times[none]);
       {
         const std::unique_ptr<Client> client = stream.connect();
-        std::thread reader([&] { got += count_frames(*client, frames); });
+        std::thread reader([&] { got += are_frame_numbers(*client, frames); });
         stream.run(frames, times[reads]);
         reader.join();
         sent += frames;

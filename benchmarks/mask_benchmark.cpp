@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 #include "convex_region.h"
-#include "grown.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "inflated.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "rows.h"
 
@@ -111,7 +111,7 @@ void add_many(const std::string& scene, Isa isa, std::size_t count, unsigned thr
     const std::vector<Region> regions = regions_about(points, count);
     std::vector<ConvexRegion> convex;
     for (const auto& [volume, padding] : regions)
-      convex.push_back(convex_region(grown(volume, padding)));
+      convex.push_back(convex_region(inflated(volume, padding)));
     const RegionTests tests(convex);
     const RegionMask mask(regions);
     const Execution execution{policy_of(threads), isa};

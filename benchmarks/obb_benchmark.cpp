@@ -60,7 +60,7 @@ void dito_against_its_passes(benchmark::State& state, const std::string& name) {
       [&] {
         const Supports supports = find_supports(cloud.view(), DirectionSet::dop14, SupportDetail::points, {});
         benchmark::DoNotOptimize(supports);
-        const OwnSupports along = find_supports(cloud.view(), directions);
+        const CustomSupports along = find_supports(cloud.view(), directions);
         benchmark::DoNotOptimize(along);
       });
 }

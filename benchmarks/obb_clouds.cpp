@@ -12,7 +12,7 @@
 #include "obb_peers.h"
 #include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/fitting/verify.h"
-#include "pcl_bv/kernels/point_records.h"
+#include "pcl_bv/points/point_records.h"
 #include "program.h"
 
 namespace pcl_bv::bench {

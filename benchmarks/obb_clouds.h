@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv::bench {

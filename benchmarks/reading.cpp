@@ -8,8 +8,8 @@
 #include <benchmark/benchmark.h>
 
 #include "fits.h"
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/chunks.h"
 #include "rivals.h"
 #include "timing.h"
 

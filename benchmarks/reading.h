@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "clouds.h"
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 
 namespace pcl_bv::bench {
 

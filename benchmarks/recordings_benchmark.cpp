@@ -11,10 +11,10 @@
 #include <stdexcept>
 
 #include "pcl_bv/io/posix_file.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/synth/street.h"
@@ -96,7 +96,7 @@ void add_view() {
         [&] {
           msg::PointCloud2 cloud;
           read_cdr(message.data(), message.size(), cloud);
-          auto view = points_in_place(cloud);
+          auto view = view_points(cloud);
           if (!view) throw std::logic_error("no view");
           benchmark::DoNotOptimize(view);
         });

@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pcl_bv/kernels/isa.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::bench {
 

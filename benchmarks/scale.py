@@ -29,7 +29,8 @@ RANKS = (1, 2, 4, 8)
 # Of the network between machines, which one machine cannot measure: 10 Gbit/s, and what MPI over TCP takes.
 LATENCY, BANDWIDTH = 50e-6, 1.2e9
 COSTS = re.compile(
-    r"(\d+) ranks: ([\d.]+) s, ([\d.]+) s of work, (\d+) rounds, (\d+) messages of (\d+) bytes.* most (\d+) KiB"
+    r"(\d+) ranks: ([\d.]+) s wall time, ([\d.]+) s CPU time, (\d+) query rounds, (\d+) messages with (\d+) bytes "
+    r"in total, maximum memory of a rank (\d+) KiB"
 )
 
 

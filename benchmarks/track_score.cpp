@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "streaming/tracking/assignment.h"
+#include "pipeline/track/assignment.h"
 
 namespace pcl_bv::bench {
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// track_scores [SEEDS [FRAMES [BEAMS [FIRST]]]]: cars, people, cyclists and poles of synth:verges-sequence as
-// the pipeline follows them, FRAMES (300) frames of each of the seeds FIRST (1) and up, SEEDS (3) of them,
-// with poses and without, boxes as they are and steadied.
+// track_scores [SEEDS [FRAMES [BEAMS [FIRST]]]]: scores of tracking cars, people, cyclists and poles of
+// synth:rural-road-sequence: FRAMES (300) frames of each of SEEDS (3) seeds from FIRST (1) on, with and
+// without poses, with unchanged and stabilised boxes.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +14,7 @@
 
 #include "motion_score.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 #include "track_score.h"
 
 namespace pcl_bv::bench {
@@ -22,9 +22,9 @@ namespace {
 
 constexpr std::size_t kLeast = 10;  // points of an object that is asked for
 
-bool asked_for(StreetObjectKind kind) {
-  return kind == StreetObjectKind::car || kind == StreetObjectKind::pedestrian ||
-         kind == StreetObjectKind::cyclist || kind == StreetObjectKind::pole;
+bool asked_for(SynthObjectKind kind) {
+  return kind == SynthObjectKind::car || kind == SynthObjectKind::pedestrian ||
+         kind == SynthObjectKind::cyclist || kind == SynthObjectKind::pole;
 }
 
 Pose pose_of(const std::array<double, 12>& rows) {
@@ -61,14 +61,14 @@ struct Contest {
 // The objects that are asked for, and their places in the lists.
 struct Truth {
   std::vector<TrueObject> objects;
-  std::vector<const VergesObject*> full;
+  std::vector<const RuralRoadObject*> full;
   std::map<std::uint32_t, std::size_t> place;
 
-  explicit Truth(const VergesFrame& made) {
+  explicit Truth(const RuralRoadFrame& made) {
     std::map<std::uint32_t, std::size_t> points;
     for (const std::uint32_t id : made.cloud.object)
       ++points[id];
-    for (const VergesObject& object : made.objects) {
+    for (const RuralRoadObject& object : made.objects) {
       if (!asked_for(object.kind) || points[object.id] < kLeast) continue;
       place[object.id] = objects.size();
       objects.push_back({object.id, points[object.id]});
@@ -77,7 +77,7 @@ struct Truth {
   }
 };
 
-std::vector<FoundObject> found_in(const FrameResult& result, const VergesFrame& made, const Truth& truth,
+std::vector<FoundObject> found_in(const FrameResult& result, const RuralRoadFrame& made, const Truth& truth,
                                   std::vector<std::size_t>& clusters) {
   std::vector<FoundObject> found;
   clusters.clear();
@@ -101,7 +101,7 @@ std::vector<FoundObject> found_in(const FrameResult& result, const VergesFrame& 
   return found;
 }
 
-MotionSighting sighting_of(const Contest& contest, std::size_t cluster, const VergesObject& object,
+MotionSighting sighting_of(const Contest& contest, std::size_t cluster, const RuralRoadObject& object,
                            const Pose& pose) {
   const TrackEntry& track = *contest.result.tracks[cluster];
   MotionSighting sighting;
@@ -112,7 +112,7 @@ MotionSighting sighting_of(const Contest& contest, std::size_t cluster, const Ve
   sighting.moving = track.moving;
   sighting.range = std::hypot(object.center[0], object.center[1]);
   const Obb* const box = std::get_if<Obb>(&contest.result.volume(cluster, 0));
-  if (object.kind != StreetObjectKind::car || box == nullptr || box->empty()) return sighting;
+  if (object.kind != SynthObjectKind::car || box == nullptr || box->empty()) return sighting;
   const Eigen::Vector3d front = pose.linear() * box->axis(0),
                         forward = pose.linear() * Eigen::Map<const Eigen::Vector3d>(object.axes[0].data());
   sighting.turn = std::atan2(front.y(), front.x()) - std::atan2(forward.y(), forward.x());
@@ -120,7 +120,7 @@ MotionSighting sighting_of(const Contest& contest, std::size_t cluster, const Ve
   return sighting;
 }
 
-void run_frame(Contest& contest, const VergesFrame& made, std::size_t number, const Truth& truth) {
+void run_frame(Contest& contest, const RuralRoadFrame& made, std::size_t number, const Truth& truth) {
   Frame frame;
   frame.header.stamp_ns = static_cast<std::int64_t>(number) * 100'000'000;
   frame.points = PointView::of(made.cloud.xyz.data(), 3 * sizeof(float), made.cloud.size());
@@ -173,7 +173,7 @@ int run(int argc, char** argv) {
       contest.motion.start_sequence();
     }
     for (std::size_t number = 0; number < argument(2, 300); ++number) {
-      const VergesFrame made = make_verges_frame({seed, argument(3, 64)}, number);
+      const RuralRoadFrame made = make_rural_road_frame({seed, argument(3, 64)}, number);
       const Truth truth(made);
       for (Contest& contest : contests)
         run_frame(contest, made, number, truth);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 #include "program.h"
 #include "tree_inputs.h"
 

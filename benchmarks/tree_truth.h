@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 
 namespace pcl_bv::bench {
 

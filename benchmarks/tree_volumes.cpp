@@ -9,7 +9,7 @@
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/trees/collision.h"
 #include "pcl_bv/trees/volume_tree.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "timing.h"
 #include "tree_rows.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clusters with PCL's setters, and a k-DOP around each.
+// Extracts clusters with the interface of PCL and fits a k-DOP to each.
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/bounding_volume_estimation.h>
 #include <pcl_bv/segmentation/extract_clusters.h>
@@ -10,7 +10,7 @@
 
 int main() {
   pcl::PointCloud<pcl::PointXYZI>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZI>);
-  for (int i = 0; i < 100; ++i) {  // two things, 20 m apart
+  for (int i = 0; i < 100; ++i) {  // two objects, 20 m apart
     pcl::PointXYZI p;
     p.x = i < 50 ? 0.0F : 20.0F;
     p.y = 0.1F * static_cast<float>(i % 50);
@@ -18,7 +18,8 @@ int main() {
     cloud->push_back(p);
   }
 
-  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZI> extraction;  // PCL's setters and clusters: same result, faster
+  // The setters and the result are those of pcl::EuclideanClusterExtraction.
+  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZI> extraction;
   extraction.setInputCloud(cloud);
   extraction.setClusterTolerance(0.5);
   extraction.setMinClusterSize(30);
@@ -28,7 +29,7 @@ int main() {
   pcl_bv::KdopEstimation<pcl::PointXYZI, 26> estimation;
   estimation.setInputCloud(cloud);
   std::vector<pcl_bv::Kdop> kdops;
-  estimation.compute(clusters, kdops);                            // one per cluster; or compute(kdop) for the cloud
+  estimation.compute(clusters, kdops);  // one k-DOP per cluster; compute(kdop) fits the whole cloud
   for (const pcl_bv::Kdop& kdop : kdops) std::cout << kdop.center().transpose() << "  " << kdop.volume() << " m3\n";
 
   return kdops.size() == 2 ? 0 : 1;

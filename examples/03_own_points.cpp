@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points of a type of your own, in memory of your own: no PCL, no copy.
+// Clusters and boxes of points of your own type, in your own memory: without PCL and without copying them.
 #include <pcl_bv/fitting/fit.h>
 #include <pcl_bv/segmentation/euclidean_clusters.h>
 
 #include <iostream>
 #include <vector>
 
-struct Return {  // as the driver of a sensor gives it
+struct Return {  // a point as the driver of a sensor delivers it
   double time;
   double x, y, z;
   unsigned char ring, intensity;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is promised, proven: no point outside by exact arithmetic, and no smaller sphere.
+// Proves that no point is outside a volume, by exact arithmetic, and that no enclosing sphere is smaller.
 #include <pcl_bv/fitting/fit.h>
 #include <pcl_bv/fitting/methods.h>
 #include <pcl_bv/fitting/verify.h>
@@ -21,14 +21,15 @@ int main() {
   for (const pcl_bv::Method* method : pcl_bv::methods_of_all()) {
     pcl_bv::AnyVolume volume;
     method->fit(points, volume, {});
-    const pcl_bv::Verification proof = pcl_bv::verify(volume, points);  // in rationals, on the bits as stored
+    const pcl_bv::Verification proof = pcl_bv::verify(volume, points);  // by rational arithmetic
     std::cout << method->name << ": " << proof.checked << " points, " << proof.outside << " outside\n";
     outside += proof.outside;
   }
 
   pcl_bv::Sphere sphere;
-  pcl_bv::SphereCertificate certificate;  // up to four points, weighted
+  pcl_bv::SphereCertificate certificate;  // up to four weighted points
   pcl_bv::fit_smallest_sphere(points, sphere, certificate);
-  std::cout << "radius " << sphere.radius() << ", of no enclosing sphere below " << certificate.lower_bound << "\n";
+  std::cout << "radius " << sphere.radius() << "; no enclosing sphere has a radius below "
+            << certificate.lower_bound << "\n";
   return outside == 0 && sphere.radius() <= certificate.lower_bound * (1 + 1e-12) ? 0 : 1;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The pipeline inside a program that has its own loop: no thread is started, nothing is read or written.
+// Calls the pipeline from the program's own loop: it starts no thread and reads and writes no files.
 #include <pcl/point_types.h>
 #include <pcl_bv/nodes/cluster_pipeline.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The pipeline behind a queue: the sensor's callback only hands clouds over, a thread of the runner's works
-// on them.
+// Runs the pipeline behind a queue: the sensor's callback only pushes clouds, and a thread of the runner
+// processes them.
 #include <pcl/point_types.h>
 #include <pcl_bv/nodes/cluster_pipeline.h>
 #include <pcl_bv/nodes/stream_runner.h>
@@ -23,7 +23,7 @@ int main() {
                 static_cast<int>(result.clusters.size()));
   };
   pcl_bv::StreamRunner runner(callbacks,
-                              pcl_bv::RunnerConfig());  // one frame waits; a newer one takes its place
+                              pcl_bv::RunnerConfig());  // a queue of one frame; a newer frame replaces it
   const auto sensor_callback = [&](const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud) {
     runner.push(pcl_bv::make_frame<pcl::PointXYZ>(cloud));
   };

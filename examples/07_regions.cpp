@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A robot that does not see itself: points inside its padded links are dropped before anything else.
+// Filters a robot's own points: points inside its inflated links are dropped before all other steps.
 #include <pcl_bv/nodes/frame_pipeline.h>
 
 #include <iostream>
@@ -9,7 +9,7 @@
 
 int main() {
   std::vector<float> xyz;
-  for (int i = 0; i < 300; ++i) {  // an arm beside the sensor, and a box 3 m in front of it
+  for (int i = 0; i < 300; ++i) {  // an arm next to the sensor, and a box 3 m in front of it
     const float t = static_cast<float>(i) / 300;
     xyz.insert(xyz.end(), {0.5F * t, 0.3F, -0.2F});
     xyz.insert(xyz.end(), {3 + 0.2F * t, 0.01F * static_cast<float>(i % 30), 0.02F * static_cast<float>(i % 17)});
@@ -18,7 +18,7 @@ int main() {
   pcl_bv::PipelineConfig config;
   config.ground.method = pcl_bv::GroundMethod::none;
   config.filter.range_min = 0;
-  pcl_bv::RegionConfig arm;  // volumes, or a file of them: --drop-inside arm.json --padding 0.05
+  pcl_bv::RegionConfig arm;  // volumes, or a file with volumes as for --drop-inside arm.json --padding 0.05
   arm.volumes.emplace_back(pcl_bv::Capsule({0, 0.3, -0.2}, {0.5, 0.3, -0.2}, 0.04));
   arm.padding = 0.05;
   config.filter.regions = {arm};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file that need not fit into memory: its points come past in blocks, as often as the volumes need.
+// Fits volumes to a file that may be larger than memory: its points are read in blocks, as often as the fits
+// need.
 #include <pcl_bv/fitting/fit.h>
 #include <pcl_bv/io/cloud_file.h>
 
@@ -11,7 +12,7 @@
 
 int main(int argc, char** argv) {
   const std::filesystem::path path = argc > 1 ? argv[1] : "/tmp/pcl_bv_example_grid.bin";
-  if (argc == 1) {  // no file at hand: 100 000 points, each x y z intensity
+  if (argc == 1) {  // no file given: write 100 000 points, each with x, y, z, intensity
     std::ofstream grid(path, std::ios::binary);
     for (int i = 0; i < 100'000; ++i) {
       const float point[4] = {0.1F * static_cast<float>(i % 100), 0.1F * static_cast<float>(i / 100), 1, 0};

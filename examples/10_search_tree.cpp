@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// An algorithm of PCL's on our tree: setSearchMethod(), and nothing else changes.
+// Runs an algorithm of PCL with the search tree of pcl_bv: only setSearchMethod() is added.
 #include <pcl/point_types.h>
 #include <pcl/segmentation/extract_clusters.h>
 #include <pcl_bv/nodes_pcl/point_tree_search.h>
@@ -10,12 +10,13 @@
 
 int main() {
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
-  for (int i = 0; i < 100; ++i) {  // two things, 20 m apart
+  for (int i = 0; i < 100; ++i) {  // two objects, 20 m apart
     const float x = i < 50 ? 0.0F : 20.0F;
     cloud->push_back({x, 0.1F * static_cast<float>(i % 50), 0.3F * static_cast<float>(i % 2)});
   }
 
-  const auto tree = std::make_shared<pcl_bv::PointTreeSearch<pcl::PointXYZ>>(false);  // not sorted: sooner
+  // false: neighbours within a radius are not sorted by distance, which is faster.
+  const auto tree = std::make_shared<pcl_bv::PointTreeSearch<pcl::PointXYZ>>(false);
   pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
   extraction.setInputCloud(cloud);
   extraction.setSearchMethod(tree);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Oriented boxes of PCL's clouds: upright ones, with length, width, height and yaw.
+// Fits oriented boxes to a PCL cloud, among them an upright box with length, width, height and yaw.
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/bounding_volume_estimation.h>
 #include <pcl_bv/estimation/fit_cloud.h>
@@ -11,23 +11,23 @@
 
 int main() {
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
-  for (int i = 0; i < 600; ++i) {  // 4 x 2 x 1.5 m, turned by 0.5 rad
+  for (int i = 0; i < 600; ++i) {  // a box of 4 x 2 x 1.5 m, rotated by 0.5 rad about z
     const float x = 0.4F * static_cast<float>(i % 11) - 2, y = 0.4F * static_cast<float>(i / 11 % 6) - 1,
                 z = 0.5F * static_cast<float>(i / 66 % 4);
     cloud->push_back({x * std::cos(0.5F) - y * std::sin(0.5F), x * std::sin(0.5F) + y * std::cos(0.5F), z});
   }
 
-  pcl_bv::ObbEstimation<pcl::PointXYZ> estimation;   // ObbMethod::minimal by default: it may tilt
-  estimation.setMethod(pcl_bv::ObbMethod::lshape);   // upright, as the commands' default for clusters
+  pcl_bv::ObbEstimation<pcl::PointXYZ> estimation;  // by default ObbMethod::minimal, which may tilt the box
+  estimation.setMethod(pcl_bv::ObbMethod::lshape);  // upright; default of the commands for clusters
   estimation.setUpAxis(Eigen::Vector3d::UnitZ());
   estimation.setInputCloud(cloud);
   pcl_bv::Obb box;
   const pcl_bv::EstimationResult result = estimation.compute(box);
 
-  const Eigen::Vector3d size = 2 * box.half_extents();  // along box.axis(0), axis(1), axis(2), metres
-  const Eigen::Isometry3d pose = box.pose();            // from the box's own frame to the cloud's
+  const Eigen::Vector3d size = 2 * box.half_extents();  // along box.axis(0), axis(1), axis(2), in metres
+  const Eigen::Isometry3d pose = box.pose();            // from the box's own frame to the frame of the cloud
 
-  pcl_bv::Obb smallest;                                 // the same without a class
+  pcl_bv::Obb smallest;  // the minimum-volume box, by a function call instead of a class
   pcl_bv::fit_obb(*cloud, {pcl_bv::ObbMethod::minimal}, smallest);
 
   std::cout << size.transpose() << " m at " << pose.translation().transpose() << ", " << result.used << " points\n";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A component for rclcpp: markers of the objects in each cloud.
+// A component for rclcpp that publishes markers of the objects in each cloud.
 
 #include <pcl_bv/nodes/frame_pipeline.h>
 #include <pcl_bv/nodes/stream_config.h>
@@ -32,10 +32,11 @@ class ClusterVolumes : public rclcpp::Node {
       pcl_bv::read_cloud(std::move(cloud), "", frame);
       pipeline_.process(frame, result_);
       auto markers = std::make_unique<MarkerArray>();
-      pcl_bv::fill_markers(frame, result_, pcl_bv::drawn(result_), lifetime_.next(frame.header.stamp_ns), shown_, *markers);
+      const auto shapes = pcl_bv::viewer_shapes(result_);
+      pcl_bv::fill_markers(frame, result_, shapes, lifetime_.next(frame.header.stamp_ns), shown_, *markers);
       markers_->publish(std::move(markers));
     } catch (const std::exception& error) {
-      RCLCPP_WARN(get_logger(), "a cloud is lost: %s", error.what());
+      RCLCPP_WARN(get_logger(), "cloud lost: %s", error.what());
     }
   }
 

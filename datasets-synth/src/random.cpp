@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The arithmetic of SplitMix64, compiled once so that every user draws the same bits.
+// SplitMix64, compiled once so that every user draws the same bits.
 #include "pcl_bv/synth/random.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace pcl_bv {
 SplitMix64::SplitMix64(std::initializer_list<std::uint64_t> keys) : state_(0) {
   for (const std::uint64_t key : keys)
     state_ = next() ^ key;
-  // The last key must be mixed too: states one apart would otherwise give overlapping streams.
+  // Mix the last key too: initial states that differ by one would otherwise give overlapping streams.
   state_ = next();
 }
 

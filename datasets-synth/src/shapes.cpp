@@ -14,6 +14,7 @@ namespace {
 
 using Offset = std::array<double, 3>;
 
+/// Returns a unit vector uniform on the sphere: z is uniform in [-1, 1] (Archimedes).
 Offset uniform_direction(SplitMix64& random) {
   const double z = random.uniform(-1, 1);
   const double angle = random.uniform(0, 2 * std::numbers::pi);
@@ -21,7 +22,7 @@ Offset uniform_direction(SplitMix64& random) {
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-/// A cloud of `points` offsets from the centre, each drawn from `random` by draw().
+/// Returns `points` points. draw(random) gives the offset of each point from the centre.
 template <typename Draw>
 SynthCloud draw_points(std::size_t points, std::uint64_t seed, Draw draw) {
   SynthCloud cloud;

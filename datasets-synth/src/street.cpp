@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sweep: rays, what they meet, and what a sensor makes of it.
+// The sweep of the street: casts the rays and adds the sensor's noise, missing returns and false returns.
 #include "pcl_bv/synth/street.h"
 
 #include <algorithm>
@@ -31,14 +31,14 @@ StreetObject truth_of(const PlacedObject& object) {
           to_array(object.velocity)};
 }
 
-/// The point that the sensor reports for a hit, written at position i.
+/// Writes the point that the sensor reports for a hit to position i of the cloud.
 void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t i) {
   SplitMix64 random(ray.key);
   const double noise = street_range_noise * random.normal();
-  const bool dropped = random.uniform() < std::max(dropped_share, hit.loss);
+  const bool dropped = random.uniform() < std::max(dropped_share, hit.loss_probability);
   const bool reflected = ground && random.uniform() < reflected_share;
   if (hit.range >= street_max_range || dropped) return;
-  // A mirrored ray goes on below the ground as far as it would have gone above it.
+  // The sensor assumes that a mirrored ray goes straight on: the false return lies below the ground.
   const double range = reflected ? hit.range * random.uniform(1.15, 1.6) : hit.range;
   const Vec3 point = (range + noise) * ray.direction;
   cloud.xyz[3 * i] = static_cast<float>(point.x);
@@ -50,7 +50,7 @@ void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t
 
 }  // namespace
 
-std::string_view name_of(StreetObjectKind kind) {
+std::string_view name_of(SynthObjectKind kind) {
   constexpr std::array<std::string_view, 9> names{"car",   "pedestrian", "pole",    "house", "wall",
                                                   "hedge", "tree",       "cyclist", "bridge"};
   return names[static_cast<std::size_t>(kind)];
@@ -78,7 +78,7 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
     const Ray ray{{x, y, z}, SplitMix64({options.seed, frame, i}).next()};
     Hit hit;
     for (const Candidate& candidate : candidates[i % columns]) {
-      if (candidate.nearest >= hit.range) break;
+      if (candidate.min_range >= hit.range) break;
       cast(ray, *candidate.object, hit);
     }
     const double ground = cast_ground(ray);

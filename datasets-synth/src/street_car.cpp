@@ -9,12 +9,12 @@
 namespace pcl_bv {
 namespace {
 
-/// Metres; the stations of the cabin along the car are fractions of its length, forward of the middle.
+/// Lengths in metres. The x positions of the cabin are fractions of the car's length, forward of its middle.
 struct CarShape {
   double length, width, height;
   double belt;                                      // height at which body and cabin meet
-  double screen_base, roof_front, roof_rear, rear;  // of the cabin, front to rear
-  double taper;                                     // of the cabin's sides, metres inward per metre up
+  double screen_base, roof_front, roof_rear, rear;  // x positions of the cabin, front to rear
+  double taper;                                     // inward slope of the cabin's sides, metres per metre up
 };
 
 constexpr std::array shapes{
@@ -67,7 +67,7 @@ Part make_cabin(const CarShape& car) {
     cut(cabin, {0, left, car.taper}, {0, left * side, base});
     cut(cabin, {0, left, 1.2}, {0, left * (roof_side - 0.15), car.height});
   }
-  cabin.loss = 1.0 / 3;
+  cabin.loss_probability = 1.0 / 3;
   return cabin;
 }
 
@@ -93,7 +93,7 @@ Model make_car(SplitMix64& random) {
           {{axle - 0.36, std::min(inner, face), 0.25}, {axle + 0.36, std::max(inner, face), 0.68}});
     }
   }
-  return assemble(StreetObjectKind::car, std::move(parts));
+  return assemble(SynthObjectKind::car, std::move(parts));
 }
 
 }  // namespace pcl_bv

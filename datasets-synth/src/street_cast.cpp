@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rays are cut by convex solids in the frame of the object: an interval of ranges per solid.
+// Intersects rays with convex solids in the object's frame: each solid gives one interval of ranges.
 #include "street_cast.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The ranges of a ray inside a convex solid; none if enter >= exit.
+/// The interval of ranges in which a ray is inside a convex solid; empty if enter >= exit.
 struct Span {
   double enter = 0;
   double exit = infinity;
@@ -26,13 +26,14 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Keeps of the span what is inside the half-space where speed * range <= room.
-void clip(Span& span, double speed, double room) {
+/// Clips the span to the ranges with speed * range <= distance: the part of the ray inside a half-space.
+/// `distance`: signed distance from the ray's origin to the plane, positive inside.
+void clip(Span& span, double speed, double distance) {
   if (speed > 0) {
-    span.exit = std::min(span.exit, room / speed);
+    span.exit = std::min(span.exit, distance / speed);
   } else if (speed < 0) {
-    span.enter = std::max(span.enter, room / speed);
-  } else if (room < 0) {
+    span.enter = std::max(span.enter, distance / speed);
+  } else if (distance < 0) {
     span.exit = -infinity;
   }
 }
@@ -48,16 +49,16 @@ Span clip_box(const LocalRay& ray, const Box3& box) {
   return span;
 }
 
-Span clip_planes(const LocalRay& ray, const std::vector<Plane>& planes) {
+Span clip_half_spaces(const LocalRay& ray, const std::vector<SolidHalfSpace>& half_spaces) {
   Span span;
-  for (const Plane& plane : planes) {
-    clip(span, dot(plane.normal, ray.direction), plane.offset - dot(plane.normal, ray.origin));
+  for (const SolidHalfSpace& half_space : half_spaces) {
+    clip(span, dot(half_space.normal, ray.direction), half_space.offset - dot(half_space.normal, ray.origin));
     if (span.empty()) break;
   }
   return span;
 }
 
-/// In the frame where the ellipsoid is the unit ball: |origin + range direction|^2 = 1.
+/// Solves |origin + range direction|^2 = 1 in the frame in which the ellipsoid is the unit ball.
 Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
   const Vec3 center = 0.5 * (bounds.lo + bounds.hi);
   const Vec3 radii = 0.5 * (bounds.hi - bounds.lo);
@@ -72,9 +73,10 @@ Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
   return {std::max(0.0, (-b - root) / a), (-b + root) / a};
 }
 
-/// Range at which the ray ends in the part, or infinity.
+/// Returns the range at which the part stops the ray, or infinity.
 double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
-  const Span span = part.planes.empty() ? clip_ellipsoid(ray, part.bounds) : clip_planes(ray, part.planes);
+  const Span span =
+      part.half_spaces.empty() ? clip_ellipsoid(ray, part.bounds) : clip_half_spaces(ray, part.half_spaces);
   if (span.empty()) return infinity;
   if (part.free_path > 0) {
     const double depth = -part.free_path * std::log(1.0 - SplitMix64(key).uniform());
@@ -82,9 +84,9 @@ double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
   }
   const Vec3 entry = ray.at(span.enter);
   for (const Box3& pocket : part.pockets) {
-    if (!holds(pocket, entry)) continue;
+    if (!contains_point(pocket, entry)) continue;
     const double end = clip_box(ray, pocket).exit;
-    // A ray may leave the solid through a pocket at its edge: then it goes on.
+    // A pocket at the solid's edge may contain the whole chord: the ray then passes through.
     if (end >= span.exit) return infinity;
     return end;
   }
@@ -100,26 +102,26 @@ void cast(const Ray& ray, const PlacedObject& object, Hit& hit) {
   std::uint64_t key = ray.key ^ object.id;
   for (const Part& part : object.model.parts) {
     const double range = cast_part(local, part, ++key);
-    if (range < hit.range) hit = {range, object.id, part.loss};
+    if (range < hit.range) hit = {range, object.id, part.loss_probability};
   }
 }
 
 double cast_ground(const Ray& ray) {
   const Vec3 d = ray.direction;
-  const double sinking = street_slope * d.x - d.z;  // towards the ground, metres per metre of range
+  const double descent_rate = street_slope * d.x - d.z;  // towards the ground, metres per metre of range
   const auto on_road = [&d](double range) {
     return range * d.y < street_curb_left && range * d.y > street_curb_right;
   };
   double nearest = infinity;
-  if (sinking > 0) {
-    const double sidewalk = (street_sensor_height - street_curb_height) / sinking;
-    const double road = street_sensor_height / sinking;
+  if (descent_rate > 0) {
+    const double sidewalk = (street_sensor_height - street_curb_height) / descent_rate;
+    const double road = street_sensor_height / descent_rate;
     if (!on_road(sidewalk)) nearest = sidewalk;
     if (on_road(road)) nearest = std::min(nearest, road);
   }
-  // A curb is met from the road: at its y, between the heights of road and sidewalk.
+  // The ray hits a curb face if its height at the curb's y is between road and sidewalk.
   const double curb = (d.y > 0 ? street_curb_left : street_curb_right) / d.y;
-  const double height = street_sensor_height - sinking * curb;
+  const double height = street_sensor_height - descent_rate * curb;
   if (height >= 0 && height <= street_curb_height) nearest = std::min(nearest, curb);
   return nearest;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rays against the objects and the ground of the street.
+// Ray casting against the objects and the ground of the street.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace pcl_bv {
 
-/// A ray of the sensor: from the origin in a unit direction, with a key for what is random about it.
+/// A ray of the sensor from the origin in a unit direction, with the seed of its random numbers.
 struct Ray {
   Vec3 direction;
   std::uint64_t key;
 };
 
-/// Where a ray ends.
+/// The nearest surface that a ray hits.
 struct Hit {
-  double range = std::numeric_limits<double>::infinity();  ///< Metres; infinite: nowhere.
-  std::uint32_t object = 0;
-  double loss = 0;  ///< Probability that the hit gives no return.
+  double range = std::numeric_limits<double>::infinity();  ///< Metres; infinity: no hit.
+  std::uint32_t object = 0;                                ///< Id of the object; 0: ground or no hit.
+  double loss_probability = 0;                             ///< Probability that the hit gives no return.
 };
 
-/// Replaces `hit` if the ray meets the object nearer.
+/// Replaces `hit` if the ray hits the object at a smaller range.
 void cast(const Ray& ray, const PlacedObject& object, Hit& hit);
 
-/// Range at which the ray meets road, curb or sidewalk; infinity if never.
+/// Returns the range at which the ray hits road, curb or sidewalk; infinity if it hits none.
 double cast_ground(const Ray& ray);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The street as a table of rows: each row repeats one kind of object along the road, without end.
+// The street as a table of rows: each row repeats one kind of object along the infinite road.
 #include "street_layout.h"
 
 #include <algorithm>
@@ -15,22 +15,23 @@ namespace {
 constexpr double road_center = 0.5 * (street_curb_left + street_curb_right);
 constexpr double ego_speed = 8;  // m/s along the road
 
-/// Slots `spacing` apart along the road, `share` of them taken, drifting at `speed` over the ground.
+/// A row of slots along the road, all moving at `speed` over the ground. Each slot has an object with
+/// probability `share`.
 struct Row {
   Model (*make)(SplitMix64& random);
-  double spacing;  // metres
-  double shift;    // of the slots' middles, metres forward
-  double jitter;   // of an object in its slot, metres forward or backward
+  double spacing;  // distance between two slots, metres
+  double shift;    // offset of the slots' middles, metres forward
+  double jitter;   // largest random offset of an object in its slot, metres forward or backward
   double side;     // metres left of the middle of the road
-  double share;
-  double speed;  // m/s forward
-  bool tilted;   // stands square on the slope instead of upright
+  double share;    // probability that a slot has an object
+  double speed;    // m/s forward
+  bool tilted;     // the object's up axis is normal to the slope instead of vertical
 };
 
-// Between neighbours across the road at least 0.7 m stay free, whatever the specimens: clusters at 0.5 m must
-// not join two objects. Half widths: cars 1.02 and hedges 0.42 with their yaw, posts 0.3, people 0.34,
-// trees 1.5, houses 4.6 with their bays. The slots of the sensor's own lane leave it 8 m and more, ahead and
-// behind.
+// Objects of different rows are at least 0.7 m apart in y, whatever the random sizes, so that clustering with
+// a tolerance of 0.5 m never joins two objects. Half widths in metres: cars 1.02 and hedges 0.42 including
+// their yaw, posts 0.3, people 0.34, trees 1.5, houses 4.6 including their bays. The cars in the sensor's
+// lane have their centres at least 8 m ahead of or behind the sensor.
 // clang-format off
 constexpr std::array rows{
     //                     spacing shift jitter  side  share  speed    tilted
@@ -59,7 +60,7 @@ constexpr std::array rows{
 };
 // clang-format on
 
-/// 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
+/// Maps 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
 std::uint64_t zigzag(std::int64_t i) {
   return i >= 0 ? 2 * static_cast<std::uint64_t>(i) : 2 * static_cast<std::uint64_t>(-(i + 1)) + 1;
 }
@@ -72,7 +73,8 @@ void orient(PlacedObject& object, double yaw, bool tilted) {
   object.left = cross(object.up, object.forward);
 }
 
-/// Height of the base of an object at (x, y): upright ones stand on the lowest ground below them.
+/// Returns the height of the base of an object at (x, y). The base of an upright object is at the lowest
+/// ground height below the object.
 double base_height(const PlacedObject& object, const Row& row, double x, double y) {
   const double ground = street_ground_height(x, y);
   if (row.tilted) return ground;
@@ -88,7 +90,8 @@ PlacedObject place(std::uint64_t seed, double seconds, std::size_t row_number, s
   const double along = (static_cast<double>(slot) + 0.5) * row.spacing + row.shift +
                        random.uniform(-row.jitter, row.jitter) + (row.speed - ego_speed) * seconds;
   const double across = road_center + row.side;
-  // To the right of the road things face forward, to the left backward: so cars drive, so houses face it.
+  // Objects right of the road's middle face forward, objects left of it face backward: parked cars then point
+  // in their lane's direction and houses face the road. A moving object faces its direction of motion.
   const bool backward = row.speed != 0 ? row.speed < 0 : row.side > 0;
   const double yaw = backward ? std::numbers::pi : 0;
   PlacedObject object;
@@ -107,19 +110,19 @@ std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame) {
   std::vector<PlacedObject> objects;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const double origin = rows[row].shift + (rows[row].speed - ego_speed) * seconds;
-    const double reach = street_max_range + rows[row].spacing;
-    const auto first = static_cast<std::int64_t>(std::floor((-reach - origin) / rows[row].spacing));
-    const auto last = static_cast<std::int64_t>(std::ceil((reach - origin) / rows[row].spacing));
+    const double max_distance = street_max_range + rows[row].spacing;
+    const auto first = static_cast<std::int64_t>(std::floor((-max_distance - origin) / rows[row].spacing));
+    const auto last = static_cast<std::int64_t>(std::ceil((max_distance - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
       PlacedObject object = place(seed, seconds, row, slot);
-      if (object.id != 0 && nearest_distance(object) < street_max_range) objects.push_back(std::move(object));
+      if (object.id != 0 && min_range(object) < street_max_range) objects.push_back(std::move(object));
     }
   }
   std::sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return objects;
 }
 
-double nearest_distance(const PlacedObject& object) {
+double min_range(const PlacedObject& object) {
   const Vec3 sensor = object.to_local(Vec3{} - object.base);
   const Box3& bounds = object.model.bounds;
   const double x = std::max({bounds.lo.x - sensor.x, 0.0, sensor.x - bounds.hi.x});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the objects of the street stand in a frame.
+// Positions of the street's objects in one frame.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace pcl_bv {
 
-/// A model placed in the sensor's frame: p = base + p.x forward + p.y left + p.z up.
+/// A model placed in the sensor's frame. The local point p is at base + p.x forward + p.y left + p.z up.
 struct PlacedObject {
   std::uint32_t id = 0;
   Model model;
@@ -20,16 +20,18 @@ struct PlacedObject {
   Vec3 forward, left, up;
   Vec3 velocity;  ///< In the sensor's frame, m/s.
 
+  /// Rotates a direction from the sensor's frame to the model's frame. Does not subtract `base`.
   Vec3 to_local(Vec3 direction) const {
     return {dot(direction, forward), dot(direction, left), dot(direction, up)};
   }
   Vec3 to_sensor(Vec3 local) const { return base + local.x * forward + local.y * left + local.z * up; }
 };
 
-/// The objects nearer than street_max_range, by ascending id.
+/// Returns the objects nearer than street_max_range, by ascending id.
 std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame);
 
-/// Horizontal distance from the sensor to an object's box, in its own frame: no return is nearer.
-double nearest_distance(const PlacedObject& object);
+/// Returns the distance from the sensor to an object's box in the object's x-y plane: a lower bound on the
+/// range of the object's returns.
+double min_range(const PlacedObject& object);
 
 }  // namespace pcl_bv

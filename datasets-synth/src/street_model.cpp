@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The specimens of the street but for its cars: houses, plants, posts and people.
+// Models of houses, plants, posts and people.
 #include "street_model.h"
 
 #include "street_parts.h"
@@ -9,7 +9,8 @@
 namespace pcl_bv {
 namespace {
 
-/// Leaves in blobs around a vertical axis, within `radius` of it and between the heights.
+/// Adds ellipsoids of leaves around the vertical axis, within `radius` of the axis and between the heights
+/// `bottom` and `top`.
 void add_leaves(std::vector<Part>& parts, SplitMix64& random, double radius, double bottom, double top) {
   const double middle = 0.5 * (bottom + top);
   const double half_height = 0.5 * (top - bottom);
@@ -25,7 +26,7 @@ void add_leaves(std::vector<Part>& parts, SplitMix64& random, double radius, dou
   }
 }
 
-/// A row of window pockets in the front (high y) of a house.
+/// Adds a row of window pockets to the front (the face of maximum y) of a house.
 void add_windows(Part& house, double bottom, double spacing) {
   const double half_length = house.bounds.hi.x;
   const double front = house.bounds.hi.y;
@@ -45,25 +46,25 @@ Model make_pedestrian(SplitMix64& random) {
                           ellipsoid({-stride, s * -0.10, s * 0.44}, {s * 0.09, s * 0.08, s * 0.44}),
                           ellipsoid({-0.7 * stride, s * 0.25, s * 1.13}, {s * 0.06, s * 0.06, s * 0.32}),
                           ellipsoid({0.7 * stride, s * -0.25, s * 1.13}, {s * 0.06, s * 0.06, s * 0.32})};
-  return assemble(StreetObjectKind::pedestrian, std::move(parts));
+  return assemble(SynthObjectKind::pedestrian, std::move(parts));
 }
 
 Model make_lamp_post(SplitMix64& random) {
   const double height = random.uniform(5, 6.5);
-  return assemble(StreetObjectKind::pole, {extrude(Axis::z, regular_polygon(12, 0.16), 0, 0.9),
-                                           extrude(Axis::z, regular_polygon(12, 0.09), 0.9, height)});
+  return assemble(SynthObjectKind::pole, {extrude(Axis::z, regular_polygon(12, 0.16), 0, 0.9),
+                                          extrude(Axis::z, regular_polygon(12, 0.09), 0.9, height)});
 }
 
 Model make_sign_post(SplitMix64& random) {
   const double plate = random.uniform(1.7, 2.2);  // height of its middle
   std::vector<Part> parts{extrude(Axis::z, regular_polygon(12, 0.05), 0, plate + 0.35),
                           extrude(Axis::x, regular_polygon(16, 0.3, 0, plate), -0.08, -0.05)};
-  return assemble(StreetObjectKind::pole, std::move(parts));
+  return assemble(SynthObjectKind::pole, std::move(parts));
 }
 
 Model make_house(SplitMix64& random) {
   const double half_length = random.uniform(4.5, 6.2);
-  const double front = 4;  // stays on the building line, whatever the depth
+  const double front = 4;  // the same for all houses, so that the fronts are in line
   const double back = front - random.uniform(8, 10);
   const double eaves = random.uniform(5, 6.5);
   const double ridge = eaves + 2.5;
@@ -73,7 +74,7 @@ Model make_house(SplitMix64& random) {
   add_windows(body, 1.5, 2.3);
   add_windows(body, 4.2, 2.3);
   const double bay = random.uniform(-half_length + 1.2, half_length - 3.6);
-  return assemble(StreetObjectKind::house,
+  return assemble(SynthObjectKind::house,
                   {std::move(body), box({{bay, front - 0.5, 0}, {bay + 2.4, front + 0.6, 3.4}})});
 }
 
@@ -81,11 +82,11 @@ Model make_hedge_or_wall(SplitMix64& random) {
   const double half_length = random.uniform(2.4, 3.1);
   const double height = random.uniform(0.9, 1.5);
   if (random.uniform() < 0.35) {
-    return assemble(StreetObjectKind::wall, {box({{-half_length, -0.12, 0}, {half_length, 0.12, height}})});
+    return assemble(SynthObjectKind::wall, {box({{-half_length, -0.12, 0}, {half_length, 0.12, height}})});
   }
   Part hedge = box({{-half_length, -0.35, 0}, {half_length, 0.35, height}});
   hedge.free_path = 0.08;
-  return assemble(StreetObjectKind::hedge, {std::move(hedge)});
+  return assemble(SynthObjectKind::hedge, {std::move(hedge)});
 }
 
 Model make_tree(SplitMix64& random) {
@@ -93,13 +94,13 @@ Model make_tree(SplitMix64& random) {
   const double bottom = random.uniform(1.1, 1.8);
   std::vector<Part> parts{extrude(Axis::z, regular_polygon(12, random.uniform(0.1, 0.16)), 0, bottom + 0.8)};
   add_leaves(parts, random, radius, bottom, bottom + random.uniform(2.5, 4));
-  return assemble(StreetObjectKind::tree, std::move(parts));
+  return assemble(SynthObjectKind::tree, std::move(parts));
 }
 
 Model make_bush(SplitMix64& random) {
   std::vector<Part> parts;
   add_leaves(parts, random, random.uniform(0.6, 0.9), 0, random.uniform(1.1, 1.8));
-  return assemble(StreetObjectKind::tree, std::move(parts));
+  return assemble(SynthObjectKind::tree, std::move(parts));
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the objects of the street are made of, in frames of their own: x forward, y left, z up from the base.
+// Geometric models of the objects, each in its own frame: x forward, y left, z up from the base.
 #pragma once
 
 #include <vector>
@@ -13,28 +13,28 @@
 namespace pcl_bv {
 
 /// The half-space normal . p <= offset.
-struct Plane {
+struct SolidHalfSpace {
   Vec3 normal;
   double offset;
 };
 
-/// A convex solid: the intersection of the planes or, when there are none, the ellipsoid that fills the
-/// bounds.
+/// A convex solid: the intersection of the half-spaces. Without half-spaces, the ellipsoid inscribed in
+/// `bounds`.
 struct Part {
   Box3 bounds;
-  std::vector<Plane> planes;
-  std::vector<Box3> pockets;  ///< Cut out of the solid's surface: windows, wheel arches.
-  double free_path = 0;       ///< Leaves: mean metres that a ray travels inside. 0: opaque.
-  double loss = 0;            ///< Share of the rays that give no return: glass.
+  std::vector<SolidHalfSpace> half_spaces;
+  std::vector<Box3> pockets;    ///< Boxes cut out of the solid: windows, wheel arches.
+  double free_path = 0;         ///< Mean path length of a ray inside foliage, metres. 0: opaque.
+  double loss_probability = 0;  ///< Probability that a hit gives no return (glass).
 };
 
 struct Model {
-  StreetObjectKind kind;
+  SynthObjectKind kind;
   std::vector<Part> parts;
   Box3 bounds;
 };
 
-/// Each draws one specimen from `random`.
+/// Each function generates one model with random dimensions.
 Model make_car(SplitMix64& random);
 Model make_pedestrian(SplitMix64& random);
 Model make_lamp_post(SplitMix64& random);

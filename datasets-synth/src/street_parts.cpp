@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the convex solids of the street are built.
+// Construction of convex solids.
 #include "street_parts.h"
 
 #include <algorithm>
@@ -65,10 +65,10 @@ Part leaves(Vec3 center, Vec3 radii) {
 
 void cut(Part& part, Vec3 normal, Vec3 point) {
   const Vec3 unit = normalized(normal);
-  part.planes.push_back({unit, dot(unit, point)});
+  part.half_spaces.push_back({unit, dot(unit, point)});
 }
 
-Model assemble(StreetObjectKind kind, std::vector<Part> parts) {
+Model assemble(SynthObjectKind kind, std::vector<Part> parts) {
   Box3 bounds = parts.at(0).bounds;
   for (const Part& part : parts)
     bounds = merged(bounds, part.bounds);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The convex solids that the specimens of the street are assembled from.
+// Functions that build convex solids and assemble them to models.
 #pragma once
 
 #include <numbers>
@@ -17,23 +17,25 @@ struct Point2 {
   double u, v;
 };
 
-/// A convex outline, counter-clockwise in (u, v), drawn out along an axis from `lo` to `hi`. (u, v) is (y, z)
-/// for an axis x, (x, z) for y, (x, y) for z.
+/// Extrudes a convex outline, counter-clockwise in (u, v), along an axis from `lo` to `hi`. (u, v) is (y, z)
+/// for axis x, (x, z) for axis y, (x, y) for axis z.
 Part extrude(Axis axis, const std::vector<Point2>& outline, double lo, double hi);
 
-/// Corners on a circle, the first at its lowest v.
+/// Returns the corners of a regular polygon about (u, v), counter-clockwise from the corner with the smallest
+/// v.
 std::vector<Point2> regular_polygon(int corners, double radius, double u = 0, double v = 0);
 
 Part box(const Box3& bounds);
 Part ellipsoid(Vec3 center, Vec3 radii);
 
-/// An ellipsoid of leaves, porous enough to be seen through at its rim.
+/// Returns an ellipsoid of leaves. Rays near its rim often pass through.
 Part leaves(Vec3 center, Vec3 radii);
 
-/// Cuts away what lies beyond `point` in the direction of `normal`. The bounds stay: cut corners only.
+/// Intersects the part with the half-space normal . p <= normal . point. Does not update `part.bounds`, so
+/// cut off only corners and edges.
 void cut(Part& part, Vec3 normal, Vec3 point);
 
-/// The parts as one model, with their common bounds.
-Model assemble(StreetObjectKind kind, std::vector<Part> parts);
+/// Combines the parts to one model, whose bounds are the union of the parts' bounds.
+Model assemble(SynthObjectKind kind, std::vector<Part> parts);
 
 }  // namespace pcl_bv

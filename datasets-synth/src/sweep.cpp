@@ -11,10 +11,11 @@
 namespace pcl_bv {
 namespace {
 
-/// Adds the object to the columns whose rays may meet it: all if the sensor is within its footprint, below a
-/// bridge; else the corners bound its azimuths, all within pi of the middle's.
+/// Adds the object to the columns whose rays may hit it. If the sensor is inside the object's footprint
+/// (below a bridge), these are all columns. Otherwise the azimuths of the box's corners bound the columns;
+/// each corner's azimuth is within pi of the azimuth of the box's middle.
 void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
-  const double nearest = nearest_distance(object);
+  const double nearest = min_range(object);
   if (nearest == 0) {
     for (auto& column : columns)
       column.push_back({0, &object});
@@ -27,7 +28,7 @@ void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObj
   double high = 0;
   for (const double x : {box.lo.x, box.hi.x}) {
     for (const double y : {box.lo.y, box.hi.y}) {
-      for (const double z : {box.lo.z, box.hi.z}) {  // a tilted box leans over its footprint
+      for (const double z : {box.lo.z, box.hi.z}) {  // tilted boxes: top and bottom differ in azimuth
         const Vec3 corner = object.to_sensor({x, y, z});
         const double turn = std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2 * std::numbers::pi);
         low = std::min(low, turn);
@@ -58,7 +59,7 @@ std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<Place
     add_candidate(candidates, object);
   for (auto& column : candidates) {
     std::sort(column.begin(), column.end(),
-              [](const Candidate& a, const Candidate& b) { return a.nearest < b.nearest; });
+              [](const Candidate& a, const Candidate& b) { return a.min_range < b.min_range; });
   }
   return candidates;
 }

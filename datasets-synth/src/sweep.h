@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The columns of a sweep, and what its rays may meet.
+// The azimuth columns of a sweep and the objects that the rays of each column may hit.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,16 @@
 
 namespace pcl_bv {
 
-/// Azimuth of the middle of a column: from pi (backward) clockwise to -pi.
+/// Returns the azimuth of the middle of a column, radians: from pi (backward) clockwise to -pi.
 double azimuth_of(double column, std::size_t columns);
 
 struct Candidate {
-  double nearest;  ///< Metres; no return is nearer.
+  double min_range;  ///< Lower bound on the range of the object's returns, metres.
   const PlacedObject* object;
 };
 
-/// For each column the objects its rays may meet, nearest first. Views the objects.
+/// Returns for each column the objects that its rays may hit, nearest first. The result points into
+/// `objects`.
 std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
                                                          std::size_t columns);
 

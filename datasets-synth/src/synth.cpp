@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of scenes and the reader of their names.
+// The table of scenes and the parsers of their names.
 #include "pcl_bv/synth/synth.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/shapes.h"
 #include "pcl_bv/synth/street.h"
-#include "pcl_bv/synth/verges.h"
 
 namespace pcl_bv {
 namespace {
@@ -32,8 +32,8 @@ SynthCloud make_paper(std::size_t points, std::uint64_t seed) {
 }
 
 template <std::size_t beams>
-SynthCloud make_verges(std::size_t, std::uint64_t seed) {
-  return make_verges_frame({seed, beams}, 0).cloud;
+SynthCloud make_rural_road(std::size_t, std::uint64_t seed) {
+  return make_rural_road_frame({seed, beams}, 0).cloud;
 }
 
 constexpr std::array scenes{
@@ -53,17 +53,26 @@ constexpr std::array scenes{
     Scene{"paper-48485", 48'485, true, make_paper},
     Scene{"paper-100722", 100'722, true, make_paper},
     Scene{"paper-327323", 327'323, true, make_paper},
-    Scene{"verges", 128'000, true, make_verges<64>},
-    Scene{"verges-16", 28'800, true, make_verges<16>},
-    Scene{"verges-32", 57'600, true, make_verges<32>},
-    Scene{"verges-128", 230'400, true, make_verges<128>},
+    Scene{"rural-road", 128'000, true, make_rural_road<64>},
+    Scene{"rural-road-16", 28'800, true, make_rural_road<16>},
+    Scene{"rural-road-32", 57'600, true, make_rural_road<32>},
+    Scene{"rural-road-128", 230'400, true, make_rural_road<128>},
 };
 
+/// Replaces `verges`, the old name of the rural road, by `rural-road`. Returns other names unchanged.
+std::string current_name(std::string_view name) {
+  constexpr std::string_view old_name = "verges";
+  if (name != old_name && !name.starts_with("verges-")) return std::string(name);
+  return "rural-road" + std::string(name.substr(old_name.size()));
+}
+
 const Scene& find_scene(std::string_view name) {
+  const std::string current = current_name(name);
   const auto scene =
-      std::find_if(scenes.begin(), scenes.end(), [name](const Scene& s) { return s.name == name; });
+      std::find_if(scenes.begin(), scenes.end(), [&current](const Scene& s) { return s.name == current; });
   if (scene == scenes.end()) {
-    throw std::invalid_argument("unknown scene '" + std::string(name) + "': it is one of " + synth_names());
+    throw std::invalid_argument("unknown scene '" + std::string(name) + "', expected one of " +
+                                synth_names());
   }
   return *scene;
 }
@@ -90,12 +99,12 @@ std::uint64_t whole_number(std::string_view what, std::string_view text, std::ui
   return value;
 }
 
-/// The parts of NAME[:count_name[:SEED]].
+/// Splits NAME[:COUNT[:SEED]] at the colons. `count_name` names COUNT in the error message.
 std::vector<std::string_view> split_spec(std::string_view text, std::string_view count_name) {
   std::vector<std::string_view> parts = split(text);
   if (parts.size() > 3) {
-    throw std::invalid_argument("'" + std::string(text) + "' has more parts than " + std::string(parts[0]) +
-                                "[:" + std::string(count_name) + "[:SEED]]");
+    throw std::invalid_argument("'" + std::string(text) + "' has too many parts, expected " +
+                                std::string(parts[0]) + "[:" + std::string(count_name) + "[:SEED]]");
   }
   return parts;
 }
@@ -104,7 +113,7 @@ std::uint64_t seed_of(const std::vector<std::string_view>& parts) {
   return parts.size() > 2 ? whole_number("SEED", parts[2], 0, UINT64_MAX) : 1;
 }
 
-constexpr std::string_view verges_sequence = "verges-sequence";
+constexpr std::string_view rural_road_sequence = "rural-road-sequence";
 
 }  // namespace
 
@@ -132,24 +141,24 @@ std::string synth_names() {
   return names;
 }
 
-bool is_verges_sequence(std::string_view text) {
-  return text.substr(0, text.find(':')).starts_with(verges_sequence);
+bool is_rural_road_sequence(std::string_view text) {
+  return current_name(text.substr(0, text.find(':'))).starts_with(rural_road_sequence);
 }
 
-VergesSequenceSpec parse_verges_sequence(std::string_view text) {
+RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text) {
   const auto parts = split_spec(text, "FRAMES");
-  VergesSequenceSpec spec;
-  if (parts[0] != verges_sequence) {
+  RuralRoadSequenceSpec spec;
+  const std::string name = current_name(parts[0]);
+  if (name != rural_road_sequence) {
     constexpr std::array<std::string_view, 4> sensors{"16", "32", "64", "128"};
-    const std::string_view sensor =
-        is_verges_sequence(parts[0]) ? parts[0].substr(verges_sequence.size()) : std::string_view();
-    const auto known = std::find_if(sensors.begin(), sensors.end(), [sensor](std::string_view beams) {
+    const std::string sensor =
+        name.starts_with(rural_road_sequence) ? name.substr(rural_road_sequence.size()) : std::string();
+    const auto known = std::find_if(sensors.begin(), sensors.end(), [&sensor](std::string_view beams) {
       return sensor.starts_with('-') && sensor.substr(1) == beams;
     });
     if (known == sensors.end()) {
-      throw std::invalid_argument(
-          "unknown sequence '" + std::string(parts[0]) +
-          "': it is verges-sequence, with -16, -32, -64 or -128 after it for so many beams");
+      throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) +
+                                  "', expected rural-road-sequence[-16|-32|-64|-128] (number of beams)");
     }
     spec.options.beams = whole_number("BEAMS", *known, 16, 128);
   }
@@ -162,7 +171,7 @@ StreetSequenceSpec parse_street_sequence(std::string_view text) {
   const auto parts = split_spec(text, "FRAMES");
   if (parts[0] != "street-sequence") {
     throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) +
-                                "': it is street-sequence or verges-sequence[-BEAMS]");
+                                "', expected street-sequence or rural-road-sequence[-BEAMS]");
   }
   StreetSequenceSpec spec;
   spec.seed = seed_of(parts);

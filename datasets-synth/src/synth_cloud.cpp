@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From a generated cloud to the form in which files are written.
+// Conversion of a synthetic cloud to a RawCloud.
 #include "pcl_bv/synth/synth_cloud.h"
 
 #include "pcl_bv/io/raw_cloud_edit.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The little vector algebra that the street needs.
+// 3D vectors and axis-aligned boxes.
 #pragma once
 
 #include <cmath>
@@ -31,12 +31,12 @@ inline Vec3 normalized(Vec3 a) {
   return (1 / std::sqrt(dot(a, a))) * a;
 }
 
-/// Axis-aligned, corners included.
+/// A closed axis-aligned box.
 struct Box3 {
   Vec3 lo, hi;
 };
 
-inline bool holds(const Box3& box, Vec3 p) {
+inline bool contains_point(const Box3& box, Vec3 p) {
   return p.x >= box.lo.x && p.x <= box.hi.x && p.y >= box.lo.y && p.y <= box.hi.y && p.z >= box.lo.z &&
          p.z <= box.hi.z;
 }

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The HTML page that shows frames.
 #pragma once
 
 #include <string_view>
 
 namespace pcl_bv {
 
-/// The page that shows frames, as one file of HTML: of page/, put together by page/bundle.cmake. It connects
-/// to where it comes from, unless kPageData in it is replaced by an element with the id "data" that holds one
-/// frame.
+/// Returns the page as one HTML file, which page/bundle.cmake assembles from the files in page/. The page
+/// connects to the server that it was loaded from. If kPageData is replaced by an element with the id "data"
+/// that contains one frame, the page shows that frame instead.
 std::string_view live_page();
 
 inline constexpr std::string_view kPageData = "<!-- data -->";

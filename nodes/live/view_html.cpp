@@ -8,10 +8,10 @@
 #include <cstring>
 
 #include "page.h"
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/point_source.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/volumes/aabb.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {
@@ -31,8 +31,8 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-// The page is HTML around it, which ends a script at the first "</script".
-std::string in_html(std::string json) {
+// Escapes '<', because HTML ends a script element at the first "</script", even inside a JSON string.
+std::string escaped_for_script(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");
   return json;
@@ -43,9 +43,10 @@ class PagePoints {
   PagePoints(const Frame& frame, const std::vector<std::uint32_t>& labels, const Eigen::Vector3d& origin)
       : frame_(frame), labels_(labels), origin_(origin) {}
 
-  /// Evenly chosen among all, which may be read from a file.
-  void add_all(std::size_t most_points) {
-    const std::size_t count = frame_.points.count, wanted = std::min(count, most_points);
+  /// Adds at most `max_points` points, chosen evenly by index. Reads the cloud in chunks: it may be in a
+  /// file.
+  void add_all(std::size_t max_points) {
+    const std::size_t count = frame_.points.count, wanted = std::min(count, max_points);
     std::size_t number = 0;
     for (std::size_t chunk = 0; chunk < chunk_count(count); ++chunk) {
       const LoadedPoints loaded = load_chunk(frame_.points, chunk);
@@ -81,7 +82,7 @@ class PagePoints {
   Eigen::Vector3d origin_;
 };
 
-Eigen::Vector3d middle_of(const FrameResult& result) {
+Eigen::Vector3d centre_of_volumes(const FrameResult& result) {
   Aabb all;
   for (const AnyVolume& volume : result.volumes)
     if (!empty(volume)) all.merge(aabb(volume));
@@ -95,12 +96,12 @@ std::string list(const Eigen::Vector3d& v) {
 }  // namespace
 
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
-                      const std::vector<std::uint32_t>& labels, std::size_t most_points) {
-  const Eigen::Vector3d origin = middle_of(result);
+                      const std::vector<std::uint32_t>& labels, std::size_t max_points) {
+  const Eigen::Vector3d origin = centre_of_volumes(result);
   PagePoints points(frame, labels, origin);
-  points.add_all(most_points);
+  points.add_all(max_points);
   const std::string data =
-      "<script id=\"data\" type=\"application/json\">{\"report\":" + in_html(report_json(report)) +
+      "<script id=\"data\" type=\"application/json\">{\"report\":" + escaped_for_script(report_json(report)) +
       ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +
       ",\"of\":" + std::to_string(frame.points.count) + ",\"stride\":" + (frame.intensity ? "20" : "16") +
       ",\"up\":" + list(result.config->ground.up.normalized()) + ",\"points\":\"" + base64(points.bytes) +

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud and its volumes as a page to look at, in one file that needs nothing else.
+// A cloud and its volumes as a self-contained HTML page.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,13 @@
 
 namespace pcl_bv {
 
-/// Points in a page: 20 bytes of text each. Of more, every other, third, ... one is left out.
-inline constexpr std::size_t kMostPointsOfAPage = 500'000;
+/// Maximum number of points in a page, at 22 bytes of text each (27 with intensity). Larger clouds are
+/// subsampled evenly.
+inline constexpr std::size_t kMaxPagePoints = 500'000;
 
-/// The page as HTML. `labels` as labels_of() has them; empty: all points are of cluster 0. Coordinates become
-/// float32 relative to whole numbers near their middle.
+/// Returns the page as HTML. `labels` are those of labels_of(); empty: all points belong to cluster 0.
+/// Coordinates are stored as float32 relative to the middle of all volumes, rounded to whole numbers.
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
-                      const std::vector<std::uint32_t>& labels, std::size_t most_points = kMostPointsOfAPage);
+                      const std::vector<std::uint32_t>& labels, std::size_t max_points = kMaxPagePoints);
 
 }  // namespace pcl_bv

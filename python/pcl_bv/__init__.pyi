@@ -132,7 +132,7 @@ class Hull(Volume):
     @property
     def rank(self) -> int: ...
 
-# Of a list of methods a list, with labels a dict of these.
+# Returns a volume; for a list of methods a list of volumes; with labels a dict of these by label.
 def fit(
     points: ArrayLike,
     method: Union[str, Sequence[str]],

@@ -8,7 +8,8 @@
 namespace pcl_bv::python {
 namespace {
 
-// Throws a Ctrl-C instead, which may interrupt any code of Python.
+// Clears Python's current error. Throws KeyboardInterrupt and the like instead, because a Ctrl-C may
+// interrupt any Python code.
 void clear_error() {
   if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_Exception) == 0)
     throw py::error_already_set();
@@ -17,47 +18,48 @@ void clear_error() {
 
 }  // namespace
 
-void refuse_value(const char* name, const std::string& what) {
+void raise_value_error(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
-// If the module is not loaded, CPython prints the warning in C and clears a KeyboardInterrupt raised meanwhile: of
-// 60 that came just before the first warning, 24 were lost on a busy machine.
+// Imports the module `warnings` first. If it is not loaded, CPython prints the warning in C and clears a
+// KeyboardInterrupt raised meanwhile: of 60 interrupts just before the first warning, 24 were lost on a busy
+// machine.
 void warn(const std::string& text) {
   py::module_::import("warnings");
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
-void refuse_type(const char* name, const std::string& wanted, py::handle value) {
-  throw py::type_error(std::string(name) + ": " + wanted + " is wanted, not " + shown(value));
+void raise_type_error(const char* name, const std::string& expected, py::handle value) {
+  throw py::type_error(std::string(name) + ": expected " + expected + ", got " + repr_text(value));
 }
 
-std::string shown(py::handle value) {
+std::string repr_text(py::handle value) {
   constexpr std::size_t longest = 60;
   const py::object repr = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
   Py_ssize_t size = 0;
   const char* const characters = repr ? PyUnicode_AsUTF8AndSize(repr.ptr(), &size) : nullptr;
-  if (characters == nullptr) {  // nested too deep, or half of a surrogate pair
+  if (characters == nullptr) {  // repr() failed (nested too deep), or has a lone surrogate
     clear_error();
     return std::string("one of ") + Py_TYPE(value.ptr())->tp_name;
   }
-  std::string said(characters, static_cast<std::size_t>(size));
-  std::replace(said.begin(), said.end(), '\n', ' ');
-  if (said.size() > longest) said = said.substr(0, longest - 3) + "...";
-  return said;
+  std::string text(characters, static_cast<std::size_t>(size));
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.size() > longest) text = text.substr(0, longest - 3) + "...";
+  return text;
 }
 
 double number(py::handle value, const char* name, const NumberRange& range) {
-  if (PyBool_Check(value.ptr())) refuse_type(name, "a number", value);
+  if (PyBool_Check(value.ptr())) raise_type_error(name, "a number", value);
   const double read = PyFloat_AsDouble(value.ptr());
   if (read == -1 && PyErr_Occurred() != nullptr) {
     clear_error();
-    refuse_type(name, "a number", value);
+    raise_type_error(name, "a number", value);
   }
   Setting setting{name, "", ""};
   setting.range = range;
   const std::string problem = problem_of(setting, read);
-  if (!problem.empty()) refuse_value(name, problem);
+  if (!problem.empty()) raise_value_error(name, problem);
   return read;
 }
 
@@ -65,7 +67,7 @@ namespace {
 
 py::object whole_object(py::handle value, const char* name) {
   if (PyBool_Check(value.ptr()) || PyIndex_Check(value.ptr()) == 0)
-    refuse_type(name, "a whole number", value);
+    raise_type_error(name, "a whole number", value);
   py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!whole) throw py::error_already_set();
   return whole;
@@ -78,8 +80,8 @@ std::int64_t signed_number(py::handle value, const char* name) {
   int overflow = 0;
   const long long read = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
   if (overflow != 0)
-    refuse_value(name,
-                 shown(value) + " is not at least -9223372036854775808 and at most 9223372036854775807");
+    raise_value_error(
+        name, repr_text(value) + " is not at least -9223372036854775808 and at most 9223372036854775807");
   return read;
 }
 
@@ -88,17 +90,17 @@ std::size_t whole_number(py::handle value, const char* name, const NumberRange& 
   const std::size_t read = PyLong_AsSize_t(whole.ptr());
   if (read == static_cast<std::size_t>(-1) && PyErr_Occurred() != nullptr) {
     clear_error();
-    refuse_value(name, shown(value) + " is not a whole number of at least 0 that fits 64 bits");
+    raise_value_error(name, repr_text(value) + " is not a whole number of at least 0 that fits 64 bits");
   }
   Setting setting{name, "", ""};
   setting.range = range;
   const std::string problem = problem_of(setting, read);
-  if (!problem.empty()) refuse_value(name, problem);
+  if (!problem.empty()) raise_value_error(name, problem);
   return read;
 }
 
 std::string text(py::handle value, const char* name) {
-  if (!PyUnicode_Check(value.ptr())) refuse_type(name, "a text", value);
+  if (!PyUnicode_Check(value.ptr())) raise_type_error(name, "a text", value);
   return value.cast<std::string>();
 }
 
@@ -106,7 +108,7 @@ std::filesystem::path path(py::handle value, const char* name) {
   const py::object path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
   if (!path) {
     clear_error();
-    refuse_type(name, "a path", value);
+    raise_type_error(name, "a path", value);
   }
   PyObject* bytes = nullptr;
   if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) throw py::error_already_set();
@@ -115,17 +117,17 @@ std::filesystem::path path(py::handle value, const char* name) {
 
 Eigen::Vector3d vector3(py::handle value, const char* name) {
   const auto numbers = doubles(value, name);
-  if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
+  if (numbers.size() != 3) raise_value_error(name, "expected three numbers, got " + repr_text(value));
   Eigen::Vector3d v(numbers.data()[0], numbers.data()[1], numbers.data()[2]);
-  if (!v.allFinite()) refuse_value(name, shown(value) + " is not finite");
+  if (!v.allFinite()) raise_value_error(name, repr_text(value) + " is not finite");
   return v;
 }
 
 Eigen::Vector3d up_argument(py::handle value) {
   Eigen::Vector3d up =
-      PyUnicode_Check(value.ptr()) ? word<Eigen::Vector3d>(value, "up") : vector3(value, "up");
+      PyUnicode_Check(value.ptr()) ? parse_text<Eigen::Vector3d>(value, "up") : vector3(value, "up");
   const std::string problem = problem_of(Setting{"up", "", ""}, up);
-  if (!problem.empty()) refuse_value("up", problem);
+  if (!problem.empty()) raise_value_error("up", problem);
   return up;
 }
 
@@ -135,25 +137,25 @@ const Method* method_of(py::handle name) {
       PyUnicode_Check(name.ptr()) ? PyUnicode_AsUTF8AndSize(name.ptr(), &size) : nullptr;
   if (characters == nullptr) {
     clear_error();
-    refuse_type("method", "a name or a list of names", name);
+    raise_type_error("method", "a name or a list of names", name);
   }
   const Method* const method = find_method({characters, static_cast<std::size_t>(size)});
   if (method != nullptr) return method;
   std::string known;
   for (const Method& each : methods())
     known.append(known.empty() ? "" : ", ").append(each.name);
-  refuse_value("method", shown(name) + " is not one of " + known + ", or all");
+  raise_value_error("method", repr_text(name) + " is not one of " + known + ", or all");
 }
 
-std::vector<const Method*> methods_of(py::handle names, bool& one) {
+std::vector<const Method*> methods_of(py::handle names, bool& single) {
   const auto is_all = [](py::handle name) {
     return PyUnicode_Check(name.ptr()) && PyUnicode_CompareWithASCIIString(name.ptr(), "all") == 0;
   };
-  one = PyUnicode_Check(names.ptr()) && !is_all(names);
-  if (one) return {method_of(names)};
+  single = PyUnicode_Check(names.ptr()) && !is_all(names);
+  if (single) return {method_of(names)};
   if (is_all(names)) return methods_of_all();
   if (!PyList_Check(names.ptr()) && !PyTuple_Check(names.ptr()))
-    refuse_type("method", "a name or a list of names", names);
+    raise_type_error("method", "a name or a list of names", names);
   std::vector<const Method*> found;
   for (const py::handle name : names) {
     if (is_all(name)) {
@@ -162,7 +164,7 @@ std::vector<const Method*> methods_of(py::handle names, bool& one) {
       found.push_back(method_of(name));
     }
   }
-  if (found.empty()) refuse_value("method", "the list has no names");
+  if (found.empty()) raise_value_error("method", "the list of methods is empty");
   return found;
 }
 
@@ -179,7 +181,7 @@ Execution execution_of(py::handle threads, py::handle isa) {
   try {
     execution.isa = parse_isa(text(isa, "isa"));
   } catch (const std::invalid_argument& error) {
-    refuse_value("isa", error.what());
+    raise_value_error("isa", error.what());
   }
   return execution;
 }
@@ -187,14 +189,16 @@ Execution execution_of(py::handle threads, py::handle isa) {
 Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
   const auto numbers = doubles(matrix, name);
   if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
-    refuse_value(name, "a matrix of 4 x 4 numbers is wanted, not " + shown(matrix));
+    raise_value_error(name, "expected a matrix of 4 x 4 numbers, got " + repr_text(matrix));
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
-  constexpr double most = 1e-6;  // of the scale of a pose in float; volumes grow by what is not rigid
+  // Allows poses in float. Transformed volumes are inflated by the deviation.
+  constexpr double max_deviation = 1e-6;
   if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > most)
-    refuse_value(
-        name, "a rotation (orthonormal to 1e-6) and a shift above 0 0 0 1 are wanted, not " + shown(matrix));
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > max_deviation)
+    raise_value_error(
+        name, "expected a 4 x 4 rigid transform (rotation orthonormal to 1e-6, last row 0 0 0 1), got " +
+                  repr_text(matrix));
   Eigen::Isometry3d motion;
   motion.matrix() = m;
   return motion;

@@ -12,21 +12,22 @@ bool is_real(const py::dtype& type) {
   return type.kind() == 'f' && (type.itemsize() == 4 || type.itemsize() == 8);
 }
 
-/// Of numpy's marks '=' (this machine's), '|' (of one byte), '<' and '>'.
+/// Whether the type has this machine's byte order. numpy's marks are '=' (this machine's), '|' (one byte),
+/// '<', '>'.
 bool is_native(const py::dtype& type) {
   return type.byteorder() == '=' || type.byteorder() == '|';
 }
 
-/// What to do with numbers of this type, if they are an array's.
+/// Advice for the error message about an array with numbers of this type; "" for none.
 std::string advice_for(const py::dtype& type) {
-  if (type.kind() == 'c') return ": give array.real";
+  if (type.kind() == 'c') return ": use array.real";
   if (type.kind() == 'f' || type.kind() == 'i' || type.kind() == 'u' || type.kind() == 'O')
-    return ": give array.astype(numpy.float64)";
+    return ": use array.astype(numpy.float64)";
   return "";
 }
 
 [[noreturn]] void refuse_numbers(const char* name, const py::dtype& type, bool from_array) {
-  throw py::type_error(std::string(name) + ": float32 or float64 is wanted, not " +
+  throw py::type_error(std::string(name) + ": expected float32 or float64, got " +
                        py::str(py::handle(type)).cast<std::string>() + (from_array ? advice_for(type) : ""));
 }
 
@@ -38,37 +39,38 @@ std::string shape_of(const py::array& array) {
 }
 
 [[noreturn]] void refuse_shape(const char* name, const py::array& array) {
-  const bool one = array.ndim() == 1 && array.shape(0) >= 3 && array.shape(0) <= 8;
+  const bool one_point = array.ndim() == 1 && array.shape(0) >= 3 && array.shape(0) <= 8;
   throw py::value_error(std::string(name) + ": the shape " + shape_of(array) +
                         " is not (N, 3 or more) or (H, W, 3 or more)" +
-                        (one ? ": for one point give [point]" : ""));
+                        (one_point ? ": for one point pass [point]" : ""));
 }
 
-/// Of rows of points and the numbers of each point: refuses and warns where they may be the other way round,
-/// as in nuScenes' (4, N). Points have 3 to a dozen numbers.
+/// Detects arrays with one point per column, as nuScenes' (4, N): a point usually has 3 to 12 numbers. If
+/// there are fewer rows than columns, refuses 256 or more columns, and warns about 17 to 255 columns in 3 to
+/// 8 rows.
 void check_layout(const char* name, const py::array& array) {
   const py::ssize_t columns = array.shape(array.ndim() - 1),
                     rows = array.size() / std::max<py::ssize_t>(columns, 1);
   const py::ssize_t first = array.shape(0);
   if (columns <= 16 || columns <= first) return;
-  const std::string said = "the shape " + shape_of(array) + " is " + std::to_string(rows) + " points of " +
-                           std::to_string(columns) + " numbers: if each column is a point, give points" +
-                           (array.ndim() == 2 ? ".T" : " with x, y, z in the last axis") +
-                           ", if each row is, points[..., :3]";
-  if (columns >= 256) refuse_value(name, said);
-  if (first >= 3 && first <= 8) warn(std::string(name) + ": " + said);
+  const std::string problem = "the shape " + shape_of(array) + " is " + std::to_string(rows) + " points of " +
+                              std::to_string(columns) + " numbers. If each column is a point, pass points" +
+                              (array.ndim() == 2 ? ".T" : " with x, y, z in the last axis") +
+                              ". If each row is a point, pass points[..., :3]";
+  if (columns >= 256) raise_value_error(name, problem);
+  if (first >= 3 && first <= 8) warn(std::string(name) + ": " + problem);
 }
 
-/// numpy.asarray(). A TypeError with the argument's name if it is no array.
-py::array from_any(py::handle object, const char* name) {
+/// Calls numpy.asarray(). Raises a TypeError with the argument's name if that fails.
+py::array as_numpy_array(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
   if (array) return array;
   py::error_already_set error;
-  if (!error.matches(PyExc_Exception)) throw error;  // a Ctrl-C
-  // Why a tensor on a graphics card is no array, or rows of unequal length are none.
+  if (!error.matches(PyExc_Exception)) throw error;  // a KeyboardInterrupt
+  // numpy's reason, such as a tensor in GPU memory or rows of unequal length.
   const std::string reason = py::str(error.value()).cast<std::string>();
-  throw py::type_error(std::string(name) + ": an array is wanted, not " + shown(object) +
+  throw py::type_error(std::string(name) + ": expected an array, got " + repr_text(object) +
                        (reason.empty() ? "" : ": " + reason));
 }
 
@@ -79,18 +81,22 @@ py::array without_mask(const py::array& array, const char* name) {
   return array.attr("filled")(std::nan(""));
 }
 
-/// Numbers of a list have no type that says what they are for: those that a double holds are taken.
+/// Converts whole numbers of a list to float64: unlike an array, a list has no type that the user has chosen.
+/// Refuses numbers beyond 2^53.
 py::array from_list(const py::array& array, py::handle object, const char* name) {
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u') return array;
-  const py::int_ limit(std::int64_t{1} << 53);  // as Python's numbers: numpy compares in float64
+  const py::int_ limit(std::int64_t{1} << 53);  // Python integers: numpy would compare in float64
   const auto value_of = [&](const char* which) { return py::int_(array.attr(which)()); };
   const bool exact = array.size() == 0 || (value_of("max") <= limit && value_of("min") >= -limit);
-  if (!exact) refuse_value(name, "whole numbers beyond 2^53, which no float64 holds: " + shown(object));
+  if (!exact)
+    raise_value_error(name,
+                      "integers above 2^53 cannot be converted to float64 exactly: " + repr_text(object));
   return array.attr("astype")("f8");
 }
 
-/// A table with columns x, y and z, as pandas makes it, is seen by their names.
+/// Returns the columns x, y and z of a table with named columns, such as a pandas.DataFrame. Returns any
+/// other object unchanged.
 py::object columns_xyz(py::handle object, const char* name) {
   if (py::isinstance<py::array>(object) || PyList_Check(object.ptr()) || PyTuple_Check(object.ptr()) ||
       !py::hasattr(object, "columns"))
@@ -103,12 +109,14 @@ py::object columns_xyz(py::handle object, const char* name) {
   if (!named) return py::reinterpret_borrow<py::object>(object);
   for (const auto& axis : wanted) {
     if (!columns.contains(axis))
-      throw py::type_error(std::string(name) + ": a table without the columns x, y and z: " + shown(columns));
+      throw py::type_error(std::string(name) +
+                           ": the table must have the columns x, y and z, its columns are " +
+                           repr_text(columns));
   }
   return object[wanted];
 }
 
-/// `columns` doubles or floats in each row, packed.
+/// Points of a packed array (N, 3) of floats or doubles.
 PointArray packed(py::array array) {
   PointArray points;
   const auto count = static_cast<std::size_t>(array.shape(0));
@@ -124,15 +132,15 @@ PointArray copied(const py::array& rows) {
   return packed(py::array_t<double, py::array::c_style | py::array::forcecast>(xyz));
 }
 
-/// Of (N, 3 or more).
+/// Points of an array (N, 3 or more): a view if possible, otherwise a copy.
 PointArray rows_of(const py::array& array) {
   const py::dtype type = array.dtype();
   const auto size = static_cast<std::size_t>(type.itemsize());
   const auto count = static_cast<std::size_t>(array.shape(0));
   const auto row = static_cast<std::size_t>(array.shape(1)) * size;  // bytes that belong to each point
   const py::ssize_t stride = count > 1 ? array.strides(0) : static_cast<py::ssize_t>(row);
-  const bool side_by_side = array.strides(1) == static_cast<py::ssize_t>(size);
-  if (!is_native(type) || !side_by_side || stride < static_cast<py::ssize_t>(3 * size)) return copied(array);
+  const bool adjacent = array.strides(1) == static_cast<py::ssize_t>(size);
+  if (!is_native(type) || !adjacent || stride < static_cast<py::ssize_t>(3 * size)) return copied(array);
   PointArray points{array, {}};
   if (count == 0) return points;
   points.view.data = static_cast<const std::byte*>(array.data());
@@ -143,30 +151,31 @@ PointArray rows_of(const py::array& array) {
   return points;
 }
 
-/// The type of a field and where it is in its record.
+/// A field of a record, with its offset in bytes.
 struct Field {
   std::string name;
   py::dtype type;
   py::ssize_t offset;
 };
 
-/// In upper case where there is none in lower case, as in files.
+/// Finds a field by its lower-case name or, if there is none, by its upper-case name, as for files.
 Field field_of(const py::dtype& record, const char* field, const char* name) {
   const py::object fields = record.attr("fields");
   const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));
   const std::string in_record = fields.contains(field) ? field : upper;
   if (!fields.contains(in_record))
-    throw py::type_error(std::string(name) + ": records without a field '" + field + "': " + shown(record));
+    throw py::type_error(std::string(name) + ": the records lack the field '" + field +
+                         "': " + repr_text(record));
   const py::tuple found = fields[py::str(in_record)];
   return {in_record, py::dtype::from_args(found[0]), found[1].cast<py::ssize_t>()};
 }
 
-/// Whether float32 holds all its numbers.
+/// Whether float32 represents all numbers of the type exactly.
 bool fits_float32(const py::dtype& type) {
   return type.kind() == 'f' ? type.itemsize() == 4 : type.itemsize() <= 2;
 }
 
-/// Of records in one row.
+/// Points of a one-dimensional array of records: a view if possible, otherwise a copy.
 PointArray records_of(const py::array& array, const char* name) {
   const py::dtype record = array.dtype();
   const Field x = field_of(record, "x", name), y = field_of(record, "y", name),
@@ -180,17 +189,17 @@ PointArray records_of(const py::array& array, const char* name) {
   const auto count = static_cast<std::size_t>(array.shape(0));
   const py::ssize_t stride = count > 1 ? array.strides(0) : record.itemsize();
   const bool real = is_real(x.type) && is_real(y.type) && is_real(z.type);
-  const bool side_by_side = real && y.type.itemsize() == size && z.type.itemsize() == size &&
-                            y.offset == x.offset + size && z.offset == y.offset + size;
+  const bool adjacent = real && y.type.itemsize() == size && z.type.itemsize() == size &&
+                        y.offset == x.offset + size && z.offset == y.offset + size;
   const bool native = is_native(x.type) && is_native(y.type) && is_native(z.type);
-  if (is_masked(array) || !side_by_side || !native || stride < 3 * size) {
+  if (is_masked(array) || !adjacent || !native || stride < 3 * size) {
     const bool wide = !fits_float32(x.type) || !fits_float32(y.type) || !fits_float32(z.type);
     py::array xyz(wide ? py::dtype::of<double>() : py::dtype::of<float>(),
                   std::vector<py::ssize_t>{array.shape(0), 3});
     for (py::ssize_t k = 0; k < 3; ++k) {
       const Field* const fields[] = {&x, &y, &z};
       const py::object column =
-          array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked one stays so
+          array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked column stays masked
       xyz[py::make_tuple(py::ellipsis(), k)] = without_mask(column, name);
     }
     return packed(xyz);
@@ -208,7 +217,7 @@ PointArray records_of(const py::array& array, const char* name) {
 }  // namespace
 
 bool is_masked(py::handle object) {
-  if (Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;  // as nearly always
+  if (Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;  // the usual case
   return py::isinstance<py::array>(object) &&
          py::module_::import("numpy.ma").attr("isMaskedArray")(object).cast<bool>();
 }
@@ -217,7 +226,7 @@ PointArray points_of(py::handle object, const char* name) {
   const bool is_array = py::isinstance<py::array>(object);
   const bool is_list = PyList_Check(object.ptr()) != 0 || PyTuple_Check(object.ptr()) != 0;
   py::array array =
-      is_array ? py::reinterpret_borrow<py::array>(object) : from_any(columns_xyz(object, name), name);
+      is_array ? py::reinterpret_borrow<py::array>(object) : as_numpy_array(columns_xyz(object, name), name);
   if (is_list) array = from_list(array, object, name);
   const py::dtype type = array.dtype();
   if (type.has_fields())
@@ -235,26 +244,26 @@ PointArray points_of(py::handle object, const char* name) {
 
 py::array_t<double> doubles(py::handle object, const char* name) {
   if (is_masked(object))
-    refuse_type(name, "an array without a mask, as array.filled(numpy.nan) gives it,", object);
-  const py::array given = from_any(object, name);
+    raise_type_error(name, "an array without a mask (use array.filled(numpy.nan))", object);
+  const py::array given = as_numpy_array(object, name);
   const char kind = given.dtype().kind();
-  if (kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "an array of numbers", object);
+  if (kind != 'f' && kind != 'i' && kind != 'u') raise_type_error(name, "an array of numbers", object);
   return py::array_t<double, py::array::c_style | py::array::forcecast>(given);
 }
 
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count) {
-  if (is_masked(object))
-    refuse_type(name, "integers without a mask, as array.filled(-1) gives them,", object);
-  const py::array given = from_any(object, name);
+  if (is_masked(object)) raise_type_error(name, "integers without a mask (use array.filled(-1))", object);
+  const py::array given = as_numpy_array(object, name);
   const char kind = given.dtype().kind();
   if (kind != 'i' && kind != 'u' && given.size() > 0)
-    throw py::type_error(std::string(name) + ": integers are wanted, not " +
+    throw py::type_error(std::string(name) + ": expected integers, got " +
                          py::str(py::handle(given.dtype())).cast<std::string>());
-  const py::int_ most(std::numeric_limits<std::int64_t>::max());
-  if (kind == 'u' && given.itemsize() == 8 && given.size() > 0 && py::int_(given.attr("max")()) > most)
-    refuse_value(name, py::str(given.attr("max")()).cast<std::string>() + " is more than 2^63 - 1");
+  const py::int_ limit(std::numeric_limits<std::int64_t>::max());
+  if (kind == 'u' && given.itemsize() == 8 && given.size() > 0 && py::int_(given.attr("max")()) > limit)
+    raise_value_error(name, py::str(given.attr("max")()).cast<std::string>() + " is more than 2^63 - 1");
   if (static_cast<std::size_t>(given.size()) != count)
-    refuse_value(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
+    raise_value_error(name,
+                      std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(given);
   return {wide.data(), wide.data() + wide.size()};
 }
@@ -265,7 +274,7 @@ std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count) {
   std::vector<std::uint32_t> numbers;
   for (const std::int64_t label : integers(of, "labels", count)) {
     if (label < -2 || label > 4294967295)
-      refuse_value("labels", std::to_string(label) + " is not at least -2 and at most 4294967295");
+      raise_value_error("labels", std::to_string(label) + " is not at least -2 and at most 4294967295");
     numbers.push_back(static_cast<std::uint32_t>(label));
   }
   return numbers;

@@ -1,62 +1,69 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Arrays of numpy as views of points, without a copy where there is a view, and results as arrays.
+// Converts numpy arrays to views of points, without a copy where possible, and results to numpy arrays.
 #pragma once
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "precompiled.h"
 
 namespace pcl_bv::python {
 
 namespace py = pybind11;
 
-/// Points and the array that holds them. Made and destroyed with the GIL held; read without it.
+/// A view of points and the array that owns them. Constructing and destroying it needs the GIL; reading the
+/// points does not.
 struct PointArray {
   py::array owner;
   PointView view;
 };
 
-/// Points of an array (N, 3 or more) of float32 or float64 whose x, y, z are side by side, in rows any
-/// positive distance apart; (H, W, 3 or more), as its rows; or of records with the fields x, y and z,
-/// whatever their shape. Copied are Fortran's order, backward and overlapping rows, x, y, z that are not side
-/// by side, masked arrays, whose masked numbers become NaN, and bytes of the other order. Other objects
-/// become arrays first, as numpy.asarray() makes them; of tables with named columns x, y and z only those;
-/// lists of whole numbers up to 2^53 become float64. An empty list has no point. Fields of records may be
-/// integers of up to 32 bits.
+/// Returns the points of an argument:
 ///
-/// TypeError for other numbers, ValueError for other shapes, and where rows are shorter than columns and have
-/// 256 numbers or more: (4, N) is no N points. A UserWarning for 3 to 8 rows of more than 16.
+/// - an array (N, 3 or more) or (H, W, 3 or more) of float32 or float64, whose last axis begins with x, y, z;
+/// - an array of records of any shape with the fields x, y, z (or X, Y, Z) of float32, float64 or integers of
+///   up to 32 bits;
+/// - a table with named columns, of which x, y and z are used;
+/// - any other object that numpy.asarray() converts to one of these arrays. Whole numbers of lists, up to
+///   2^53, become float64. An empty list has no points.
+///
+/// The points are not copied if x, y, z are adjacent and the rows are any positive distance apart. Copied are
+/// arrays in Fortran order, with backward or overlapping rows, with x, y, z that are not adjacent, of
+/// integers, with the other byte order, and masked arrays, whose masked numbers become NaN.
+///
+/// Raises a TypeError for other types of numbers, a ValueError for other shapes. If there are fewer rows than
+/// columns, each column is probably a point: 256 or more columns raise a ValueError, 17 to 255 columns in 3
+/// to 8 rows a UserWarning.
 PointArray points_of(py::handle object, const char* name = "points");
 
-/// Whether it is an array with a mask (numpy.ma).
+/// Whether the object is an array with a mask (numpy.ma).
 bool is_masked(py::handle object);
 
-/// Numbers of any shape, as doubles in C's order.
+/// Numbers of any shape, as doubles in C order.
 py::array_t<double> doubles(py::handle object, const char* name);
 
 /// Integers, one for each of `count` points.
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count);
 
-/// Labels of `count` points, of an array or of what has `labels`: -1 and -2, none and ground, are 4294967295
-/// and 4294967294.
+/// The labels of `count` points, from an array or from an object with the attribute `labels`. The labels -1
+/// (none) and -2 (ground) become 4294967295 and 4294967294.
 std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count);
 
-/// Read-only, as all that volumes give: what is written into a copy would be lost without a word.
+/// Makes an array read-only. The arrays of volumes are copies: writing to one would not change the volume.
 py::array read_only(py::array array);
 py::array array_of(const Eigen::Vector3d& v);
 py::array array_of(const Eigen::MatrixXd& m);
 py::array array_of(const std::vector<Eigen::Vector3d>& list);
 
-/// An array that owns what was in the vector, which is not copied.
+/// Returns an array that takes over the vector's memory, without a copy.
 template <typename T>
-py::array_t<T> take(std::vector<T>&& values) {
+py::array_t<T> array_from_vector(std::vector<T>&& values) {
   auto* const held = new std::vector<T>(std::move(values));
   const py::capsule owner(held, [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return py::array_t<T>({held->size()}, {sizeof(T)}, held->data(), owner);
 }
 
-/// A read-only view of a vector that lives as long as `owner`.
+/// Returns a read-only view of a vector that `owner` keeps alive.
 template <typename T>
 py::array view_of_vector(const std::vector<T>& values, py::handle owner) {
   return read_only(py::array_t<T>({values.size()}, {sizeof(T)}, values.data(), owner));

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of the module. Docstrings begin with a signature and a line "--", which inspect.signature() and
-// help() take for the function's own.
+// The functions that define the parts of the module. Docstrings begin with a signature and a line "--":
+// inspect.signature() and help() show this signature.
 #pragma once
 
 #include "precompiled.h"
 
 namespace pcl_bv::python {
 
-/// For a constructor, which inspect.signature() asks: the signature that begins the docstring of its class.
+/// Returns the docstring of a constructor: the signature at the beginning of its class's docstring, for
+/// inspect.signature().
 std::string init_doc(std::string_view class_doc);
 
 void bind_volumes(pybind11::module_& module);

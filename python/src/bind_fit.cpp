@@ -17,41 +17,41 @@ struct Fitted {
   EstimationResult result;
 };
 
-/// Of one view: as many as there are methods.
-void fit_all(const PointView& view, const std::vector<const Method*>& among, const Execution& execution,
+/// Fits all methods to one view. `fitted` has one element per method.
+void fit_all(const PointView& view, const std::vector<const Method*>& methods, const Execution& execution,
              const MethodOptions& options, Fitted* fitted) {
   Supports supports;
-  const Execution shared = share_supports(view, among, execution, supports);
-  for (std::size_t m = 0; m < among.size(); ++m)
-    fitted[m].result = among[m]->fit(view, fitted[m].volume, shared, options);
+  const Execution shared = share_supports(view, methods, execution, supports);
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    fitted[m].result = methods[m]->fit(view, fitted[m].volume, shared, options);
 }
 
 py::object python_of(Fitted&& fitted, const Method* method) {
   return to_python(std::move(fitted.volume), method, fitted.result);
 }
 
-/// A volume, or a list of them.
-py::object python_of(Fitted* fitted, const std::vector<const Method*>& among, bool one) {
-  if (one) return python_of(std::move(*fitted), among.front());
-  py::list list(among.size());
-  for (std::size_t m = 0; m < among.size(); ++m)
-    list[m] = python_of(std::move(fitted[m]), among[m]);
+/// Returns a volume if `single` is true, otherwise a list of volumes.
+py::object python_of(Fitted* fitted, const std::vector<const Method*>& methods, bool single) {
+  if (single) return python_of(std::move(*fitted), methods.front());
+  py::list list(methods.size());
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    list[m] = python_of(std::move(fitted[m]), methods[m]);
   return list;
 }
 
-py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& among, bool one,
+py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& methods, bool single,
                         py::handle labels, const Execution& execution, const MethodOptions& options) {
   const LabelGroups groups(labels, points.view);
-  std::vector<Fitted> fitted(groups.size() * among.size());
+  std::vector<Fitted> fitted(groups.size() * methods.size());
   {
     const py::gil_scoped_release unlocked;
     for_each_view(groups.views(), execution, [&](std::size_t i, const Execution& own) {
-      fit_all(groups.views()[i], among, own, options, &fitted[i * among.size()]);
+      fit_all(groups.views()[i], methods, own, options, &fitted[i * methods.size()]);
     });
   }
   py::dict by_label;
   for (std::size_t i = 0; i < groups.size(); ++i)
-    by_label[py::int_(groups.label(i))] = python_of(&fitted[i * among.size()], among, one);
+    by_label[py::int_(groups.label(i))] = python_of(&fitted[i * methods.size()], methods, single);
   return by_label;
 }
 
@@ -59,26 +59,26 @@ py::object fit(py::handle points, py::handle method, py::handle labels, py::hand
                py::handle threads, py::handle isa) {
   const PointArray array = points_of(points);
   const Execution execution = execution_of(threads, isa);
-  const MethodOptions options{word<SphereGrowth>(growth, "growth"), up_argument(up)};
+  const MethodOptions options{parse_text<SphereGrowth>(growth, "growth"), up_argument(up)};
   if (PyUnicode_Check(method.ptr()) && labels.is_none() &&
       PyUnicode_CompareWithASCIIString(method.ptr(), "all") != 0) {
-    const Method* const asked = method_of(method);
+    const Method* const method_used = method_of(method);
     Fitted fitted;
     {
       const py::gil_scoped_release unlocked;
-      fitted.result = asked->fit(array.view, fitted.volume, execution, options);
+      fitted.result = method_used->fit(array.view, fitted.volume, execution, options);
     }
-    return python_of(std::move(fitted), asked);
+    return python_of(std::move(fitted), method_used);
   }
-  bool one = false;
-  const std::vector<const Method*> among = methods_of(method, one);
-  if (!labels.is_none()) return fit_labelled(array, among, one, labels, execution, options);
-  std::vector<Fitted> fitted(among.size());
+  bool single = false;
+  const std::vector<const Method*> methods = methods_of(method, single);
+  if (!labels.is_none()) return fit_labelled(array, methods, single, labels, execution, options);
+  std::vector<Fitted> fitted(methods.size());
   {
     const py::gil_scoped_release unlocked;
-    fit_all(array.view, among, execution, options, fitted.data());
+    fit_all(array.view, methods, execution, options, fitted.data());
   }
-  return python_of(fitted.data(), among, one);
+  return python_of(fitted.data(), methods, single);
 }
 
 struct VerificationObject : Verification {};
@@ -99,19 +99,20 @@ constexpr const char* fit_doc =
     R"(fit(points, method, labels=None, *, up='z', growth='deferred', threads=1, isa=None)
 --
 
-Fits a volume around points: each finite one is inside, by exact arithmetic.
+Fits a bounding volume to points. Every finite point is inside the volume, by exact arithmetic.
 
 points: (N, 3 or more) float32 or float64 with any positive distance between rows, (H, W, 3 or more), or
     records with fields x, y, z; not copied. Rows that are not finite are dropped and counted.
 method: a name of pcl_bv.methods() or its alias, or a list of them. 'all': every method but the hull.
-labels: whose points belong together: an integer for each point (negative: to nothing), or Clusters.
-up: against gravity, for obb-yaw and obb-lshape: 'x', '-z', ... or three numbers.
-growth: of spheres that grow: 'sequential', 'stationary' or 'deferred'.
-threads: 0 for all processors. No bit of the result depends on it, or on isa, one of instruction_sets.
+labels: an integer for each point, or Clusters: one volume is fitted per label. Negative labels: no volume.
+up: the direction opposite to gravity, used by obb-yaw and obb-lshape: 'x', '-z', ... or three numbers.
+growth: how sphere-ritter and sphere-epos* grow the sphere: 'sequential', 'stationary' or 'deferred'.
+threads: number of threads; 0: all processors. isa: one of instruction_sets. Neither changes the result.
 
-Returns a volume in the frame and unit of the points; for a list of methods a list; with labels a dict of
-these by label, ascending. No finite point: an empty volume with status 'no_valid_points'.
-Raises TypeError for other numbers, ValueError for an unknown method, a wrong shape or value.
+Returns a volume in the frame and unit of the points. A list of methods gives a list of volumes. With labels:
+a dict from label (ascending) to volume or list. Without finite points: an empty volume with the status
+'no_valid_points'. Raises TypeError for other types of numbers, ValueError for an unknown method, a wrong
+shape or a wrong value.
 
 >>> import numpy, pcl_bv
 >>> corners = numpy.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]], numpy.float32)
@@ -127,10 +128,11 @@ True
 constexpr const char* verify_doc = R"(verify(volume, points, *, threads=1)
 --
 
-Checks the volume's exact predicates, in rationals where doubles cannot decide, for every finite point.
+Tests for every finite point whether it is inside the volume, exactly (rational arithmetic where doubles are
+not sufficient).
 
-Returns a Verification: checked, the finite points; outside, those outside; worst, the greatest distance past
-a face or surface, in the points' unit. Raises as fit().
+Returns a Verification: checked, the number of finite points; outside, the number of them outside; worst, the
+largest distance outside a face or surface, in the points' unit. Raises as fit().
 
 >>> import numpy, pcl_bv
 >>> points = numpy.random.default_rng(1).normal(size=(1000, 3))
@@ -138,7 +140,7 @@ a face or surface, in the points' unit. Raises as fit().
 Verification(checked=1000, outside=0, worst=0)
 )";
 
-constexpr const char* verification_doc = R"(What verify() found.
+constexpr const char* verification_doc = R"(The result of verify().
 
 >>> import pcl_bv
 >>> found = pcl_bv.verify(pcl_bv.Sphere([0, 0, 0], 1), [[0., 0, 1], [0, 0, 3]])
@@ -149,7 +151,7 @@ constexpr const char* verification_doc = R"(What verify() found.
 constexpr const char* methods_doc = R"(methods()
 --
 
-The names of all methods, each with its aliases, in the order of the documentation.
+Returns a dict from the name of each method to its aliases, in the order of the documentation.
 
 >>> import pcl_bv
 >>> pcl_bv.methods()['sphere-exact']
@@ -175,17 +177,17 @@ void bind_fit(py::module_& module) {
   module.def("methods", all_methods, methods_doc);
   py::class_<VerificationObject>(module, "Verification", verification_doc)
       .def_property_readonly(
-          "checked", [](const VerificationObject& v) { return v.checked; }, "Finite points looked at.")
+          "checked", [](const VerificationObject& v) { return v.checked; }, "Number of finite points.")
       .def_property_readonly(
           "outside", [](const VerificationObject& v) { return v.outside; },
-          "Of them, those outside by exact arithmetic.")
+          "Number of finite points outside the volume, by exact arithmetic.")
       .def_property_readonly(
-          "worst", [](const VerificationObject& v) { return v.worst; },
-          "The greatest distance past a face or surface, in the points' unit; 0 if none.")
+          "worst", [](const VerificationObject& v) { return v.max_violation; },
+          "The largest distance outside a face or surface, in the points' unit; 0 if none.")
       .def("__repr__", [](const VerificationObject& v) {
         char text[160];
         std::snprintf(text, sizeof text, "Verification(checked=%zu, outside=%zu, worst=%.6g)", v.checked,
-                      v.outside, v.worst);
+                      v.outside, v.max_violation);
         return std::string(text);
       });
   module.def("verify", verify_volume, "volume"_a, "points"_a, py::kw_only(), "threads"_a = 1, verify_doc);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds in parts, and masks of points against volumes.
+// Partial results of clouds in parts, and masks of the points inside volumes.
 
 #include "pcl_bv/fitting/partial.h"
 
@@ -32,21 +32,21 @@ Partial merged(const Partial& a, const Partial& b) {
 }
 
 py::object fit_partial(const Partial& partial, py::handle names, py::handle up, py::handle threads) {
-  bool one = false;
-  const std::vector<const Method*> among = methods_of(names, one);
+  bool single = false;
+  const std::vector<const Method*> methods = methods_of(names, single);
   const Execution execution = execution_of(threads, py::none());
   const MethodOptions options{SphereGrowth::deferred, up_argument(up)};
-  std::vector<AnyVolume> volumes(among.size());
-  std::vector<EstimationResult> results(among.size());
+  std::vector<AnyVolume> volumes(methods.size());
+  std::vector<EstimationResult> results(methods.size());
   {
     const py::gil_scoped_release unlocked;
-    for (std::size_t m = 0; m < among.size(); ++m)
-      results[m] = partial.fit(*among[m], volumes[m], execution, options);
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      results[m] = partial.fit(*methods[m], volumes[m], execution, options);
   }
-  if (one) return to_python(std::move(volumes[0]), among[0], results[0]);
-  py::list list(among.size());
-  for (std::size_t m = 0; m < among.size(); ++m)
-    list[m] = to_python(std::move(volumes[m]), among[m], results[m]);
+  if (single) return to_python(std::move(volumes[0]), methods[0], results[0]);
+  py::list list(methods.size());
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    list[m] = to_python(std::move(volumes[m]), methods[m], results[m]);
   return list;
 }
 
@@ -56,20 +56,20 @@ py::bytes bytes_of(const Partial& partial) {
 }
 
 Partial from_bytes(py::handle bytes) {
-  if (!PyBytes_Check(bytes.ptr())) refuse_type("bytes", "what to_bytes() gave", bytes);
+  if (!PyBytes_Check(bytes.ptr())) raise_type_error("bytes", "the bytes of to_bytes()", bytes);
   const std::string_view content = py::reinterpret_borrow<py::bytes>(bytes);
   return Partial::from_bytes(reinterpret_cast<const std::byte*>(content.data()), content.size());
 }
 
 RegionMask make_mask(py::handle volumes, py::handle padding) {
-  const double grown = number(padding, "padding", {0, 1e100});
+  const double inflation = number(padding, "padding", {0, 1e100});
   std::vector<Region> regions;
-  for (const NumberedVolume& each : volumes_of(volumes, "volumes"))
-    regions.push_back({each.volume->value, grown});
+  for (const LabelledVolume& each : volumes_of(volumes, "volumes"))
+    regions.push_back({each.volume->value, inflation});
   return RegionMask(regions);
 }
 
-py::object mark(const RegionMask& mask, py::handle points, py::handle threads) {
+py::object mask_contains(const RegionMask& mask, py::handle points, py::handle threads) {
   const PointArray array = points_of(points);
   const Execution execution = execution_of(threads, py::none());
   std::vector<std::uint8_t> inside;
@@ -77,20 +77,20 @@ py::object mark(const RegionMask& mask, py::handle points, py::handle threads) {
     const py::gil_scoped_release unlocked;
     mask.mark(array.view, inside, execution);
   }
-  return take(std::move(inside)).attr("view")("bool");
+  return array_from_vector(std::move(inside)).attr("view")("bool");
 }
 
 constexpr const char* partial_doc = R"(Partial(points=None, first=0, *, threads=1)
 --
 
-What some of a cloud's points contribute to volumes around all of them: a few kilobytes, for clouds in many
-files or on many machines. No call changes one; it pickles.
+A partial result of a part of a cloud, from which the volumes of the whole cloud are fitted: a few kilobytes,
+for clouds in many files or on many machines. Immutable; can be pickled.
 
-points: as fit() takes them; None: of no points, where sums begin.
-first: the number, in the whole cloud, of the first one. No point may be in two parts.
+points: as for fit(); None: no points, the start value of a sum.
+first: the index of the first point in the whole cloud. No point may be in two parts.
 
-Whatever the parts, and in whatever order they were merged, the volumes have the same bits; those of a fit of
-the whole cloud, but for the last bits of sphere-exact and obb-yaw of more than 4096 points.
+The volumes do not depend on the parts or on the order of merging, to the last bit. They equal those of a fit
+of the whole cloud, except for the last bits of sphere-exact and obb-yaw of more than 4096 points.
 
 >>> import functools, numpy, operator, pcl_bv
 >>> points = numpy.random.default_rng(1).normal(size=(9000, 3))
@@ -103,9 +103,9 @@ True
 constexpr const char* partial_merge_doc = R"(merge(self, other, /)
 --
 
-Of the points of both; also self + other. Neither changes.
+Returns the partial result of the points of both, as self + other does. Neither argument changes.
 
-Raises ValueError if a point is in both, or if one has float32 and the other float64.
+Raises ValueError if a point is in both, or if one has float32 and the other has float64.
 
 >>> import pcl_bv
 >>> len(pcl_bv.Partial([[0., 0, 0]]).merge(pcl_bv.Partial([[1., 1, 1]], first=1)))
@@ -115,9 +115,9 @@ Raises ValueError if a point is in both, or if one has float32 and the other flo
 constexpr const char* partial_fit_doc = R"(fit(self, method, *, up='z', threads=1)
 --
 
-The volume around all points, or a list for a list of methods, as of pcl_bv.fit().
+Returns the volume of all points, or a list of volumes for a list of methods, as pcl_bv.fit() does.
 
-Raises ValueError for methods that need all points: spheres that grow, and obb-lshape.
+Raises ValueError for methods that need all points: sphere-ritter, sphere-epos* and obb-lshape.
 
 >>> import pcl_bv
 >>> pcl_bv.Partial([[0., 0, 0], [2, 2, 2]]).fit('aabb').max
@@ -127,7 +127,7 @@ array([2., 2., 2.])
 constexpr const char* to_bytes_doc = R"(to_bytes(self, /)
 --
 
-For a file or a message: some 2 kB and 32 bytes for each point that is kept; the same on every machine.
+Returns bytes for a file or a message: about 2 kB and 32 bytes per stored point. The same on every machine.
 
 >>> import pcl_bv
 >>> part = pcl_bv.Partial([[0., 0, 0], [2, 2, 2]])
@@ -138,7 +138,7 @@ True
 constexpr const char* from_bytes_doc = R"(from_bytes(bytes, /)
 --
 
-Back from to_bytes(). Raises ValueError, saying what is wrong, for anything else.
+Restores a Partial from the bytes of to_bytes(). Raises ValueError with the reason for any other bytes.
 
 >>> import pcl_bv
 >>> len(pcl_bv.Partial.from_bytes(pcl_bv.Partial([[0., 0, 0]]).to_bytes()))
@@ -148,10 +148,10 @@ Back from to_bytes(). Raises ValueError, saying what is wrong, for anything else
 constexpr const char* mask_doc = R"(RegionMask(volumes, padding=0)
 --
 
-Volumes, grown by `padding` (in the points' unit) in every direction, that points are held against: a robot's
-own links, or a region to crop to.
+Tests points against volumes that are inflated by `padding` (in the points' unit), for example a robot's links
+or a region of interest.
 
-volumes: a volume, a list of them, or a dict of these, as fit() gives.
+volumes: a volume, a list of volumes, or a dict of volumes or lists, as returned by fit().
 
 >>> import pcl_bv
 >>> links = pcl_bv.RegionMask([pcl_bv.Sphere([0, 0, 0], 1), pcl_bv.Sphere([5, 0, 0], 1)], padding=0.5)
@@ -162,7 +162,7 @@ array([ True, False])
 constexpr const char* mask_contains_doc = R"(contains(self, points, *, threads=1)
 --
 
-For each point whether it is inside any of the volumes: an array of bool. Points as fit() takes them.
+Returns an array of bool: whether each point is inside any of the volumes. points: as for fit().
 
 >>> import pcl_bv
 >>> pcl_bv.RegionMask(pcl_bv.Sphere([0, 0, 0], 1)).contains([[0., 0, 1], [0, 0, 2]])
@@ -178,7 +178,7 @@ void bind_partial(py::module_& module) {
       .def(
           "merge",
           [](const Partial& a, py::handle other) {
-            if (!py::isinstance<Partial>(other)) refuse_type("other", "a Partial", other);
+            if (!py::isinstance<Partial>(other)) raise_type_error("other", "a Partial", other);
             return merged(a, other.cast<const Partial&>());
           },
           "other"_a, py::pos_only(), partial_merge_doc)
@@ -188,12 +188,13 @@ void bind_partial(py::module_& module) {
       .def_static("from_bytes", from_bytes, "bytes"_a, py::pos_only(), from_bytes_doc)
       .def("__len__", &Partial::size)
       .def("__repr__", [](const Partial& p) { return "Partial(of " + std::to_string(p.size()) + " points)"; })
-      .def(py::pickle(
-          [](const Partial& p) -> py::object { return bytes_of(p); },
-          [](const py::object& state) { return of_state("Partial", [&] { return from_bytes(state); }); }));
+      .def(py::pickle([](const Partial& p) -> py::object { return bytes_of(p); },
+                      [](const py::object& state) {
+                        return restore_from_state("Partial", [&] { return from_bytes(state); });
+                      }));
   py::class_<RegionMask>(module, "RegionMask", mask_doc)
       .def(py::init(&make_mask), "volumes"_a, "padding"_a = 0, init_doc(mask_doc).c_str())
-      .def("contains", mark, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);
+      .def("contains", mask_contains, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);
 }
 
 }  // namespace pcl_bv::python

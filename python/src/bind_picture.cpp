@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results out: pictures, and files by their extension.
+// Output: pictures, and files in the format of their extension.
 
 #include "bind.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -18,11 +18,11 @@ namespace {
 
 using namespace py::literals;
 
-/// Volumes with the colours of their labels, or of their methods where there is one label.
-void add_volumes(const std::vector<NumberedVolume>& volumes, Picture& picture) {
-  const auto several = [&](const NumberedVolume& v) { return v.number != volumes.front().number; };
+/// Adds volumes, coloured by label or, if all have the same label, by method.
+void add_volumes(const std::vector<LabelledVolume>& volumes, Picture& picture) {
+  const auto several = [&](const LabelledVolume& v) { return v.number != volumes.front().number; };
   const bool labelled = std::any_of(volumes.begin(), volumes.end(), several);
-  for (const NumberedVolume& each : volumes) {
+  for (const LabelledVolume& each : volumes) {
     const Method* const method = each.volume->method;
     const std::string name(method != nullptr ? method->name : shape_name(each.volume->value));
     const auto found = std::find(picture.methods.begin(), picture.methods.end(), name);
@@ -54,10 +54,10 @@ PictureObject show(py::handle points, py::handle volumes, py::handle labels, py:
   return object;
 }
 
-/// Volumes by label, as a report has them.
+/// Returns the volumes as clusters of a report, one for each label.
 std::vector<ClusterEntry> entries_of_volumes(py::handle volumes) {
   std::vector<ClusterEntry> entries;
-  for (const NumberedVolume& each : volumes_of(volumes, "what")) {
+  for (const LabelledVolume& each : volumes_of(volumes, "what")) {
     const auto id = static_cast<std::size_t>(each.number);
     if (entries.empty() || entries.back().id != id) entries.emplace_back().id = id;
     ClusterEntry& entry = entries.back();
@@ -107,39 +107,41 @@ std::string csv_text(const Reported& found) {
 }
 
 void write_anything(py::handle file, py::handle what, py::handle labels) {
-  const std::filesystem::path place = path(file, "path");
-  const std::string extension = lower_case_extension(place);
-  if (extension == ".pcd") return write_cloud(place, what, labels);
-  if (!labels.is_none()) refuse_value("labels", "only a .pcd holds them, not " + shown(file));
+  const std::filesystem::path target = path(file, "path");
+  const std::string extension = lower_case_extension(target);
+  if (extension == ".pcd") return write_cloud(target, what, labels);
+  if (!labels.is_none())
+    raise_value_error("labels", "can only be written to a .pcd file, not to " + repr_text(file));
   if (extension == ".png" || extension == ".svg") {
-    PictureObject of = py::isinstance<ResultObject>(what)
-                           ? picture_of_result(what.cast<std::shared_ptr<ResultObject>>(), {})
-                       : py::isinstance<PictureObject>(what) ? what.cast<PictureObject>()
-                                                             : PictureObject();
-    if (!of.result && !py::isinstance<PictureObject>(what)) add_volumes(volumes_of(what, "what"), of.picture);
+    PictureObject object = py::isinstance<ResultObject>(what)
+                               ? picture_of_result(what.cast<std::shared_ptr<ResultObject>>(), {})
+                           : py::isinstance<PictureObject>(what) ? what.cast<PictureObject>()
+                                                                 : PictureObject();
+    if (!object.result && !py::isinstance<PictureObject>(what))
+      add_volumes(volumes_of(what, "what"), object.picture);
     const py::gil_scoped_release unlocked;
-    return write_picture(place, of.picture);
+    return write_picture(target, object.picture);
   }
   if (extension == ".html") {
-    if (!py::isinstance<ResultObject>(what)) refuse_type("what", "a Result, for a .html file,", what);
+    if (!py::isinstance<ResultObject>(what)) raise_type_error("what", "a Result for a .html file", what);
     const auto result = what.cast<std::shared_ptr<ResultObject>>();
-    return write_file_atomically(place, page_of_result(*result, kMostPointsOfAPage));
+    return write_file_atomically(target, page_of_result(*result, kMaxPagePoints));
   }
   const Reported found = reported(what);
-  if (extension == ".json" || extension == ".jsonl") return write_file_atomically(place, json_text(found));
-  if (extension == ".csv") return write_file_atomically(place, csv_text(found));
-  const std::optional<MeshFormat> format = mesh_format(place);
+  if (extension == ".json" || extension == ".jsonl") return write_file_atomically(target, json_text(found));
+  if (extension == ".csv") return write_file_atomically(target, csv_text(found));
+  const std::optional<MeshFormat> format = mesh_format(target);
   if (!format)
-    refuse_value("path",
-                 "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
+    raise_value_error("path",
+                      "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
   const py::gil_scoped_release unlocked;
-  write_volumes(place, found.clusters, *format);
+  write_volumes(target, found.clusters, *format);
 }
 
 constexpr const char* picture_doc =
-    R"(A picture of points and volumes, drawn when it is asked for, without a display.
+    R"(A picture of points and volumes. It is rendered by png() or svg() and needs no display.
 
-A notebook shows it; write(path, picture) saves it. It keeps the array that it is of.
+A notebook shows it; write(path, picture) saves it. It keeps the array of its points alive.
 
 >>> import pcl_bv
 >>> picture = pcl_bv.show([[0., 0, 0], [1, 1, 1]], pcl_bv.Sphere([0, 0, 0], 1), width=320, height=200)
@@ -151,11 +153,11 @@ constexpr const char* show_doc =
     R"(show(points, volumes=None, labels=None, *, view='iso', up='z', unit='m', width=1600, height=1000)
 --
 
-A Picture of points and volumes, for a notebook or a file.
+Returns a Picture of points and volumes, for a notebook or a file.
 
-points: as fit() takes them, or None. volumes: one, a list, or a dict by label, as fit() gives.
-labels: each point's cluster, whose colour it gets; -1: none, -2: ground; or Clusters, or a Result.
-view: 'iso', 'top', 'front' or 'side'. up: as of fit(). width, height: 16 to 16384 pixels.
+points: as for fit(), or None. volumes: a volume, a list, or a dict by label, as returned by fit().
+labels: the cluster of each point, which selects its colour; -1: none, -2: ground; or Clusters, or a Result.
+view: 'iso', 'top', 'front' or 'side'. up: as for fit(). width, height: 16 to 16384 pixels.
 
 >>> import numpy, pcl_bv
 >>> points = numpy.random.default_rng(1).normal(size=(500, 3))
@@ -166,7 +168,7 @@ Picture(1600 x 1000, 500 points, 2 volumes)
 constexpr const char* png_doc = R"(png(self, /)
 --
 
-The picture as a PNG file in memory.
+Returns the picture as bytes of a PNG file.
 
 >>> import pcl_bv
 >>> pcl_bv.show([[0., 0, 0]], width=16, height=16).png()[1:4]
@@ -176,7 +178,7 @@ b'PNG'
 constexpr const char* svg_doc = R"(svg(self, /)
 --
 
-The picture as an SVG file's text: the volumes as lines that can be edited, the points as one picture.
+Returns the picture as text of an SVG file: the volumes as lines that can be edited, the points as one image.
 
 >>> import pcl_bv
 >>> '<svg' in pcl_bv.show([[0., 0, 0]], width=16, height=16).svg()
@@ -186,15 +188,15 @@ True
 constexpr const char* write_doc = R"(write(path, what, labels=None)
 --
 
-Writes a file, whole or not at all, of the kind that its extension names.
+Writes a file atomically, in the format of its extension.
 
 .json, .csv, .ply, .vtp, .png, .svg: a Result, a volume, a list of volumes, or a dict of these by label, as
-    fit() gives; .json and .csv as pcd_bv writes them (of a Result as bv_stream), .ply and .vtp their meshes.
+    returned by fit(). .json and .csv: as pcd_bv writes them (a Result: as bv_stream). .ply and .vtp: meshes.
 .png, .svg: also a Picture. .html: a Result, as the page of Result.page().
-.pcd: points, as fit() takes them; records with all their fields. labels: an integer for each point, which
-    becomes the field `label`.
+.pcd: points, as for fit(); records with all their fields. labels: an integer for each point, which becomes
+    the field `label`.
 
-Raises OSError if it cannot be written, ValueError for another extension.
+Raises OSError if the file cannot be written, ValueError for another extension.
 
 >>> import os, pcl_bv, tempfile
 >>> folder = tempfile.TemporaryDirectory()
@@ -206,11 +208,11 @@ Raises OSError if it cannot be written, ValueError for another extension.
 )";
 
 std::string repr_of_picture(const PictureObject& p) {
-  std::string said = "Picture(" + std::to_string(p.picture.width) + " x " + std::to_string(p.picture.height) +
+  std::string text = "Picture(" + std::to_string(p.picture.width) + " x " + std::to_string(p.picture.height) +
                      ", " + std::to_string(p.picture.points.count) + " points";
   if (!p.result && !p.picture.volumes.empty())
-    said += ", " + std::to_string(p.picture.volumes.size()) + " volumes";
-  return said + ')';
+    text += ", " + std::to_string(p.picture.volumes.size()) + " volumes";
+  return text + ')';
 }
 
 }  // namespace

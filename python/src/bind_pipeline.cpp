@@ -15,7 +15,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Several threads may call: frames are processed one after another.
+/// A pipeline that several threads may call: frames are processed one after another.
 class PipelineObject {
  public:
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
@@ -43,15 +43,15 @@ class PipelineObject {
   std::uint64_t next_ = 0;
 };
 
-void warn_of(const PipelineConfig& config) {
-  for (const std::string& line : config.without_effect())
+void warn_about_ineffective_settings(const PipelineConfig& config) {
+  for (const std::string& line : config.ineffective_settings())
     warn(line);
 }
 
 std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle preset,
                                               const py::kwargs& settings) {
   PipelineConfig read = config_of(config, preset, settings);
-  warn_of(read);
+  warn_about_ineffective_settings(read);
   return std::make_unique<PipelineObject>(std::move(read));
 }
 
@@ -81,7 +81,7 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
 
 void set_config(PipelineObject& self, py::handle config) {
   PipelineConfig read = config_of(config, py::none(), {});
-  warn_of(read);
+  warn_about_ineffective_settings(read);
   const py::gil_scoped_release unlocked;
   self.set_config(std::move(read));
 }
@@ -101,16 +101,17 @@ const std::string& pipeline_doc() {
       R"(Pipeline(config=None, *, preset=None, **settings)
 --
 
-From clouds to objects, frame by frame: filter, ground, clusters, volumes, tracks; what bv_stream and pcd_bv do.
+Detects objects frame by frame, as bv_stream and pcd_bv do: filter, ground, clusters, volumes, tracks.
 
 config: a dict, the text of a configuration file, or a path to one; keys as below, nested by stage.
 preset: 'road' (the defaults), 'indoor' or 'table'.
-    Regions may also have 'volumes', a list of them, instead of a 'file'.
-settings: whole stages as keywords, over config: cluster={'tolerance': 0.3}, volumes=['obb-yaw'], threads=0.
+    Regions may also have 'volumes', a list of volumes, instead of a 'file'.
+settings: stages as keyword arguments, which override config: cluster={'tolerance': 0.3}, volumes=['obb-yaw'],
+    threads=0.
 
-Raises ValueError for an unknown key and for a value that is not allowed, naming key, value and range; OSError
-for a file that cannot be read. Warns (UserWarning) of a setting that has no effect. Threads may share a pipeline:
-they wait for one another.
+Raises ValueError for an unknown key and for a value that is not allowed, with key, value and range; OSError
+for a file that cannot be read. Warns (UserWarning) about a setting that has no effect. Threads may share a
+pipeline: they wait for one another.
 
 Settings, with defaults, [units] and ranges:
 )" + settings_text() +
@@ -130,18 +131,19 @@ constexpr const char* process_doc =
     R"(process(self, points, *, stamp_ns=0, frame_id='', seq=None, pose=None, classes=None, recorded_ns=0)
 --
 
-Processes one frame; of a stream, frames come in the order of their stamps. The GIL is released.
+Processes one frame. Frames of a stream must be passed in the order of their stamps. Releases the GIL.
 
-points: as fit() takes them, in the sensor's frame, metres; not copied. The result keeps the array, and what is
-    written into it later shows in pictures.
-stamp_ns: when the sensor took it, nanoseconds. Tracks need it.
-frame_id, seq: kept in the result; without seq, or with 0, the pipeline counts.
-pose: of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
+points: as for fit(), in the sensor's frame, metres; not copied. The result keeps the array alive; later
+    changes of the array appear in pictures.
+stamp_ns: when the sensor took the frame, nanoseconds. Tracking needs it.
+frame_id, seq: stored in the result. Without seq, or with 0, the pipeline counts the frames.
+pose: pose of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
 classes: an integer for each point, for cluster.class_field and cluster.classes.
-recorded_ns: when it was recorded or came; tracks use it where stamps do not advance. A UserWarning says so once.
+recorded_ns: when the frame was recorded or received, nanoseconds. Tracking uses it if the stamps do not
+    advance, and warns once (UserWarning).
 
-Returns a Result. Raises as fit(). Warns (UserWarning, each kind once a pipeline and setting) where no ground is
-found, or everything is ground, and where the points do not lie around the sensor's place.
+Returns a Result. Raises as fit(). Warns (UserWarning, each kind once per pipeline and setting) if no ground
+is found, if everything is ground, and if the points do not lie around the sensor.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})
@@ -161,7 +163,8 @@ void bind_pipeline(py::module_& module) {
            process_doc)
       .def_property(
           "config", [](const PipelineObject& p) { return dict_of(p.config()); }, set_config,
-          "All settings as a dict, which Pipeline() takes back; setting it takes effect with the next frame.")
+          "All settings as a dict that Pipeline() accepts. Assigning a dict takes effect with the next "
+          "frame.")
       .def("__repr__", repr_of_pipeline);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds in: files, recordings, generated ones.
+// Input: clouds from files, recordings and generators.
 
 #include <chrono>
 #include <mutex>
@@ -10,11 +10,12 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/report/read_volumes.h"
 #include "pcl_bv/synth/synth.h"
 #include "raw_cloud_array.h"
 #include "read_docs.h"
+#include "stream/sources/recorded_clouds.h"
+#include "stream/sources/sources.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -22,9 +23,10 @@ namespace {
 
 using namespace py::literals;
 
-/// FileNotFoundError where there is nothing, for all that reads; else the error's own, with the file's name.
+/// Calls read(). If it throws IoError, raises FileNotFoundError if the file does not exist; otherwise throws
+/// the error with the file's name in its message.
 template <typename Read>
-auto reading(const std::string& name, const Read& read) {
+auto with_read_errors(const std::string& name, const Read& read) {
   try {
     return read();
   } catch (const IoError& error) {
@@ -40,58 +42,59 @@ auto reading(const std::string& name, const Read& read) {
   }
 }
 
-/// What was noticed about an input and not refused, as a UserWarning.
-void warn_of(const std::string& name, const std::string& note) {
+/// Issues a note about an input, if there is one, as a UserWarning.
+void warn_about_note(const std::string& name, const std::string& note) {
   if (!note.empty()) warn(name + ": " + note);
 }
 
 RawCloud load_recorded(const std::string& name, const std::string& topic, std::size_t number,
-                       std::vector<std::string>& remarks) {
+                       std::vector<std::string>& warnings) {
   RecordedClouds clouds(name, topic);
   try {
     RawCloud cloud = clouds.load(number);
-    remarks = clouds.remarks();
+    warnings = clouds.warnings();
     return cloud;
-  } catch (const IoError& error) {  // damage is why the cloud is not there
+  } catch (const IoError& error) {  // add the warnings: damage may be the reason
     std::string text = error.what();
-    for (const std::string& remark : clouds.remarks())
-      text.append("; ").append(remark);
+    for (const std::string& warning : clouds.warnings())
+      text.append("; ").append(warning);
     throw IoError(text);
   }
 }
 
-/// `remarks`: what was noticed of a recording.
+/// Sets `warnings` to the warnings about a recording.
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
-                    std::size_t bin_fields, const ParallelPolicy& policy, std::vector<std::string>& remarks) {
+                    std::size_t bin_fields, const ParallelPolicy& policy,
+                    std::vector<std::string>& warnings) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
-  if (has_recorded_clouds(name)) return load_recorded(name, topic, number, remarks);
-  refuse_false_recording(name);
+  if (has_recorded_clouds(name)) return load_recorded(name, topic, number, warnings);
+  check_recording_content(name);
   return read_cloud(name, policy, bin_fields);
 }
 
 py::array read_points(py::handle file, py::handle topic, py::handle number, py::handle bin_fields,
                       py::handle threads) {
   const std::string name = path(file, "path").string();
-  const std::string of = topic.is_none() ? "" : text(topic, "topic");
+  const std::string topic_name = topic.is_none() ? "" : text(topic, "topic");
   const std::size_t which = whole_number(number, "number", {0, kNoLimit});
   const std::size_t fields = whole_number(bin_fields, "bin_fields", {0, 32});
   const ParallelPolicy policy = policy_of(threads);
   std::optional<RawCloud> cloud;
-  std::vector<std::string> remarks;
-  reading(name, [&] {
+  std::vector<std::string> warnings;
+  with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
-    cloud = load_cloud(name, of, which, fields, policy, remarks);
+    cloud = load_cloud(name, topic_name, which, fields, policy, warnings);
   });
-  for (const std::string& remark : remarks)
-    warn_of(name, remark);
-  warn_of(name, cloud->note);
+  for (const std::string& warning : warnings)
+    warn_about_note(name, warning);
+  warn_about_note(name, cloud->note);
   return array_of_cloud(std::move(*cloud));
 }
 
 py::list volumes_in(py::handle file) {
   const std::string name = path(file, "path").string();
   std::vector<AnyVolume> volumes;
-  reading(name, [&] {
+  with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
     volumes = read_volumes(name);
   });
@@ -101,7 +104,7 @@ py::list volumes_in(py::handle file) {
   return list;
 }
 
-/// A frame of a source, in its own memory.
+/// A frame of a source. It owns its points.
 struct FrameObject {
   Frame frame;
 };
@@ -121,21 +124,22 @@ class FramesObject {
   FramesObject(const std::string& name, const ReplayOptions& options)
       : name_(name), source_(open_source(name, options)) {}
 
-  /// Nothing at the end. Lets Ctrl-C through while nothing comes. What was noticed is a UserWarning.
+  /// Returns the next frame, or nothing at the end. While waiting for a frame, checks for Ctrl-C every 100
+  /// ms. Issues the source's warnings as UserWarnings.
   std::optional<Frame> next() {
     for (;;) {
       Frame frame;
       Next what = Next::end;
-      std::vector<std::string> remarks;
+      std::vector<std::string> warnings;
       {
         const py::gil_scoped_release unlocked;
         const std::lock_guard lock(mutex_);
         if (source_) what = source_->next(frame, std::chrono::milliseconds(100));
-        if (source_) remarks = source_->take_remarks();
+        if (source_) warnings = source_->take_warnings();
         if (what == Next::end) source_.reset();
       }
-      for (const std::string& remark : remarks)
-        warn_of(name_, remark);
+      for (const std::string& warning : warnings)
+        warn_about_note(name_, warning);
       if (what == Next::frame) return frame;
       if (what == Next::end) return {};
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -154,18 +158,18 @@ std::unique_ptr<FramesObject> open_frames(py::handle source, py::handle topic, p
   const std::string name = path(source, "source").string();
   ReplayOptions options;
   if (!topic.is_none()) options.topic = text(topic, "topic");
-  if (!rate.is_none()) options.rate_hz = number(rate, "rate", {kLeastRate, kGreatestRate});
+  if (!rate.is_none()) options.rate_hz = number(rate, "rate", {kMinRate, kMaxRate});
   if (!poses.is_none()) options.poses = path(poses, "poses");
   if (!class_field.is_none()) options.class_field = text(class_field, "class_field");
   if (!frame_id.is_none()) options.frame_id = text(frame_id, "frame_id");
   options.bin_fields = whole_number(bin_fields, "bin_fields", {0, 32});
   const std::string times = text(stamps, "stamps");
   if (times != "auto" && times != "rate" && times != "name")
-    refuse_value("stamps", "'" + times + "' is not one of auto, rate, name");
+    raise_value_error("stamps", "'" + times + "' is not one of auto, rate, name");
   const bool recorded = source_kind(name).times == FrameTimes::messages;
-  options.from_name = times == "name" || (times == "auto" && recorded && rate.is_none());
+  options.own_stamps = times == "name" || (times == "auto" && recorded && rate.is_none());
   std::unique_ptr<FramesObject> frames;
-  reading(name, [&] {
+  with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
     frames = std::make_unique<FramesObject>(name, options);
   });
@@ -194,13 +198,15 @@ void bind_read(py::module_& module) {
           "stamp_ns", [](const F& f) { return f.frame.header.stamp_ns; }, "Nanoseconds.")
       .def_property_readonly(
           "recorded_ns", [](const F& f) { return f.frame.recorded_ns; },
-          "When it was recorded or sent, nanoseconds; 0 where nobody says.")
+          "When it was recorded or sent, nanoseconds; 0 if unknown.")
       .def_property_readonly(
-          "seq", [](const F& f) { return f.frame.header.seq; }, "Its number in the source.")
+          "seq", [](const F& f) { return f.frame.header.seq; }, "Its index in the source.")
       .def_property_readonly(
-          "frame_id", [](const F& f) { return f.frame.header.frame_id; }, "Of its points.")
+          "frame_id", [](const F& f) { return f.frame.header.frame_id; },
+          "The coordinate frame of its points.")
       .def_property_readonly(
-          "file", [](const F& f) { return f.frame.file; }, "Where it comes from; '' if from none.")
+          "file", [](const F& f) { return f.frame.file; },
+          "The file of the frame; '' if it is not from a file.")
       .def_property_readonly("classes", classes_of,
                              "int64, one a point, if class_field was given; else None.")
       .def_property_readonly(
@@ -208,14 +214,14 @@ void bind_read(py::module_& module) {
           [](const F& f) {
             return f.frame.pose ? py::object(array_of(Eigen::MatrixXd(f.frame.pose->matrix()))) : py::none();
           },
-          "(4, 4), of the sensor in a fixed frame; None where it is not known.")
+          "(4, 4), pose of the sensor in a fixed frame; None if unknown.")
       .def("__repr__", repr_of_frame);
   py::class_<FramesObject>(module, "Frames", frames_class_doc)
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", [](FramesObject& self) {
         std::optional<Frame> frame = self.next();
         if (!frame) throw py::stop_iteration();
-        warn_of(frame->file, frame->note);
+        warn_about_note(frame->file, frame->note);
         return FrameObject{std::move(*frame)};
       });
   module.def("read", read_points, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,

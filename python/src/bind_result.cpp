@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a pipeline found in a frame.
+// The result of a pipeline for one frame.
 
 #include "bind.h"
 #include "clusters_object.h"
@@ -19,62 +19,63 @@ using namespace py::literals;
 using Shared = std::shared_ptr<ResultObject>;
 
 py::object volume_at(const ClusterObject& cluster, std::size_t method) {
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   return to_python(AnyVolume(result.volume(cluster.id, method)), result.methods[method],
                    result.results[cluster.id * result.methods.size() + method]);
 }
 
 py::list volumes_of_cluster(const ClusterObject& cluster) {
   py::list list;
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (result.has(cluster.id, m)) list.append(volume_at(cluster, m));
+    if (result.is_requested(cluster.id, m)) list.append(volume_at(cluster, m));
   }
   return list;
 }
 
 py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   const Method* const method = method_of(name);
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (result.methods[m] == method && result.has(cluster.id, m)) return volume_at(cluster, m);
+    if (result.methods[m] == method && result.is_requested(cluster.id, m)) return volume_at(cluster, m);
   }
-  throw py::key_error(std::string(method->name) + " was not asked for");
+  throw py::key_error(std::string(method->name) + " is not a method of this pipeline");
 }
 
-/// Point numbers; all that is valid and was kept, where the pipeline did not have to tell points apart.
+/// Returns the indices of the cluster's points. Computes them from the labels if the pipeline has made no
+/// index list, because all valid points that passed the filter are one cluster.
 py::object indices_of(const ClusterObject& cluster) {
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   if (!result.clusters.indices.empty() || result.clusters.cluster_size(cluster.id) == 0)
     return view_of_part(result.clusters.indices.data() + result.clusters.offsets[cluster.id],
                         result.clusters.indices.empty() ? 0 : result.clusters.cluster_size(cluster.id),
                         py::cast(cluster));
-  const std::vector<std::uint32_t> labels = labels_of(cluster.of->frame(), result);
+  const std::vector<std::uint32_t> labels = labels_of(cluster.owner_result->frame(), result);
   std::vector<std::int32_t> numbers;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == cluster.id) numbers.push_back(static_cast<std::int32_t>(i));
   }
-  return read_only(take(std::move(numbers)));
+  return read_only(array_from_vector(std::move(numbers)));
 }
 
 py::object track_of(const ClusterObject& cluster) {
-  const auto& tracks = cluster.of->result.tracks;
+  const auto& tracks = cluster.owner_result->result.tracks;
   if (tracks.empty() || !tracks[cluster.id]) return py::none();
   return py::cast(*tracks[cluster.id]);
 }
 
 std::string repr_of_cluster(const ClusterObject& cluster) {
-  const FrameResult& result = cluster.of->result;
-  std::string said = "Cluster(id=" + std::to_string(cluster.id) +
+  const FrameResult& result = cluster.owner_result->result;
+  std::string text = "Cluster(id=" + std::to_string(cluster.id) +
                      ", points=" + std::to_string(result.clusters.cluster_size(cluster.id));
-  if (!result.class_of.empty()) said += ", class_value=" + std::to_string(result.class_of[cluster.id]);
+  if (!result.class_of.empty()) text += ", class_value=" + std::to_string(result.class_of[cluster.id]);
   if (!result.tracks.empty() && result.tracks[cluster.id])
-    said += ", track=" + std::to_string(result.tracks[cluster.id]->id);
+    text += ", track=" + std::to_string(result.tracks[cluster.id]->id);
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (!result.has(cluster.id, m)) continue;
-    said.append(m == 0 ? ", volumes: " : ", ").append(result.methods[m]->name);
+    if (!result.is_requested(cluster.id, m)) continue;
+    text.append(m == 0 ? ", volumes: " : ", ").append(result.methods[m]->name);
   }
-  return said + ')';
+  return text + ')';
 }
 
 py::list clusters_of(const Shared& self) {
@@ -88,7 +89,7 @@ py::dict counts_of(const Shared& self) {
   const Counts& c = self->result.counts;
   return py::dict("nonfinite"_a = c.nonfinite, "range"_a = c.range, "ground"_a = c.ground,
                   "small"_a = c.small, "large"_a = c.large, "noise"_a = c.noise, "inside"_a = c.inside,
-                  "class"_a = c.of_class);
+                  "class"_a = c.dropped_class);
 }
 
 py::dict times_of(const Shared& self) {
@@ -97,14 +98,14 @@ py::dict times_of(const Shared& self) {
                   "track"_a = ms.track, "total"_a = ms.total);
 }
 
-/// label_none and label_ground are -1 and -2 as int32.
+/// Returns the labels as int32, in which kLabelNone and kLabelGround are -1 and -2.
 py::object labels_array(const Shared& self) {
   std::vector<std::uint32_t> labels;
   {
     const py::gil_scoped_release unlocked;
     labels = labels_of(self->frame(), self->result);
   }
-  return take(std::move(labels)).attr("view")("int32");
+  return array_from_vector(std::move(labels)).attr("view")("int32");
 }
 
 std::string repr_of_result(const Shared& self) {
@@ -126,23 +127,26 @@ py::array covariance_of(const TrackEntry& track) {
 }
 
 void bind_track(py::module_& module) {
-  py::class_<TrackEntry>(module, "Track", R"(An object that is followed from frame to frame.
+  py::class_<TrackEntry>(module, "Track", R"(An object tracked over frames.
 
-In the fixed frame where the sensor's poses are known, else relative to the sensor; metres, radians, seconds.
+Coordinates are in the fixed frame if the sensor's poses are given, otherwise in the sensor's frame. Units:
+metres, radians, seconds.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})
 >>> pipeline.process(pcl_bv.read('synth:street:20000:1')).clusters[0].track
 Track(id=0, age=1, velocity=[0, 0, 0])
 )")
-      .def_readonly("id", &TrackEntry::id, "Never given to another object.")
-      .def_readonly("age", &TrackEntry::age, "Frames since the first sighting, that one included.")
-      .def_readonly("moving", &TrackEntry::moving, "Over the ground, where the sensor's motion is known.")
+      .def_readonly("id", &TrackEntry::id, "Unique: never given to another object.")
+      .def_readonly("age", &TrackEntry::age,
+                    "Number of frames since the first detection, including that frame.")
+      .def_readonly("moving", &TrackEntry::moving,
+                    "Whether it moves; over the ground if the sensor's motion is known.")
       .def_property_readonly(
           "velocity", [](const TrackEntry& t) { return array_of(t.velocity); }, "(3,), in m/s.")
       .def_property_readonly(
           "pose", [](const TrackEntry& t) { return read_only(py::array_t<double>(4, t.pose.data())); },
-          "x, y, z of the centre and the yaw of where it faces.")
+          "x, y, z of the centre and the yaw of its heading.")
       .def_property_readonly("covariance", covariance_of, "(6, 6), of x, y, z, yaw, vx, vy.")
       .def(
           "__eq__", [](const TrackEntry& a, const TrackEntry& b) { return a == b; }, py::is_operator())
@@ -155,7 +159,7 @@ Track(id=0, age=1, velocity=[0, 0, 0])
 }
 
 constexpr const char* cluster_class_doc =
-    R"(One object of a frame: its points, its volumes, its track. cluster['aabb'] is the volume of that method.
+    R"(One object of a frame: its points, volumes and track. cluster['aabb'] is the volume of that method.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(volumes=['aabb', 'sphere'], cluster={'min_size': 100})
@@ -165,9 +169,9 @@ True
 )";
 
 constexpr const char* result_doc =
-    R"(What Pipeline.process() found in a frame. It owns its memory, and keeps the frame's array.
+    R"(The result of Pipeline.process() for one frame. Owns its memory and keeps the frame's array alive.
 
-In a notebook it shows itself as a picture.
+A notebook shows it as a page or a picture.
 
 >>> import numpy, pcl_bv
 >>> points = pcl_bv.read('synth:street:20000:1')
@@ -183,7 +187,8 @@ True
 constexpr const char* json_doc = R"(json(self, /)
 --
 
-The frame as bv_stream writes it: one JSON object on a line, every number with the digits that read back.
+Returns the frame as bv_stream writes it: a JSON object on one line. Every number is written with enough
+digits to be read back exactly.
 
 >>> import json, pcl_bv
 >>> result = pcl_bv.Pipeline(cluster={'min_size': 100}).process(pcl_bv.read('synth:street:20000:1'))
@@ -194,7 +199,7 @@ The frame as bv_stream writes it: one JSON object on a line, every number with t
 constexpr const char* result_picture_doc = R"(picture(self, *, view='iso', width=1600, height=1000)
 --
 
-A Picture of the points, clusters in colours, and the volumes. view: 'iso', 'top', 'front' or 'side'.
+Returns a Picture of the points, clusters in colours, and the volumes. view: 'iso', 'top', 'front' or 'side'.
 
 >>> import pcl_bv
 >>> result = pcl_bv.Pipeline(cluster={'min_size': 100}).process(pcl_bv.read('synth:street:20000:1'))
@@ -205,9 +210,9 @@ Picture(640 x 400, 18847 points)
 constexpr const char* page_doc = R"(page(self, /)
 --
 
-The page of the live view with this frame in it, as the text of an HTML file that needs nothing else: to
-turn, to zoom, to ask for an object's numbers. Of more than 500000 points some are left out. A notebook
-shows the same with at most 50000 points; write('x.html', result) makes the file.
+Returns the page of the live view with this frame, as text of a self-contained HTML file. The page can be
+rotated and zoomed; a click on an object shows its numbers. Larger clouds are reduced to 500000 points. A
+notebook shows the same page with at most 50000 points; write('x.html', result) writes the file.
 
 >>> import numpy, pcl_bv
 >>> points = numpy.random.default_rng(1).normal(size=(500, 3)) + [5, 0, 0]
@@ -215,8 +220,8 @@ shows the same with at most 50000 points; write('x.html', result) makes the file
 '<!DOCTYPE html>'
 )";
 
-// Of 20 bytes each in the notebook's file.
-constexpr std::size_t kMostPointsOfACell = 50'000;
+// Each point takes 22 bytes in the notebook's file.
+constexpr std::size_t kMaxCellPoints = 50'000;
 
 std::string in_a_notebook(const std::string& page) {
   std::string cell =
@@ -228,20 +233,22 @@ std::string in_a_notebook(const std::string& page) {
 
 void bind_cluster(py::module_& module) {
   py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
-      .def_readonly("id", &ClusterObject::id, "Its number in the frame: the largest is 0.")
+      .def_readonly("id", &ClusterObject::id, "Its index in the frame; 0 is the largest cluster.")
       .def_property_readonly(
-          "points", [](const ClusterObject& c) { return c.of->result.clusters.cluster_size(c.id); },
+          "points", [](const ClusterObject& c) { return c.owner_result->result.clusters.cluster_size(c.id); },
           "Number of valid points.")
-      .def_property_readonly("indices", indices_of, "int32: the numbers of its points in the frame's array.")
-      .def_property_readonly("volumes", volumes_of_cluster, "Its volumes, in the order asked for.")
-      .def_property_readonly("track", track_of, "A Track; None without tracking, and until it is born.")
+      .def_property_readonly("indices", indices_of, "int32: the indices of its points in the frame's array.")
+      .def_property_readonly("volumes", volumes_of_cluster,
+                             "Its volumes, in the order of the setting volumes.")
+      .def_property_readonly("track", track_of,
+                             "The Track, or None without tracking and before the track is confirmed.")
       .def_property_readonly(
           "class_value",
           [](const ClusterObject& c) -> py::object {
-            const auto& classes = c.of->result.class_of;
+            const auto& classes = c.owner_result->result.class_of;
             return classes.empty() ? py::object(py::none()) : py::object(py::int_(classes[c.id]));
           },
-          "Its class, where points are told apart by class; else None.")
+          "The class of its points, or None without classes.")
       .def("__getitem__", volume_by_name)
       .def("__repr__", repr_of_cluster);
 }
@@ -254,7 +261,8 @@ void bind_result(py::module_& module) {
   py::class_<ResultObject, Shared>(module, "Result", result_doc)
       .def_property_readonly("clusters", clusters_of, "A list of Cluster, the largest first.")
       .def_property_readonly(
-          "points", [](const Shared& r) { return r->result.points; }, "Number of points, good or bad.")
+          "points", [](const Shared& r) { return r->result.points; },
+          "Number of points, including points that are not finite.")
       .def_property_readonly("counts", counts_of, "Points that are in no cluster, by reason: a dict.")
       .def_property_readonly("labels", labels_array,
                              "(N,) int32: each point's cluster; -1: none, -2: ground.")
@@ -270,7 +278,7 @@ void bind_result(py::module_& module) {
           [](const Shared& r) {
             return GroundObject{r->result.ground, r->result.points};
           },
-          "A Ground; not found if none was asked for.")
+          "The Ground; its found is False if the pipeline does not detect the ground.")
       .def(
           "json",
           [](const Shared& r) {
@@ -284,15 +292,14 @@ void bind_result(py::module_& module) {
           },
           py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
       .def(
-          "page", [](const Shared& r) { return page_of_result(*r, kMostPointsOfAPage); }, page_doc)
-      .def("_repr_html_",
-           [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMostPointsOfACell)); })
+          "page", [](const Shared& r) { return page_of_result(*r, kMaxPagePoints); }, page_doc)
+      .def("_repr_html_", [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMaxCellPoints)); })
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)
       .def(py::pickle([](const Shared& r) -> py::object { return state_of_result(r); },
                       [](const py::object& state) {
-                        return of_state("Result", [&] { return result_of_state(state); });
+                        return restore_from_state("Result", [&] { return result_of_state(state); });
                       }));
 }
 

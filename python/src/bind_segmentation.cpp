@@ -20,15 +20,16 @@ std::size_t size_or_unlimited(py::handle value, const char* name) {
   return value.is_none() ? std::numeric_limits<std::size_t>::max() : whole_number(value, name, {1, kNoLimit});
 }
 
-/// What a dict says of one class, over what is said of the others.
-ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterSettings& others) {
+/// Returns the settings of one class: those in the dict, and `others` for the settings that are not in the
+/// dict.
+ClassSettings class_settings(std::int64_t value, py::handle settings_dict, const ClusterSettings& others) {
   ClassSettings own{value, others};
-  if (!py::isinstance<py::dict>(said))
-    refuse_type("class_settings", "a dict of settings for each class", said);
-  for (const auto& [key, of] : py::reinterpret_borrow<py::dict>(said)) {
+  if (!py::isinstance<py::dict>(settings_dict))
+    raise_type_error("class_settings", "a dict of settings for each class", settings_dict);
+  for (const auto& [key, of] : py::reinterpret_borrow<py::dict>(settings_dict)) {
     const std::string name = text(key, "class_settings");
     if (name == "drop") {
-      if (!PyBool_Check(of.ptr())) refuse_type("class_settings: drop", "True or False", of);
+      if (!PyBool_Check(of.ptr())) raise_type_error("class_settings: drop", "True or False", of);
       own.drop = of.ptr() == Py_True;
     } else if (name == "tolerance") {
       own.clusters.tolerance =
@@ -38,18 +39,18 @@ ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterS
     } else if (name == "max_size") {
       own.clusters.max_size = size_or_unlimited(of, "class_settings: max_size");
     } else {
-      refuse_value("class_settings", "'" + name + "' is not one of drop, tolerance, min_size, max_size");
+      raise_value_error("class_settings", "'" + name + "' is not one of drop, tolerance, min_size, max_size");
     }
   }
   return own;
 }
 
-std::vector<ClassSettings> all_class_settings(py::handle said, const ClusterSettings& others) {
+std::vector<ClassSettings> all_class_settings(py::handle settings_dict, const ClusterSettings& others) {
   std::vector<ClassSettings> own;
-  if (said.is_none()) return own;
-  if (!py::isinstance<py::dict>(said))
-    refuse_type("class_settings", "a dict of settings for each class", said);
-  for (const auto& [value, of] : py::reinterpret_borrow<py::dict>(said)) {
+  if (settings_dict.is_none()) return own;
+  if (!py::isinstance<py::dict>(settings_dict))
+    raise_type_error("class_settings", "a dict of settings for each class", settings_dict);
+  for (const auto& [value, of] : py::reinterpret_borrow<py::dict>(settings_dict)) {
     own.push_back(class_settings(signed_number(value, "class_settings"), of, others));
   }
   return own;
@@ -66,9 +67,9 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   settings.min_points = whole_number(min_points, "min_points", {1, kNoLimit});
   settings.tolerance_per_metre =
       static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6, true, true}));
-  settings.oversized = word<Oversized>(oversized, "oversized");
+  settings.oversized = parse_text<Oversized>(oversized, "oversized");
   const std::vector<ClassSettings> own = all_class_settings(own_settings, settings);
-  if (classes.is_none() && !own.empty()) refuse_value("class_settings", "there are no classes");
+  if (classes.is_none() && !own.empty()) raise_value_error("class_settings", "needs the argument classes");
   const ParallelPolicy policy = policy_of(threads);
   std::vector<std::int64_t> of_points;
   if (!classes.is_none()) of_points = integers(classes, "classes", array.view.count);
@@ -84,7 +85,8 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// What FrameWarnings says of a frame with this ground alone, in the words of ground()'s arguments.
+/// Issues the warnings of FrameWarnings about a frame with this ground and nothing else. Removes "ground."
+/// from the names of settings, so that they are the names of ground()'s arguments.
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();
   pipeline.ground = config;
@@ -96,7 +98,7 @@ void warn_of_ground(const PointView& points, const GroundConfig& config, const G
   result.counts.ground = found.split.ground.size();
   result.counts.nonfinite = points.count - result.counts.ground - found.split.rest.size();
   result.sensor = found.split.sensor;
-  result.ground.level = found.split.level;
+  result.ground.assumed_level = found.split.assumed_level;
   std::vector<std::string> texts;
   {
     const py::gil_scoped_release unlocked;
@@ -114,8 +116,8 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
                          py::handle threads) {
   const PointArray array = points_of(points);
   GroundConfig config;
-  config.method = word<GroundMethod>(method, "method");
-  if (config.method == GroundMethod::none) refuse_value("method", "'none' is not one of plane, zones");
+  config.method = parse_text<GroundMethod>(method, "method");
+  if (config.method == GroundMethod::none) raise_value_error("method", "'none' is not one of plane, zones");
   config.up = up_argument(up);
   if (!sensor_height.is_none()) config.sensor_height = number(sensor_height, "sensor_height", {});
   if (!distance.is_none()) config.distance = number(distance, "distance", {0, kFinite, false});
@@ -132,7 +134,7 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
   GroundObject found;
   found.points = array.view.count;
   if (config.method == GroundMethod::plane) {
-    if (!sensor.is_none()) refuse_value("sensor", "a plane has no use for it");
+    if (!sensor.is_none()) raise_value_error("sensor", "is only allowed with method 'zones'");
     const auto settings = set(GroundPlaneSettings());
     const py::gil_scoped_release unlocked;
     split_ground(array.view, settings, found.split);
@@ -144,7 +146,7 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
     GroundZones().split(array.view, settings, found.split, policy);
     if (config.sensor) {
       found.split.sensor = find_sensor(array.view, config.up, *config.sensor, found.split.scratch);
-      found.split.sensor.at = *config.sensor;
+      found.split.sensor.position = *config.sensor;
     }
   }
   warn_of_ground(array.view, config, found);
@@ -156,7 +158,7 @@ py::object mask_of(const GroundObject& found) {
   std::vector<std::uint8_t> mask(found.points);
   for (const std::int32_t i : found.split.ground)
     mask[static_cast<std::size_t>(i)] = 1;
-  return take(std::move(mask)).attr("view")("bool");
+  return array_from_vector(std::move(mask)).attr("view")("bool");
 }
 
 py::dict statistics_of(py::handle points, py::handle threads) {
@@ -167,20 +169,19 @@ py::dict statistics_of(py::handle points, py::handle threads) {
     const py::gil_scoped_release unlocked;
     found = cloud_statistics(array.view, policy);
   }
-  py::dict said("box"_a = to_python(found.box), "nonfinite"_a = found.nonfinite, "zero"_a = found.zero);
-  said["spacing"] = found.spacing ? py::object(py::float_(*found.spacing)) : py::none();
-  return said;
+  py::dict statistics("box"_a = to_python(found.box), "nonfinite"_a = found.nonfinite, "zero"_a = found.zero);
+  statistics["spacing"] = found.spacing ? py::object(py::float_(*found.spacing)) : py::none();
+  return statistics;
 }
 
 py::object cluster_at(const py::object& self, py::handle index) {
-  if (PyIndex_Check(index.ptr()) == 0) refuse_type("index", "a whole number", index);
-  const Py_ssize_t i =
-      PyNumber_AsSsize_t(index.ptr(), nullptr);  // the ends of its range for what is beyond them
+  if (PyIndex_Check(index.ptr()) == 0) raise_type_error("index", "a whole number", index);
+  const Py_ssize_t i = PyNumber_AsSsize_t(index.ptr(), nullptr);  // clamped to the range of Py_ssize_t
   if (i == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
   const auto& found = self.cast<const ClustersObject&>().found;
   const auto size = static_cast<std::int64_t>(found.size());
   if (i < -size || i >= size)
-    throw py::index_error("cluster " + shown(index) + " of " + std::to_string(size));
+    throw py::index_error("cluster " + repr_text(index) + " of " + std::to_string(size));
   const auto at = static_cast<std::size_t>(i < 0 ? i + size : i);
   return view_of_part(found.cluster(at), found.cluster_size(at), self);
 }
@@ -201,12 +202,12 @@ std::vector<T> list_of(const py::handle& array) {
 }
 
 ClustersObject from_state(py::handle given) {
-  const py::tuple state = parts_of_state(given, 5);
+  const py::tuple state = tuple_of_state(given, 5);
   ClustersObject c;
   c.points = points_of_state(state[0]);
   c.found.indices = list_of<std::int32_t>(state[1]);
   c.found.offsets = list_of<std::size_t>(state[2]);
-  const py::tuple counts = parts_of_state(state[3], 4);
+  const py::tuple counts = tuple_of_state(state[3], 4);
   c.found.small_points = counts[0].cast<std::size_t>();
   c.found.large_points = counts[1].cast<std::size_t>();
   c.found.noise_points = counts[2].cast<std::size_t>();
@@ -218,7 +219,7 @@ ClustersObject from_state(py::handle given) {
       !std::is_sorted(c.found.offsets.begin(), c.found.offsets.end()) ||
       !std::all_of(c.found.indices.begin(), c.found.indices.end(), in_cloud) ||
       !(c.class_of.empty() || c.class_of.size() == c.found.size()))
-    throw py::value_error("its numbers contradict each other");
+    throw py::value_error("the state is inconsistent");
   return c;
 }
 
@@ -231,7 +232,7 @@ py::tuple state_of_ground(const GroundObject& g) {
 }
 
 GroundObject ground_from_state(py::handle given) {
-  const py::tuple state = parts_of_state(given, 6);
+  const py::tuple state = tuple_of_state(given, 6);
   GroundObject g;
   g.points = points_of_state(state[0]);
   g.split.found = state[1].cast<bool>();
@@ -242,62 +243,64 @@ GroundObject ground_from_state(py::handle given) {
   for (const auto* list : {&g.split.ground, &g.split.rest}) {
     for (const std::int32_t i : *list) {
       if (i < 0 || static_cast<std::size_t>(i) >= g.points)
-        throw py::value_error("its numbers contradict each other");
+        throw py::value_error("the state is inconsistent");
     }
   }
   return g;
 }
 
 std::string repr_of_clusters(const ClustersObject& c) {
-  std::string said =
+  std::string text =
       "Clusters(" + std::to_string(c.found.size()) + " of " + std::to_string(c.points) + " points";
   const auto add = [&](const char* what, std::size_t n) {
-    if (n > 0) said.append(", ").append(what).append("=").append(std::to_string(n));
+    if (n > 0) text.append(", ").append(what).append("=").append(std::to_string(n));
   };
   if (c.found.size() > 0) add("largest", c.found.cluster_size(0));
   add("small_points", c.found.small_points);
   add("large_points", c.found.large_points);
   add("noise_points", c.found.noise_points);
   add("class_points", c.found.class_points);
-  return said + ')';
+  return text + ')';
 }
 
 void bind_clusters(py::module_& module) {
   using C = ClustersObject;
   py::class_<C>(module, "Clusters", clusters_doc)
       .def_property_readonly(
-          "labels", [](const py::object& self) { return view_of_vector(self.cast<C&>().labelled(), self); },
-          "(N,) int32: the number of each point's cluster, -1 for none.")
+          "labels",
+          [](const py::object& self) { return view_of_vector(self.cast<C&>().computed_labels(), self); },
+          "(N,) int32: the index of each point's cluster; -1: none.")
       .def_property_readonly(
           "indices",
           [](const py::object& self) { return view_of_vector(self.cast<const C&>().found.indices, self); },
-          "int32: point numbers of all clusters in turn, ascending in each.")
+          "int32: point indices of all clusters, one cluster after the other, ascending within a cluster.")
       .def_property_readonly(
           "offsets",
           [](const py::object& self) { return view_of_vector(self.cast<const C&>().found.offsets, self); },
-          "Where each cluster begins in indices; one more than there are clusters.")
+          "The position in indices where each cluster begins, and the length of indices as last element.")
       .def_property_readonly(
           "classes",
           [](const py::object& self) { return view_of_vector(self.cast<const C&>().class_of, self); },
           "int64: the class of each cluster; empty without classes.")
       .def_property_readonly(
           "small_points", [](const C& c) { return c.found.small_points; },
-          "Points in clusters of fewer than min_size.")
+          "Number of points in clusters of fewer than min_size points.")
       .def_property_readonly(
           "large_points", [](const C& c) { return c.found.large_points; },
-          "Points in clusters of more than max_size.")
+          "Number of points in clusters of more than max_size points.")
       .def_property_readonly(
           "noise_points", [](const C& c) { return c.found.noise_points; },
-          "Points neither core nor near to a core point.")
+          "Number of noise points: neither core points nor within the tolerance of a core point.")
       .def_property_readonly(
           "class_points", [](const C& c) { return c.found.class_points; },
-          "Points of classes that are dropped.")
+          "Number of points of classes that are dropped.")
       .def("__len__", [](const C& c) { return c.found.size(); })
       .def("__getitem__", cluster_at)
       .def("__repr__", repr_of_clusters)
-      .def(py::pickle(
-          [](const C& c) -> py::object { return state_of(c); },
-          [](const py::object& state) { return of_state("Clusters", [&] { return from_state(state); }); }));
+      .def(py::pickle([](const C& c) -> py::object { return state_of(c); },
+                      [](const py::object& state) {
+                        return restore_from_state("Clusters", [&] { return from_state(state); });
+                      }));
   module.def("cluster", find_clusters, "points"_a, "tolerance"_a, py::kw_only(), "min_size"_a = 1,
              "max_size"_a = py::none(), "min_points"_a = 1, "tolerance_per_metre"_a = 0,
              "oversized"_a = "drop", "classes"_a = py::none(), "class_settings"_a = py::none(),
@@ -308,25 +311,25 @@ void bind_ground(py::module_& module) {
   using G = GroundObject;
   py::class_<G>(module, "Ground", ground_class_doc)
       .def_property_readonly(
-          "found", [](const G& g) { return g.split.found; }, "Whether there is a ground.")
+          "found", [](const G& g) { return g.split.found; }, "Whether a ground was found.")
       .def_property_readonly(
           "normal", [](const G& g) { return array_of(g.split.normal); },
-          "Unit, on the upper side of the plane; 0 if there is none.")
+          "Unit normal of the plane, pointing up; zero vector if no ground is found.")
       .def_property_readonly(
           "offset", [](const G& g) { return g.split.offset; },
           "The height of p above the plane is normal . p - offset.")
       .def_property_readonly(
           "ground",
           [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.ground, self); },
-          "int32: numbers of the ground's points.")
+          "int32: indices of the ground's points.")
       .def_property_readonly(
           "rest",
           [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.rest, self); },
-          "int32: numbers of the other finite points.")
+          "int32: indices of the other finite points.")
       .def_property_readonly("mask", mask_of, "(N,) bool: which points are ground.")
       .def(py::pickle([](const G& g) -> py::object { return state_of_ground(g); },
                       [](const py::object& state) {
-                        return of_state("Ground", [&] { return ground_from_state(state); });
+                        return restore_from_state("Ground", [&] { return ground_from_state(state); });
                       }))
       .def("__repr__", [](const G& g) {
         return "Ground(found=" + std::string(g.split.found ? "True" : "False") +

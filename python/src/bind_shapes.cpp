@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A class for each shape: its numbers, named as in files.
+// A class for each shape, whose properties have the same names as in files.
 
 #include "bind.h"
 #include "read_shapes.h"
@@ -20,7 +20,7 @@ ShapeObject<Shape> object_of(Shape shape) {
   return object;
 }
 
-/// The class, with pickling by what its constructor takes: `make` is that constructor.
+/// Defines the class of a shape. Pickling stores the arguments of the constructor; `make` is the constructor.
 template <typename Shape, typename Make>
 py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const char* name, const char* doc,
                                                   Make make) {
@@ -30,9 +30,9 @@ py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const cha
         return py::make_tuple(arguments_of(v.shape()), fit_state(v));
       },
       [make, name](const py::object& state) {
-        return of_state(name, [&] {
-          const py::tuple parts = parts_of_state(state, 2);
-          ShapeObject<Shape> object = object_of(make(parts_of_state(parts[0], arguments_of(Shape()).size())));
+        return restore_from_state(name, [&] {
+          const py::tuple parts = tuple_of_state(state, 2);
+          ShapeObject<Shape> object = object_of(make(tuple_of_state(parts[0], arguments_of(Shape()).size())));
           set_fit_state(parts[1], object);
           return object;
         });
@@ -40,21 +40,22 @@ py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const cha
   return type;
 }
 
-/// A number of the constructor's as a property: `i` is its place in arguments_of().
+/// Defines a property for an argument of the constructor; `i` is its index in arguments_of().
 template <typename Shape, typename Class>
 void property(Class& type, const char* name, std::size_t i, const char* doc) {
   type.def_property_readonly(
       name, [i](const ShapeObject<Shape>& v) { return py::object(arguments_of(v.shape())[i]); }, doc);
 }
 
-/// The shape of an argument that must be of the class itself.
+/// Returns the shape of an argument, which must be of the same class.
 template <typename Shape>
 const Shape& same_shape(py::handle other) {
-  if (!py::isinstance<ShapeObject<Shape>>(other)) refuse_type("other", "a volume of the same class", other);
+  if (!py::isinstance<ShapeObject<Shape>>(other))
+    raise_type_error("other", "a volume of the same class", other);
   return other.cast<const ShapeObject<Shape>&>().shape();
 }
 
-/// Whether points are in both; merge() and extend(), which give new volumes.
+/// Defines overlaps() and merge().
 template <typename Shape, typename Class>
 void bind_merging(Class& type) {
   type.def(
@@ -81,11 +82,11 @@ void bind_extend(Class& type) {
         const py::array_t<double> numbers = doubles(points, "points");
         if (numbers.ndim() == 1 && numbers.size() == 0) return object_of(Shape(v.shape()));
         if (numbers.size() % 3 != 0 || numbers.ndim() > 2 || numbers.shape(numbers.ndim() - 1) != 3)
-          refuse_value("points", "(3,) or (N, 3) numbers are wanted, not " + shown(points));
-        Shape grown = v.shape();
+          raise_value_error("points", "expected (3,) or (N, 3) numbers, got " + repr_text(points));
+        Shape extended = v.shape();
         for (py::ssize_t i = 0; i < numbers.size(); i += 3)
-          grown.extend(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));
-        return object_of(std::move(grown));
+          extended.extend(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));
+        return object_of(std::move(extended));
       },
       "points"_a, py::pos_only(), extend_doc);
 }
@@ -130,9 +131,9 @@ void bind_slabs(py::module_& module) {
              return object_of(make_kdop(directions, min, max));
            }),
            "directions"_a, "min"_a, "max"_a, init_doc(kdop_doc).c_str());
-  property<Kdop>(kdop, "directions", 0, "(n, 3): those of the slabs, not of unit length.");
-  property<Kdop>(kdop, "min", 1, "(n,): the least directions[i] . p of each slab.");
-  property<Kdop>(kdop, "max", 2, "(n,): the greatest.");
+  property<Kdop>(kdop, "directions", 0, "(n, 3): directions of the slabs, not of unit length.");
+  property<Kdop>(kdop, "min", 1, "(n,): the minimum of directions[i] . p in each slab.");
+  property<Kdop>(kdop, "max", 2, "(n,): the maximum of directions[i] . p in each slab.");
   kdop.def(
       "tightened", [](const ShapeObject<Kdop>& v) { return object_of(v.shape().tightened()); },
       tightened_doc);
@@ -147,9 +148,9 @@ void bind_slabs(py::module_& module) {
            "vertices"_a, "faces"_a, "planes"_a, "rank"_a = 3, init_doc(hull_doc).c_str());
   property<Hull>(hull, "vertices", 0, "(V, 3): the extreme points.");
   property<Hull>(hull, "faces", 1,
-                 "(F, 3): vertex numbers, counter-clockwise seen from outside; none if it is flat.");
+                 "(F, 3): vertex indices, counter-clockwise seen from outside; none if the hull is flat.");
   property<Hull>(hull, "planes", 2, "(P, 4): nx, ny, nz, d with n . p <= d for each point p of the hull.");
-  property<Hull>(hull, "rank", 3, "Dimensions that it spans, 0 to 3.");
+  property<Hull>(hull, "rank", 3, "Number of dimensions that the hull spans, 0 to 3.");
 }
 
 void bind_round(py::module_& module) {
@@ -158,7 +159,7 @@ void bind_round(py::module_& module) {
   sphere.def(
       py::init([](py::handle center, py::handle radius) { return object_of(make_sphere(center, radius)); }),
       "center"_a, "radius"_a, init_doc(sphere_doc).c_str());
-  property<Sphere>(sphere, "radius", 1, "-1 if it is empty.");
+  property<Sphere>(sphere, "radius", 1, "-1 if empty.");
   bind_merging<Sphere>(sphere);
   bind_extend<Sphere>(sphere);
 
@@ -169,7 +170,7 @@ void bind_round(py::module_& module) {
                }),
                "center"_a, "axis"_a, "radius"_a, "half_height"_a, init_doc(cylinder_doc).c_str());
   property<Cylinder>(cylinder, "axis", 1, "A unit vector.");
-  property<Cylinder>(cylinder, "radius", 2, "-1 if it is empty.");
+  property<Cylinder>(cylinder, "radius", 2, "-1 if empty.");
   property<Cylinder>(cylinder, "half_height", 3, "Half the length along the axis.");
 
   auto capsule = bind<Capsule>(module, "Capsule", capsule_doc,
@@ -180,7 +181,7 @@ void bind_round(py::module_& module) {
               "a"_a, "b"_a, "radius"_a, init_doc(capsule_doc).c_str());
   property<Capsule>(capsule, "a", 0, "One end of the segment.");
   property<Capsule>(capsule, "b", 1, "Its other end.");
-  property<Capsule>(capsule, "radius", 2, "-1 if it is empty.");
+  property<Capsule>(capsule, "radius", 2, "-1 if empty.");
 
   auto ellipsoid = bind<Ellipsoid>(module, "Ellipsoid", ellipsoid_doc,
                                    [](const py::tuple& a) { return make_ellipsoid(a[0], a[1], a[2]); });

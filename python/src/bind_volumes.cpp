@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What all volumes can be asked.
+// The properties and methods that all volumes have.
 
 #include "bind.h"
 #include "pcl_bv/trees/region_mask.h"
@@ -13,7 +13,7 @@ namespace {
 using namespace py::literals;
 using Self = const VolumeObject&;
 
-/// Whether the argument is one point, and not rows of them.
+/// Whether the argument is a single point instead of rows of points.
 bool is_one_point(py::handle object) {
   if (py::isinstance<py::array>(object)) {
     const auto array = py::reinterpret_borrow<py::array>(object);
@@ -21,13 +21,13 @@ bool is_one_point(py::handle object) {
   }
   return (PyTuple_Check(object.ptr()) || PyList_Check(object.ptr())) && PySequence_Size(object.ptr()) == 3 &&
          PyNumber_Check(py::object(object[py::int_(0)]).ptr()) != 0 &&
-         !py::hasattr(object[py::int_(0)], "__len__");  // as arrays have
+         !py::hasattr(object[py::int_(0)], "__len__");  // an element with a length is a row
 }
 
-/// Three numbers, also such as are not finite.
+/// Three numbers, which may be NaN or infinite.
 Eigen::Vector3d point_of(py::handle object) {
   const py::array_t<double> numbers = doubles(object, "points");
-  if (numbers.size() != 3) refuse_value("points", "three numbers are wanted, not " + shown(object));
+  if (numbers.size() != 3) raise_value_error("points", "expected three numbers, got " + repr_text(object));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
@@ -39,7 +39,7 @@ py::object contains_points(Self self, py::handle points) {
     const py::gil_scoped_release unlocked;
     RegionMask({{self.value, 0}}).mark(array.view, inside);
   }
-  return take(std::move(inside)).attr("view")("bool");
+  return array_from_vector(std::move(inside)).attr("view")("bool");
 }
 
 py::object distances(Self self, py::handle points) {
@@ -53,7 +53,7 @@ py::object distances(Self self, py::handle points) {
       found[i] = distance(self.value, Eigen::Vector3d(p.x, p.y, p.z));
     }
   }
-  return take(std::move(found));
+  return array_from_vector(std::move(found));
 }
 
 py::object ray(Self self, py::handle origin, py::handle direction) {
@@ -62,7 +62,7 @@ py::object ray(Self self, py::handle origin, py::handle direction) {
   return py::make_tuple(found->enter, found->exit);
 }
 
-/// Vertices, and faces as lists of their numbers.
+/// Returns the vertices, and a list with the vertex indices of each face.
 py::tuple mesh_of(Self self) {
   Mesh found;
   {
@@ -88,14 +88,14 @@ py::object fit_number(Self self, Number number) {
 }
 
 constexpr const char* volume_doc =
-    R"(A volume: a closed set of points, in the frame and unit of the points it was fitted to.
+    R"(A volume: a closed set of points, in the frame and unit of the points to which it was fitted.
 
-No call changes one. Two are equal if they are of one class and have the same numbers, whatever fit gave them;
-they have no hash. Pickling keeps every bit. Arrays that they give are copies, and read-only.
+Volumes are immutable. Two volumes are equal if they have the same class and the same parameters, regardless
+of their fits. Volumes have no hash. Pickling preserves every bit. Returned arrays are read-only copies.
 
-Of a fit, and None of volumes made otherwise: method, its name; status, 'ok', 'degenerate' (flat points),
-'no_valid_points' or 'failed', with its reason; used and dropped, numbers of points; fit_rank, how many
-dimensions the points span, 0 to 3.
+Results of the fit (None for a volume that is not the result of a fit): method, its name; status, 'ok',
+'degenerate' (flat points), 'no_valid_points' or 'failed', with its reason; used and dropped, numbers of
+points; fit_rank, number of dimensions that the points span, 0 to 3.
 
 >>> import pcl_bv
 >>> box = pcl_bv.fit([[0., 0, 0], [1, 2, 0], [float('nan'), 0, 0]], 'aabb')
@@ -106,9 +106,10 @@ dimensions the points span, 0 to 3.
 constexpr const char* contains_doc = R"(contains(self, points, /)
 --
 
-Whether points are inside: bool for three numbers, else an array of bool, for arrays as fit() takes them.
+Returns whether points are inside: a bool for three numbers, an array of bool for points as for fit().
 
-Errs only towards True, by the rounding of doubles; False for what is not finite and for an empty volume.
+Conservative: rounding can only give True for a point just outside. False for points that are not finite and
+for an empty volume.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([0, 0, 0], 2).contains([0, 0, 2])
@@ -120,7 +121,7 @@ array([ True, False])
 constexpr const char* distance_doc = R"(distance(self, points, /)
 --
 
-Distance to the volume, in the unit of the points: 0 inside, inf if it is empty, NaN for a NaN.
+Returns the distance to the volume, in the unit of the points: 0 inside, inf if it is empty, NaN for a NaN.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([0, 0, 0], 2).distance([0, 0, 5])
@@ -130,7 +131,7 @@ Distance to the volume, in the unit of the points: 0 inside, inf if it is empty,
 constexpr const char* support_doc = R"(support(self, direction, /)
 --
 
-A point of the volume farthest along a direction of any length. NaN if it is empty.
+Returns a point of the volume farthest along a direction of any length; NaN if the volume is empty.
 
 >>> import pcl_bv
 >>> pcl_bv.Aabb([0, 0, 0], [1, 2, 3]).support([1, -1, 1])
@@ -140,19 +141,20 @@ array([1., 0., 3.])
 constexpr const char* intersect_doc = R"(intersect(self, origin, direction, /)
 --
 
-Where the ray origin + t direction is inside: (enter, exit) with 0 <= enter <= exit, or None.
+Returns the interval of t in which the ray origin + t direction is inside: (enter, exit) with
+0 <= enter <= exit, or None.
 
-Encloses the exact interval. A direction of zero tests the origin.
+The interval encloses the exact interval. A direction of zero tests the origin.
 
 >>> import pcl_bv
 >>> pcl_bv.Aabb([1, -1, -1], [2, 1, 1]).intersect([0, 0, 0], [0, 1, 0]) is None
 True
 )";
 
-constexpr const char* verb_aabb_doc = R"(aabb(self, /)
+constexpr const char* method_aabb_doc = R"(aabb(self, /)
 --
 
-An axis-aligned box around the volume, by exact arithmetic.
+Returns an axis-aligned box that contains the volume, by exact arithmetic.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([0, 0, 0], 2).aabb()
@@ -162,7 +164,7 @@ Aabb(min=[-2, -2, -2], max=[2, 2, 2])
 constexpr const char* mesh_doc = R"(mesh(self, /)
 --
 
-Its surface for drawing: vertices (V, 3), and a list of arrays of vertex numbers, one for each face.
+Returns the surface as a mesh: vertices (V, 3), and for each face an array of vertex indices.
 
 Faces are convex and counter-clockwise seen from outside; a flat volume may have none.
 
@@ -175,9 +177,10 @@ Faces are convex and counter-clockwise seen from outside; a flat volume may have
 constexpr const char* transformed_doc = R"(transformed(self, matrix, /)
 --
 
-The moved volume, as far as its class can hold it: the image of each point is inside, by exact arithmetic.
+Returns the transformed volume, of the same class. It contains the transformed points of the volume, by exact
+arithmetic; an Aabb or Kdop is enlarged if necessary.
 
-matrix: 4 x 4, a rotation (orthonormal to 1e-6) and a shift; ValueError for others.
+matrix: a 4 x 4 rigid transform: a rotation (orthonormal to 1e-6) and a translation; ValueError for others.
 
 >>> import numpy, pcl_bv
 >>> moved = numpy.eye(4)
@@ -194,31 +197,31 @@ void bind_volumes(py::module_& module) {
           "shape", [](Self v) { return std::string(shape_name(v.value)); },
           "Its name in files: 'aabb', 'hull', ...")
       .def_property_readonly(
-          "empty", [](Self v) { return empty(v.value); }, "Whether it holds no point.")
+          "empty", [](Self v) { return empty(v.value); }, "Whether it contains no point.")
       .def_property_readonly(
           "volume", [](Self v) { return volume(v.value); }, "In cubed units; 0 if empty or flat.")
       .def_property_readonly(
           "surface_area", [](Self v) { return surface_area(v.value); },
-          "In squared units; both sides of flat ones count.")
+          "In squared units; both sides of flat volumes are counted.")
       .def_property_readonly(
           "center", [](Self v) { return array_of(center(v.value)); },
-          "The centre of mass, of capsules the middle. NaN if empty.")
+          "The centre of mass; of a capsule its midpoint. NaN if empty.")
       .def_property_readonly(
           "method", [](Self v) { return fit_text(v, v.method == nullptr ? "" : v.method->name); },
-          "The name of the method that it was fitted by.")
+          "The name of the method of the fit.")
       .def_property_readonly(
           "status", [](Self v) { return fit_text(v, status_name(v.fit.status)); },
           "'ok', 'degenerate', 'no_valid_points' or 'failed'.")
       .def_property_readonly(
           "reason", [](Self v) { return fit_text(v, v.fit.reason); }, "Why the fit failed.")
       .def_property_readonly(
-          "used", [](Self v) { return fit_number(v, v.fit.used); }, "Points enclosed.")
+          "used", [](Self v) { return fit_number(v, v.fit.used); }, "Number of enclosed points.")
       .def_property_readonly(
           "dropped", [](Self v) { return fit_number(v, v.fit.dropped); },
-          "Points with a coordinate that is not finite (of float64: or beyond 1e100).")
+          "Number of points with a coordinate that is not finite (float64: or beyond 1e100).")
       .def_property_readonly(
           "fit_rank", [](Self v) { return fit_number(v, v.fit.rank); },
-          "How many dimensions the points span, to 2^-36 of their extent.")
+          "Number of dimensions that the points span, with a tolerance of 2^-36 of their extent.")
       .def("contains", contains_points, "points"_a, py::pos_only(), contains_doc)
       .def("distance", distances, "points"_a, py::pos_only(), distance_doc)
       .def(
@@ -227,7 +230,7 @@ void bind_volumes(py::module_& module) {
           "direction"_a, py::pos_only(), support_doc)
       .def("intersect", ray, "origin"_a, "direction"_a, py::pos_only(), intersect_doc)
       .def(
-          "aabb", [](Self v) { return to_python(aabb(v.value)); }, verb_aabb_doc)
+          "aabb", [](Self v) { return to_python(aabb(v.value)); }, method_aabb_doc)
       .def("mesh", mesh_of, mesh_doc)
       .def(
           "transformed",

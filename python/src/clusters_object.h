@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The data of Python's Clusters and Ground.
 #pragma once
 
 #include "pcl_bv/segmentation/euclidean_clusters.h"
@@ -9,15 +10,16 @@
 
 namespace pcl_bv::python {
 
-/// Clusters as Python holds them.
+/// The data of Python's Clusters.
 struct ClustersObject {
   Clusters found;
   std::size_t points = 0;
   std::vector<std::int64_t> class_of{};  ///< Empty without classes.
-  std::vector<std::int32_t> labels{};  ///< Of all points; -1: none. Of a state: made when they are asked for.
+  std::vector<std::int32_t> labels{};    ///< Of all points; -1: none. Empty after unpickling.
 
-  /// With the GIL held. A state of some bytes may claim 2^31 points: whoever asks for their labels gets them.
-  const std::vector<std::int32_t>& labelled() {
+  /// Returns the labels. Computes them first after unpickling: unpickling itself does not, because a pickle
+  /// of a few bytes may claim 2^31 points. Needs the GIL.
+  const std::vector<std::int32_t>& computed_labels() {
     if (labels.size() != points) label_points();
     return labels;
   }
@@ -31,7 +33,7 @@ struct ClustersObject {
   }
 };
 
-/// Which points are ground, and the plane near the sensor.
+/// The data of Python's Ground: the ground's points, and the plane near the sensor.
 struct GroundObject {
   GroundSplit split;
   std::size_t points = 0;

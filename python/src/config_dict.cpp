@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Dicts become YAML's text, so that the reader of configuration files judges both.
+// Converts dicts to YAML, so that the parser of configuration files checks both.
 
 #include "config_dict.h"
 
 #include "arguments.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
 namespace {
 
-constexpr const char* the_name = "Pipeline";
+constexpr const char* kConfigName = "Pipeline";
 
 std::string quoted(const std::string& text) {
   std::string yaml = "\"";
@@ -29,36 +29,37 @@ std::string quoted(const std::string& text) {
   return yaml + '"';
 }
 
-constexpr int max_depth = 16;                // settings nest 4 deep; what holds itself has no end
-constexpr std::size_t max_values = 100'000;  // and what holds itself twice has 2^16 values
+constexpr int max_depth = 16;                // settings nest 4 deep; a list that contains itself never ends
+constexpr std::size_t max_values = 100'000;  // 16 nested lists that each hold the next twice: 2^16 values
 
-struct Walk {
+/// Counters of yaml_of(), for the limits above.
+struct YamlCounters {
   int depth = 0;
   std::size_t values = 0;
 };
 
-std::string yaml_of(py::handle value, const std::string& key, Walk& walk);
+std::string yaml_of(py::handle value, const std::string& key, YamlCounters& counters);
 
 template <typename Sequence>
-std::string yaml_list(const Sequence& list, const std::string& key, Walk& walk) {
+std::string yaml_list(const Sequence& list, const std::string& key, YamlCounters& counters) {
   std::string yaml;
   for (const py::handle element : list)
-    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key, walk));
+    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key, counters));
   return '[' + yaml + ']';
 }
 
-std::string yaml_map(const py::dict& map, const std::string& prefix, Walk& walk) {
+std::string yaml_map(const py::dict& map, const std::string& prefix, YamlCounters& counters) {
   std::string yaml;
   for (const auto& [name, value] : map) {
-    if (!PyUnicode_Check(name.ptr())) refuse_type(the_name, "a key, a text,", name);
+    if (!PyUnicode_Check(name.ptr())) raise_type_error(kConfigName, "a text as key", name);
     const auto key = name.cast<std::string>();
     yaml.append(yaml.empty() ? "" : ", ").append(quoted(key)).append(": ");
-    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, walk);
+    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, counters);
   }
   return '{' + yaml + '}';
 }
 
-std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
+std::string yaml_of_any(py::handle value, const std::string& key, YamlCounters& counters) {
   if (value.is_none()) return "null";
   if (PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "true" : "false";
   if (PyUnicode_Check(value.ptr())) return quoted(value.cast<std::string>());
@@ -69,26 +70,30 @@ std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
            : text == "nan"                 ? ".nan"
                                            : text;
   }
-  if (py::isinstance<py::dict>(value)) return yaml_map(py::reinterpret_borrow<py::dict>(value), key, walk);
-  if (py::isinstance<py::list>(value)) return yaml_list(py::reinterpret_borrow<py::list>(value), key, walk);
-  if (py::isinstance<py::tuple>(value)) return yaml_list(py::reinterpret_borrow<py::tuple>(value), key, walk);
+  if (py::isinstance<py::dict>(value))
+    return yaml_map(py::reinterpret_borrow<py::dict>(value), key, counters);
+  if (py::isinstance<py::list>(value))
+    return yaml_list(py::reinterpret_borrow<py::list>(value), key, counters);
+  if (py::isinstance<py::tuple>(value))
+    return yaml_list(py::reinterpret_borrow<py::tuple>(value), key, counters);
   if (py::hasattr(value, "tolist"))
-    return yaml_of(value.attr("tolist")(), key, walk);  // numpy's arrays and numbers
+    return yaml_of(value.attr("tolist")(), key, counters);  // numpy arrays and scalars
   if (py::hasattr(value, "__fspath__")) return quoted(path(value, key.c_str()).string());
-  refuse_type(key.c_str(), "a number, a text, a list or a dict", value);
+  raise_type_error(key.c_str(), "a number, a text, a list or a dict", value);
 }
 
-std::string yaml_of(py::handle value, const std::string& key, Walk& walk) {
-  if (++walk.depth > max_depth)
-    refuse_value(key.c_str(), "nested more than " + std::to_string(max_depth) + " deep");
-  if (++walk.values > max_values)
-    refuse_value(key.c_str(), "more than " + std::to_string(max_values) + " values");
-  std::string yaml = yaml_of_any(value, key, walk);
-  --walk.depth;
+std::string yaml_of(py::handle value, const std::string& key, YamlCounters& counters) {
+  if (++counters.depth > max_depth)
+    raise_value_error(key.c_str(), "nested more than " + std::to_string(max_depth) + " deep");
+  if (++counters.values > max_values)
+    raise_value_error(key.c_str(), "more than " + std::to_string(max_values) + " values");
+  std::string yaml = yaml_of_any(value, key, counters);
+  --counters.depth;
   return yaml;
 }
 
-/// Regions by volumes, which no file can say: taken out of the settings, and a name left in their place.
+/// Regions that are given by volumes, which YAML cannot express. The constructor removes the volumes from the
+/// settings and leaves a file name in their place; put_into() adds them to the parsed configuration.
 class RegionVolumes {
  public:
   explicit RegionVolumes(const py::dict& settings) : settings_(settings) {
@@ -100,9 +105,10 @@ class RegionVolumes {
       volumes_.emplace_back();
       if (py::isinstance<py::dict>(each) && each.contains("volumes")) {
         py::dict region = each.attr("copy")();
-        for (const NumberedVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
+        for (const LabelledVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
           volumes_.back().push_back(one.volume->value);
-        if (volumes_.back().empty()) refuse_value("filter.regions", "a region with an empty list of volumes");
+        if (volumes_.back().empty())
+          raise_value_error("filter.regions", "a region must have at least one volume");
         region["file"] = "volumes";
         regions.append(region);
       } else {
@@ -126,23 +132,24 @@ class RegionVolumes {
 
  private:
   py::dict settings_;
-  std::vector<std::vector<AnyVolume>> volumes_;  // of each region in turn; none: it has a file
+  std::vector<std::vector<AnyVolume>> volumes_;  // of each region; empty: the region has a file
 };
 
-/// Without "Pipeline: line 1: ", which means nothing to who gave a dict.
+/// Parses a dict. Removes "Pipeline: line 1: " from error messages, because a dict has no lines.
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
     RegionVolumes regions(settings);
-    Walk walk;
-    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), "", walk), the_name, defaults);
+    YamlCounters counters;
+    StreamConfig config =
+        parse_stream_config(yaml_map(regions.settings(), "", counters), kConfigName, defaults);
     regions.put_into(config.pipeline.filter.regions);
     return config;
   } catch (const ConfigError& error) {
-    std::string said = error.what();
-    for (const std::string& prefix : {std::string(the_name) + ": ", std::string("line 1: ")}) {
-      if (said.rfind(prefix, 0) == 0) said.erase(0, prefix.size());
+    std::string text = error.what();
+    for (const std::string& prefix : {std::string(kConfigName) + ": ", std::string("line 1: ")}) {
+      if (text.rfind(prefix, 0) == 0) text.erase(0, prefix.size());
     }
-    throw py::value_error(said);
+    throw py::value_error(text);
   }
 }
 
@@ -151,14 +158,15 @@ StreamConfig read_config(py::handle config, const StreamConfig& defaults) {
   if (py::isinstance<py::dict>(config)) return read_dict(py::reinterpret_borrow<py::dict>(config), defaults);
   if (PyUnicode_Check(config.ptr())) {
     const auto text = config.cast<std::string>();
-    if (text.find_first_of("\n:{") != std::string::npos) return parse_stream_config(text, the_name, defaults);
+    if (text.find_first_of("\n:{") != std::string::npos)
+      return parse_stream_config(text, kConfigName, defaults);
   } else if (!py::hasattr(config, "__fspath__")) {
-    refuse_type("config", "a dict, YAML or a path", config);
+    raise_type_error("config", "a dict, YAML or a path", config);
   }
   return read_stream_config(path(config, "config"), defaults);
 }
 
-// A value as Python has it, such that read_dict() takes it back.
+// Converts a setting's value to a Python object that read_dict() accepts.
 py::object python_value(bool value) {
   return py::bool_(value);
 }
@@ -196,35 +204,35 @@ py::object python_value(const std::optional<T>& value) {
 py::object python_value(const std::vector<RegionConfig>& regions) {
   py::list list;
   for (const RegionConfig& region : regions) {
-    py::dict said;
+    py::dict entry;
     if (region.volumes.empty()) {
-      said["file"] = region.file.string();
+      entry["file"] = region.file.string();
     } else {
       py::list volumes;
       for (const AnyVolume& volume : region.volumes)
         volumes.append(to_python(AnyVolume(volume)));
-      said["volumes"] = volumes;
+      entry["volumes"] = volumes;
     }
-    said["keep"] = region.keep;
-    said["padding"] = region.padding;
-    list.append(said);
+    entry["keep"] = region.keep;
+    entry["padding"] = region.padding;
+    list.append(entry);
   }
   return list;
 }
 py::object python_value(const std::vector<ClassConfig>& classes) {
   py::list list;
   for (const ClassConfig& own : classes) {
-    py::dict said;
-    const auto say = [&](const char* key, const auto& value) {
-      if (value) said[key] = python_value(*value);
+    py::dict entry;
+    const auto add = [&](const char* key, const auto& value) {
+      if (value) entry[key] = python_value(*value);
     };
-    said["value"] = own.value;
-    said["drop"] = own.drop;
-    say("tolerance", own.tolerance);
-    say("min_size", own.min_size);
-    say("max_size", own.max_size);
-    if (!own.volumes.empty()) said["volumes"] = python_value(own.volumes);
-    list.append(said);
+    entry["value"] = own.value;
+    entry["drop"] = own.drop;
+    add("tolerance", own.tolerance);
+    add("min_size", own.min_size);
+    add("max_size", own.max_size);
+    if (!own.volumes.empty()) entry["volumes"] = python_value(own.volumes);
+    list.append(entry);
   }
   return list;
 }
@@ -238,8 +246,8 @@ std::string range_text(const Setting& setting, const T& /*value*/) {
   constexpr bool real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
   if constexpr (real || std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>) {
     const NumberRange& range = setting.range;
-    return (range.closed ? ", >= " : ", > ") + to_text(range.least) +
-           (range.most < kFinite ? ", <= " + to_text(range.most) : "");
+    return (range.closed ? ", >= " : ", > ") + to_text(range.min) +
+           (range.max < kFinite ? ", <= " + to_text(range.max) : "");
   }
   return "";
 }
@@ -252,7 +260,7 @@ PipelineConfig config_of(py::handle config, py::handle preset, const py::dict& s
     try {
       apply_preset(text(preset, "preset"), defaults.pipeline);
     } catch (const std::invalid_argument& error) {
-      refuse_value("preset", error.what());
+      raise_value_error("preset", error.what());
     }
   }
   return read_dict(settings, read_config(config, defaults)).pipeline;
@@ -278,11 +286,12 @@ std::string settings_text() {
   std::string text;
   const PipelineConfig defaults;
   visit_pipeline(defaults, [&](const Setting& setting, const auto& value) {
-    std::string said = to_text(value);
-    if (said == "null" || said.empty()) said = setting.unset.empty() ? "none" : std::string(setting.unset);
-    text.append("    ").append(setting.key).append(" = ").append(said);
+    std::string default_text = to_text(value);
+    if (default_text == "null" || default_text.empty())
+      default_text = setting.unset.empty() ? "none" : std::string(setting.unset);
+    text.append("    ").append(setting.key).append(" = ").append(default_text);
     if (!setting.unit.empty()) text.append(" [").append(setting.unit).append("]");
-    text.append(range_text(setting, value)).append("\n        ").append(setting.about).append("\n");
+    text.append(range_text(setting, value)).append("\n        ").append(setting.help).append("\n");
   });
   return text;
 }

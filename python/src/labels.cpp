@@ -10,18 +10,19 @@
 namespace pcl_bv::python {
 namespace {
 
-/// Stable. Labels that are not much greater than there are points, as those of clusters, are counted: O(n).
+/// Sorts point indices by label, stably. Counting sort in O(n) if all labels are less than the number of
+/// points, as those of clusters are; otherwise O(n log n).
 void sort_by_label(const std::vector<std::int64_t>& of, std::vector<std::int32_t>& numbers) {
   const auto label_of = [&](std::int32_t i) { return of[static_cast<std::size_t>(i)]; };
-  std::int64_t greatest = -1;
+  std::int64_t max_label = -1;
   for (const std::int32_t i : numbers)
-    greatest = std::max(greatest, label_of(i));
-  if (greatest >= static_cast<std::int64_t>(of.size())) {
+    max_label = std::max(max_label, label_of(i));
+  if (max_label >= static_cast<std::int64_t>(of.size())) {
     std::stable_sort(numbers.begin(), numbers.end(),
                      [&](std::int32_t a, std::int32_t b) { return label_of(a) < label_of(b); });
     return;
   }
-  std::vector<std::size_t> next(static_cast<std::size_t>(greatest + 2));
+  std::vector<std::size_t> next(static_cast<std::size_t>(max_label + 2));
   for (const std::int32_t i : numbers)
     ++next[static_cast<std::size_t>(label_of(i)) + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
@@ -44,7 +45,7 @@ LabelGroups::LabelGroups(py::handle labels, const PointView& points) {
       label = static_cast<std::int32_t>(label);
   }
   if (points.count > std::numeric_limits<std::int32_t>::max())
-    refuse_value("labels", "more than 2147483647 points cannot be told apart");
+    raise_value_error("labels", "at most 2147483647 points can be labelled");
   const py::gil_scoped_release unlocked;
   numbers_.reserve(of.size());
   for (std::size_t i = 0; i < of.size(); ++i) {

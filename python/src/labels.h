@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points told apart by labels, as views.
+// Groups points by label.
 #pragma once
 
 #include "arguments.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::python {
 
+/// One view for each label, of the points with this label.
 class LabelGroups {
  public:
-  /// `labels`: an integer for each point, or Clusters. Negative ones are no label, nor are those of uint32
-  /// that are such as int32: what pcd_bv's labels call ground and none.
+  /// `labels`: an integer for each point, or an object with the attribute `labels` such as Clusters. Points
+  /// with a negative label are in no group. Labels of type uint32 are converted to int32 first, so that
+  /// pcd_bv's labels for ground and none are negative.
   LabelGroups(py::handle labels, const PointView& points);
 
   std::size_t size() const { return views_.size(); }
@@ -21,7 +23,7 @@ class LabelGroups {
 
  private:
   std::vector<std::int64_t> labels_;
-  std::vector<std::int32_t> numbers_;  // of the points, label by label
+  std::vector<std::int32_t> numbers_;  // point indices, sorted by label
   std::vector<PointView> views_;
 };
 

@@ -3,10 +3,10 @@
 
 #include "bind.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/points/isa.h"
 
 namespace pcl_bv::python {
 namespace {

@@ -14,7 +14,8 @@ PictureSize picture_size(py::handle view, py::handle width, py::handle height) {
       {"iso", ViewFrom::iso}, {"top", ViewFrom::top}, {"front", ViewFrom::front}, {"side", ViewFrom::side}};
   const auto found = std::find_if(std::begin(names), std::end(names),
                                   [&](const auto& known) { return known.first == name; });
-  if (found == std::end(names)) refuse_value("view", "'" + name + "' is not one of iso, top, front, side");
+  if (found == std::end(names))
+    raise_value_error("view", "'" + name + "' is not one of iso, top, front, side");
   const auto pixels = [](py::handle value, const char* side) {
     return static_cast<int>(whole_number(value, side, {16, 16384}));
   };
@@ -35,15 +36,15 @@ std::string PictureObject::svg() const {
   return picture_svg(picture);
 }
 
-std::string page_of_result(const ResultObject& object, std::size_t most_points) {
+std::string page_of_result(const ResultObject& object, std::size_t max_points) {
   const py::gil_scoped_release unlocked;
   const Frame frame = object.frame();
   Report report;
   report.file = frame.header.frame_id.empty() ? "cloud" : frame.header.frame_id;
   report.points = object.result.points;
   report.counts = object.result.counts;
-  report.clusters = entries_of(object.result);
-  return view_html(frame, object.result, report, labels_of(frame, object.result), most_points);
+  report.clusters = cluster_entries(object.result);
+  return view_html(frame, object.result, report, labels_of(frame, object.result), max_points);
 }
 
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The data of Python's Picture.
 #pragma once
 
 #include "arrays.h"
@@ -14,19 +15,19 @@ struct PictureSize {
 };
 PictureSize picture_size(py::handle view, py::handle width, py::handle height);
 
-/// A picture, and what it is of.
+/// A picture and the owners of the points, labels and volumes that it shows.
 struct PictureObject {
-  std::shared_ptr<const ResultObject> result{};  ///< Or points of its own:
-  PointArray points{};
+  std::shared_ptr<const ResultObject> result{};  ///< The result that the picture shows, or null.
+  PointArray points{};                           ///< The points, if there is no result.
   std::vector<std::uint32_t> labels{};
-  Picture picture{};  ///< Looks at the above.
+  Picture picture{};  ///< Refers to the members above.
 
   py::bytes png() const;
   std::string svg() const;
 };
 
-/// The page of the live view with a result, as HTML.
-std::string page_of_result(const ResultObject& result, std::size_t most_points);
+/// Returns the live view's page with a result, as HTML.
+std::string page_of_result(const ResultObject& result, std::size_t max_points);
 
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size);
 

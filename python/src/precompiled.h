@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What all sources of the extension read first: pybind11 alone takes 3 s to parse.
+// The precompiled header of the extension: parsing pybind11 alone takes 3 s.
 #pragma once
 
 #include <pybind11/numpy.h>

@@ -26,7 +26,7 @@ py::dtype type_of(const RawCloud& cloud) {
   return py::dtype(names, formats, offsets, static_cast<py::ssize_t>(cloud.point_step));
 }
 
-/// The letter of a field's numbers, or 0 for those that a .pcd cannot hold.
+/// Returns the TYPE letter of a .pcd file for a field's numbers, or 0 for types that a .pcd file cannot hold.
 char letter_of(const py::dtype& type) {
   switch (type.kind()) {
     case 'f':
@@ -41,7 +41,7 @@ char letter_of(const py::dtype& type) {
   }
 }
 
-/// A field of the cloud from one of the records, element by element.
+/// Converts a field of the records to a field of the cloud.
 PointField point_field_of(const std::string& name, const py::dtype& type) {
   const py::object shape = type.attr("shape");
   const py::dtype element = py::dtype::from_args(type.attr("base"));
@@ -56,7 +56,7 @@ PointField point_field_of(const std::string& name, const py::dtype& type) {
   return field;
 }
 
-/// All fields, packed, in this machine's byte order.
+/// Returns a cloud with all fields of the records, packed, in little-endian byte order.
 RawCloud cloud_of_records(const py::array& records) {
   const py::array flat = records.attr("reshape")(-1);
   RawCloud cloud;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Docstrings of the functions and classes for reading.
 #pragma once
 
 namespace pcl_bv::python {
@@ -8,16 +9,16 @@ namespace pcl_bv::python {
 inline constexpr const char* read_doc = R"(read(path, *, topic=None, number=0, bin_fields=0, threads=1)
 --
 
-Reads a cloud: an array of records with all fields of the file, (height, width) of organised ones.
+Reads a cloud: an array of records with all fields of the file; shape (height, width) for organised clouds.
 
-path: .pcd, .ply, .las, .bin (KITTI, nuScenes), or 'synth:NAME[:POINTS[:SEED]]'; of a recording (.mcap, .db3,
-    .bag, .pcap) the cloud of this number. Recordings are quicker read by frames().
-topic: of a recording; None: the only one with clouds.
-bin_fields: float32 of each point of a .bin, 3 to 32; 0: what the name says, 5 of .pcd.bin, else 4.
+path: .pcd, .ply, .las, .bin (KITTI, nuScenes), 'synth:NAME[:POINTS[:SEED]]', or a recording (.mcap, .db3,
+    .bag, .pcap), of which cloud `number` is read. frames() reads a whole recording faster.
+topic: the topic of a recording; None: the only topic with clouds.
+bin_fields: number of float32 per point of a .bin, 3 to 32; 0: from the name: 5 for .pcd.bin, otherwise 4.
 
-What was noticed and not refused, such as points after the last one, a VIEWPOINT, which is not applied, or
-damage in a recording, is a UserWarning.
-Raises FileNotFoundError, OSError for what cannot be read, ValueError for a topic that is not there.
+Issues a UserWarning for data that is ignored or damaged: points after the last one, a VIEWPOINT (not
+applied), damage in a recording. Raises FileNotFoundError, OSError for a file that cannot be read, ValueError
+for a topic that the recording does not have.
 
 >>> import pcl_bv
 >>> cloud = pcl_bv.read('synth:street:1000:1')
@@ -29,18 +30,19 @@ inline constexpr const char* frames_doc =
     R"(frames(source, *, topic=None, rate=None, poses=None, class_field=None, frame_id=None, stamps='auto', bin_fields=0)
 --
 
-The frames of a source, one after another, as what Pipeline.process() takes: an iterator over Frame.
+Returns an iterator over the Frames of a source, for Pipeline.process().
 
 source: a folder of clouds or a file, a recording (.mcap, .db3 or its folder, .bag, .pcap), 'dds:TOPIC', or
     'synth:street-sequence[:FRAMES[:SEED]]'.
-rate: in Hz; None: of recordings their own stamps, else 10. No frame waits for its time.
-poses: a file of the sensor's poses, KITTI's or TUM's.
+rate: frame rate in Hz; None: the stamps of a recording, 10 Hz for other sources. Frames are not delayed to
+    this rate.
+poses: a file of the sensor's poses, in KITTI's or TUM's format.
 class_field: an integer field of the clouds, for Frame.classes.
-stamps: 'rate', 'name' (of files' names, or of messages) or 'auto'.
+stamps: 'rate', 'name' (times in file names, or stamps of messages) or 'auto'.
 
-What was noticed about a file and not refused is a UserWarning, as of read().
+Issues UserWarnings as read() does.
 
-Raises FileNotFoundError, OSError for what cannot be read, also of one frame: the next may be fine.
+Raises FileNotFoundError, OSError for a source or frame that cannot be read. The next frame may be valid.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True})
@@ -51,7 +53,7 @@ Raises FileNotFoundError, OSError for what cannot be read, also of one frame: th
 )";
 
 inline constexpr const char* frame_doc =
-    R"(A cloud of a source, with its stamp; points are in its own memory, which lives as long as arrays of it.
+    R"(A cloud of a source, with its stamp. Its memory lives as long as arrays of its points.
 
 >>> import pcl_bv
 >>> next(pcl_bv.frames('synth:street-sequence:1')).points.shape[1]
@@ -59,7 +61,7 @@ inline constexpr const char* frame_doc =
 )";
 
 inline constexpr const char* frames_class_doc =
-    R"(What frames() gives: an iterator. Threads may share it: each frame goes to one of them.
+    R"(The iterator that frames() returns. Threads may share it: each frame is given to one thread.
 
 >>> import pcl_bv
 >>> len(list(pcl_bv.frames('synth:street-sequence:2')))
@@ -69,10 +71,11 @@ inline constexpr const char* frames_class_doc =
 inline constexpr const char* read_volumes_doc = R"(read_volumes(path)
 --
 
-All volumes of a JSON file that pcd_bv, bv_stream or write() made, or of one by hand, bit by bit as they were.
+Reads all volumes of a JSON file written by pcd_bv, bv_stream, write() or by hand. Every number is restored
+exactly.
 
-Volumes with "empty": true are left out. Raises FileNotFoundError; OSError for a file that is no such file, naming the
-first entry that cannot be read ('clusters[0].volumes[2]').
+Volumes with "empty": true are skipped. Raises FileNotFoundError; OSError for a file with other content, with
+the first entry that cannot be read ('clusters[0].volumes[2]').
 
 >>> import os, pcl_bv, tempfile
 >>> folder = tempfile.TemporaryDirectory()

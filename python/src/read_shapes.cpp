@@ -15,18 +15,19 @@ double real(py::handle value, const char* name) {
   return number(value, name, any_number);
 }
 
-/// Numbers that may be NaN or infinite, as those of empty volumes are: the constructors judge them.
+/// Three numbers, which may be NaN or infinite as those of empty volumes: the shapes' constructors check
+/// them.
 Eigen::Vector3d three_numbers(py::handle value, const char* name) {
   const py::array_t<double> numbers = doubles(value, name);
-  if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
+  if (numbers.size() != 3) raise_value_error(name, "expected three numbers, got " + repr_text(value));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
-/// (n, columns) numbers; nothing for an empty list.
+/// Numbers of the shape (n, columns). An empty list is also allowed.
 py::array_t<double> table(py::handle value, const char* name, py::ssize_t columns) {
   py::array_t<double> numbers = doubles(value, name);
   if (numbers.size() > 0 && (numbers.ndim() != 2 || numbers.shape(1) != columns))
-    refuse_value(name, "(n, " + std::to_string(columns) + ") numbers are wanted, not " + shown(value));
+    raise_value_error(name, "expected (n, " + std::to_string(columns) + ") numbers, got " + repr_text(value));
   return numbers;
 }
 
@@ -38,10 +39,10 @@ std::vector<Eigen::Vector3d> vectors(py::handle value, const char* name) {
   return list;
 }
 
-/// Rows are axes, columns are what Eigen's side has.
+/// The axes are the rows of the argument and the columns of the returned matrix.
 Eigen::Matrix3d axes(py::handle value) {
   const std::vector<Eigen::Vector3d> rows = vectors(value, "axes");
-  if (rows.size() != 3) refuse_value("axes", "(3, 3) numbers are wanted, not " + shown(value));
+  if (rows.size() != 3) raise_value_error("axes", "expected (3, 3) numbers, got " + repr_text(value));
   Eigen::Matrix3d m;
   m << rows[0], rows[1], rows[2];
   return m;
@@ -49,11 +50,12 @@ Eigen::Matrix3d axes(py::handle value) {
 
 SlabVector slabs(py::handle value, const char* name) {
   const py::array_t<double> numbers = doubles(value, name);
-  if (numbers.size() > static_cast<py::ssize_t>(KdopSet::max_size)) refuse_value(name, "more than 49 slabs");
+  if (numbers.size() > static_cast<py::ssize_t>(KdopSet::max_size))
+    raise_value_error(name, "more than 49 slabs");
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
 }
 
-/// The built-in one of these directions, if there is one.
+/// Returns the built-in set if one has these directions, otherwise a new set.
 std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
   auto own = std::make_shared<const KdopSet>(std::move(directions));
   for (const DirectionSet set :
@@ -94,7 +96,7 @@ Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::han
     Hull::Triangle& triangle = triangles.emplace_back();
     std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(), [](double number) {
       const bool whole = number >= 0 && number <= 2147483647.0 && number == std::floor(number);
-      return whole ? static_cast<std::int32_t>(number) : -1;  // which is no vertex either
+      return whole ? static_cast<std::int32_t>(number) : -1;  // not a vertex: the constructor throws
     });
   }
   std::vector<HullPlane> half_spaces;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes from the arguments of their constructors, and what these are documented to be.
+// Functions that construct volumes from Python arguments, and the docstrings of the volumes' classes.
 #pragma once
 
 #include "precompiled.h"
@@ -22,7 +22,7 @@ Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::han
 inline constexpr const char* aabb_doc = R"(Aabb(min, max)
 --
 
-An axis-aligned box: min <= p <= max in each coordinate. Any min above its max: the empty box.
+An axis-aligned box: min <= p <= max in each coordinate. If any min is larger than its max, the box is empty.
 
 >>> import pcl_bv
 >>> box = pcl_bv.Aabb([0, 0, 0], [1, 2, 3])
@@ -33,9 +33,9 @@ An axis-aligned box: min <= p <= max in each coordinate. Any min above its max: 
 inline constexpr const char* obb_doc = R"(Obb(center, axes, half_extents)
 --
 
-An oriented box: |axes[i] . (p - center)| <= half_extents[i]. Axes are orthonormal to 1e-12, else ValueError.
-Of obb-yaw and obb-lshape axes[2] is up and axes[0] the longer horizontal one: 2 * half_extents is length,
-width, height.
+An oriented box: |axes[i] . (p - center)| <= half_extents[i]. Raises ValueError unless the axes are
+orthonormal to 1e-12. In boxes of obb-yaw and obb-lshape, axes[2] is up and axes[0] is the longer horizontal
+axis, so 2 * half_extents is length, width, height.
 
 >>> import numpy, pcl_bv
 >>> pcl_bv.Obb([0, 0, 0], numpy.eye(3), [3, 2, 1]).volume
@@ -45,7 +45,8 @@ width, height.
 inline constexpr const char* kdop_doc = R"(Kdop(directions, min, max)
 --
 
-A k-DOP: min[i] <= directions[i] . p <= max[i] for each of 3 to 49 directions. Any min above its max: empty.
+A k-DOP: min[i] <= directions[i] . p <= max[i] for each of 3 to 49 directions. If any min is larger than its
+max, the k-DOP is empty.
 
 >>> import numpy, pcl_bv
 >>> pcl_bv.Kdop(numpy.eye(3), [0, 0, 0], [1, 1, 1])
@@ -55,7 +56,7 @@ Kdop(k=6, volume=1)
 inline constexpr const char* sphere_doc = R"(Sphere(center, radius)
 --
 
-A solid sphere: |p - center| <= radius. A negative radius: the empty sphere.
+A solid sphere: |p - center| <= radius. If the radius is negative, the sphere is empty.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([1, 2, 3], 4)
@@ -65,7 +66,7 @@ Sphere(center=[1, 2, 3], radius=4)
 inline constexpr const char* cylinder_doc = R"(Cylinder(center, axis, radius, half_height)
 --
 
-A cylinder: at most radius from the axis and half_height from the centre along it. An axis is made unit.
+A cylinder: at most radius from the axis and half_height from the centre along it. The axis is normalised.
 
 >>> import pcl_bv
 >>> pcl_bv.Cylinder([0, 0, 0], [0, 0, 2], 1, 3).axis
@@ -75,7 +76,7 @@ array([0., 0., 1.])
 inline constexpr const char* capsule_doc = R"(Capsule(a, b, radius)
 --
 
-A capsule: at most radius from the segment between a and b. A negative radius: the empty capsule.
+A capsule: at most radius from the segment between a and b. If the radius is negative, the capsule is empty.
 
 >>> import pcl_bv
 >>> pcl_bv.Capsule([0, 0, 0], [0, 0, 2], 1).aabb()
@@ -85,7 +86,8 @@ Aabb(min=[-1, -1, -1], max=[1, 1, 3])
 inline constexpr const char* ellipsoid_doc = R"(Ellipsoid(center, axes, radii)
 --
 
-An ellipsoid: sum over i of ((axes[i] . (p - center)) / radii[i])^2 <= 1; a radius of 0: flat along that axis.
+An ellipsoid: sum over i of ((axes[i] . (p - center)) / radii[i])^2 <= 1. If a radius is 0, the ellipsoid is
+flat along that axis.
 
 >>> import numpy, pcl_bv
 >>> pcl_bv.Ellipsoid([0, 0, 0], numpy.eye(3), [3, 2, 1]).contains([3, 0, 0])
@@ -95,8 +97,8 @@ True
 inline constexpr const char* hull_doc = R"(Hull(vertices, faces, planes, rank=3)
 --
 
-A convex hull: n . p <= d for each plane nx, ny, nz, d. Vertices and faces are what is measured and drawn.
-A fitted hull has the planes of its faces and of its box.
+A convex hull: n . p <= d for each plane nx, ny, nz, d. Its measures and its mesh are those of vertices and
+faces. A fitted hull has the planes of its faces and of its axis-aligned box.
 
 >>> import pcl_bv
 >>> hull = pcl_bv.fit([[0., 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], 'hull')
@@ -107,7 +109,8 @@ A fitted hull has the planes of its faces and of its box.
 inline constexpr const char* overlaps_doc = R"(overlaps(self, other, /)
 --
 
-Whether the two, of one class, have a point in common; errs only towards True. False if either is empty.
+Returns whether two volumes of the same class overlap. Conservative: only True may be wrong. False if either
+is empty.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([0, 0, 0], 1).overlaps(pcl_bv.Sphere([0, 0, 2], 1))
@@ -117,9 +120,10 @@ True
 inline constexpr const char* merge_doc = R"(merge(self, other, /)
 --
 
-A new volume around both, of the same class; the other one, if one is empty. Neither changes.
+Returns a new volume of the same class that contains both. If one volume is empty, returns the other. Neither
+argument changes.
 
-Boxes and k-DOPs are exact, spheres grow by their rounding, oriented boxes are not the smallest there are.
+The result is exact for Aabb and Kdop, larger by rounding errors for Sphere, not the smallest box for Obb.
 
 >>> import pcl_bv
 >>> pcl_bv.Aabb([0, 0, 0], [1, 1, 1]).merge(pcl_bv.Aabb([2, 0, 0], [3, 1, 1]))
@@ -129,7 +133,8 @@ Aabb(min=[0, 0, 0], max=[3, 1, 1])
 inline constexpr const char* extend_doc = R"(extend(self, points, /)
 --
 
-A new volume that holds the points, too: three numbers, or (N, 3). Those that are not finite are ignored.
+Returns a new volume that also contains the points: three numbers, or (N, 3). Points that are not finite are
+ignored.
 
 >>> import pcl_bv
 >>> pcl_bv.Aabb([0, 0, 0], [1, 1, 1]).extend([5, 0, 0])
@@ -139,7 +144,8 @@ Aabb(min=[0, 0, 0], max=[5, 1, 1])
 inline constexpr const char* tightened_doc = R"(tightened(self, /)
 --
 
-The same k-DOP with each slab moved in to where it reaches, as after merging or moving.
+Returns the same k-DOP with each slab tightened to the support values of the volume. Useful after merge() or
+transformed().
 
 >>> import numpy, pcl_bv
 >>> loose = pcl_bv.Kdop([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [0] * 4, [1, 1, 1, 9])

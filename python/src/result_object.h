@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The data of Python's Result and Cluster.
 #pragma once
 
 #include "arrays.h"
@@ -8,7 +9,7 @@
 
 namespace pcl_bv::python {
 
-/// What was found in a frame, and the frame's points, which its picture and its clusters are of.
+/// The result for a frame, and the frame's points, which its pictures and clusters need.
 struct ResultObject {
   FrameResult result;
   PointArray points;
@@ -23,9 +24,9 @@ struct ResultObject {
   }
 };
 
-/// One of the objects that were found. It shares what the result holds.
+/// A cluster of a result, which it keeps alive.
 struct ClusterObject {
-  std::shared_ptr<const ResultObject> of;
+  std::shared_ptr<const ResultObject> owner_result;
   std::size_t id = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The frame's array goes with the result: its picture is of those points.
+// The state includes the frame's points, because a result's picture shows them.
 
 #include "result_state.h"
 
@@ -23,7 +23,7 @@ std::vector<T> vector(const py::object& values) {
 }
 
 py::tuple counts(const Counts& c) {
-  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.of_class);
+  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.dropped_class);
 }
 Counts counts(const py::tuple& t) {
   const auto n = [&](std::size_t i) { return t[i].cast<std::size_t>(); };
@@ -46,7 +46,7 @@ py::object track(const std::optional<TrackEntry>& t) {
 }
 std::optional<TrackEntry> track(py::handle state) {
   if (state.is_none()) return {};
-  const py::tuple t = parts_of_state(state, 6);
+  const py::tuple t = tuple_of_state(state, 6);
   TrackEntry entry{t[0].cast<std::uint32_t>(), t[1].cast<std::size_t>()};
   entry.velocity = vector3(t[2], "velocity");
   entry.moving = t[3].cast<bool>();
@@ -58,12 +58,13 @@ std::optional<TrackEntry> track(py::handle state) {
   return entry;
 }
 
-/// Of those that were wanted an object, which keeps what the fit said; None of the others.
+/// Returns a list with an object for each requested volume, including the result of its fit, and None for the
+/// others.
 py::list volumes(const FrameResult& result) {
   py::list list(result.volumes.size());
   for (std::size_t i = 0; i < result.volumes.size(); ++i) {
     const std::size_t m = i % result.methods.size();
-    if (result.has(i / result.methods.size(), m)) {
+    if (result.is_requested(i / result.methods.size(), m)) {
       list[i] = to_python(AnyVolume(result.volumes[i]), result.methods[m], result.results[i]);
     } else {
       list[i] = py::none();
@@ -72,28 +73,28 @@ py::list volumes(const FrameResult& result) {
   return list;
 }
 
-/// The numbers of a result hang together; those of a state may not.
-void require_sound(const FrameResult& result, std::size_t points) {
+/// Throws if the members of an unpickled result are inconsistent.
+void require_consistent(const FrameResult& result, std::size_t points) {
   const Clusters& c = result.clusters;
   const auto in_cloud = [&](const std::vector<std::int32_t>& list) {
     return std::all_of(list.begin(), list.end(),
                        [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points; });
   };
-  const bool sound = result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
-                     (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
-                     std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
-                     (c.indices.empty() || c.offsets.back() == c.indices.size()) &&
-                     c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.kept) &&
-                     in_cloud(result.ground.ground) && in_cloud(result.ground.rest) &&
-                     (result.tracks.empty() || result.tracks.size() == c.size()) &&
-                     (result.class_of.empty() || result.class_of.size() == c.size()) &&
-                     result.volumes.size() == c.size() * result.methods.size();
-  if (!sound) throw py::value_error("its numbers contradict each other");
+  const bool consistent =
+      result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
+      (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
+      std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
+      (c.indices.empty() || c.offsets.back() == c.indices.size()) && c.offsets.back() <= points &&
+      in_cloud(c.indices) && in_cloud(result.passed_filter) && in_cloud(result.ground.ground) &&
+      in_cloud(result.ground.rest) && (result.tracks.empty() || result.tracks.size() == c.size()) &&
+      (result.class_of.empty() || result.class_of.size() == c.size()) &&
+      result.volumes.size() == c.size() * result.methods.size();
+  if (!consistent) throw py::value_error("the state is inconsistent");
 }
 
 void take_volumes(const py::list& state, FrameResult& result) {
   for (const py::handle each : state) {
-    result.wanted.push_back(each.is_none() ? 0 : 1);
+    result.requested.push_back(each.is_none() ? 0 : 1);
     if (each.is_none()) {
       result.volumes.emplace_back();
       result.results.emplace_back();
@@ -105,9 +106,10 @@ void take_volumes(const py::list& state, FrameResult& result) {
   }
 }
 
-/// What the filter kept, also where the pipeline made no list of it: then all of that is one cluster.
+/// Returns the indices of the points that passed the filter. If the pipeline has made no index list, these
+/// are the points of cluster 0.
 std::vector<std::int32_t> kept(const ResultObject& self) {
-  if (!self.result.filtered) return self.result.kept;
+  if (!self.result.filtered) return self.result.passed_filter;
   const std::vector<std::uint32_t> labels = labels_of(self.frame(), self.result);
   std::vector<std::int32_t> numbers;
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -143,21 +145,21 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
 }
 
 std::shared_ptr<ResultObject> result_of_state(py::handle given) {
-  if (!py::isinstance<py::dict>(given)) throw py::value_error("it is no dict");
+  if (!py::isinstance<py::dict>(given)) throw py::value_error("the state is not a dict");
   const auto state = py::reinterpret_borrow<py::dict>(given);
   auto self = std::make_shared<ResultObject>();
   FrameResult& r = self->result;
   self->points = points_of(state["points"]);
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
-  const py::tuple header = parts_of_state(state["header"], 4), ground = parts_of_state(state["ground"], 5),
-                  clusters = parts_of_state(state["clusters"], 3);
+  const py::tuple header = tuple_of_state(state["header"], 4), ground = tuple_of_state(state["ground"], 5),
+                  clusters = tuple_of_state(state["clusters"], 3);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
               header[3].cast<std::uint64_t>()};
-  if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("its settings are no dict");
+  if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("the settings are not a dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
-  r.counts = counts(parts_of_state(state["counts"], 8));
-  r.kept = vector<std::int32_t>(state["kept"]);
+  r.counts = counts(tuple_of_state(state["counts"], 8));
+  r.passed_filter = vector<std::int32_t>(state["kept"]);
   r.ground.found = ground[0].cast<bool>();
   r.ground.normal = vector3(ground[1], "normal");
   r.ground.offset = ground[2].cast<double>();
@@ -171,8 +173,8 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   for (const py::handle name : py::list(state["methods"]))
     r.methods.push_back(method_of(name));
   take_volumes(state["volumes"], r);
-  r.ms = times(parts_of_state(state["ms"], 7));
-  require_sound(r, self->points.view.count);
+  r.ms = times(tuple_of_state(state["ms"], 7));
+  require_consistent(r, self->points.view.count);
   return self;
 }
 

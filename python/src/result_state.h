@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results as pickle keeps them.
+// Converts results to and from the state that pickle stores.
 #pragma once
 
 #include "result_object.h"

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What pickle gives back comes from outside: it is checked like arguments.
+// Reads unpickled states. They come from outside the program, so they are checked like arguments.
 #pragma once
 
 #include "arguments.h"
 
 namespace pcl_bv::python {
 
-/// What `make` makes of a state. Whatever it finds wrong is a ValueError: "Sphere: a state that is none of
-/// its own".
+/// Returns make(), which constructs an object from a state. Turns any error except MemoryError and
+/// KeyboardInterrupt into a ValueError such as "Sphere: invalid pickled state".
 template <typename Make>
-auto of_state(const std::string& name, const Make& make) {
-  const std::string what = name + ": a state that is none of its own";
+auto restore_from_state(const std::string& name, const Make& make) {
+  const std::string what = name + ": invalid pickled state";
   try {
     return make();
   } catch (const py::error_already_set& error) {
@@ -20,7 +20,7 @@ auto of_state(const std::string& name, const Make& make) {
     throw py::value_error(what);
   } catch (const py::cast_error&) {
     throw py::value_error(what);
-  } catch (const std::runtime_error& error) {  // ours, of settings and of arguments
+  } catch (const std::runtime_error& error) {  // errors in settings or arguments
     throw py::value_error(what + ": " + error.what());
   } catch (const std::length_error&) {
     throw py::value_error(what);
@@ -29,17 +29,18 @@ auto of_state(const std::string& name, const Make& make) {
   }
 }
 
-/// The parts of a tuple. Throws py::value_error where it is none, or has another number of them.
-inline py::tuple parts_of_state(py::handle state, std::size_t count) {
-  if (!py::isinstance<py::tuple>(state)) throw py::value_error("it is no tuple");
+/// Returns the elements of a tuple. Throws py::value_error if `state` is not a tuple of `count` elements.
+inline py::tuple tuple_of_state(py::handle state, std::size_t count) {
+  if (!py::isinstance<py::tuple>(state)) throw py::value_error("the state is not a tuple");
   auto parts = py::reinterpret_borrow<py::tuple>(state);
-  if (parts.size() != count) throw py::value_error("it has not " + std::to_string(count) + " parts");
+  if (parts.size() != count)
+    throw py::value_error("the state does not have " + std::to_string(count) + " parts");
   return parts;
 }
 
-/// A number of points; an array of one number is none.
+/// Returns a number of points. Accepts only a Python int, not an array with one element.
 inline std::size_t points_of_state(py::handle part) {
-  if (PyLong_Check(part.ptr()) == 0) throw py::value_error("its number of points is no whole number");
+  if (PyLong_Check(part.ptr()) == 0) throw py::value_error("the number of points is not an integer");
   return whole_number(part, "points", {0, std::numeric_limits<std::int32_t>::max()});
 }
 

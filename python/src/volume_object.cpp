@@ -11,27 +11,28 @@
 namespace pcl_bv::python {
 namespace {
 
-/// The text, kept for the life of the process: EstimationResult::reason points to one that is never freed.
-std::string_view kept_text(const std::string& text) {
+/// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
+std::string_view interned_text(const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string>* const texts = new std::set<std::string>;
   const std::lock_guard lock(mutex);
   return *texts->insert(text).first;
 }
 
-void append(std::string& said, const char* name, double value) {
+void append(std::string& text, const char* name, double value) {
   char digits[40];
   std::snprintf(digits, sizeof digits, "%.6g", value);
-  said.append(said.empty() ? "" : ", ").append(name).append("=").append(digits);
+  text.append(text.empty() ? "" : ", ").append(name).append("=").append(digits);
 }
 
-void append(std::string& said, const char* name, const Eigen::Vector3d& v) {
+void append(std::string& text, const char* name, const Eigen::Vector3d& v) {
   char digits[100];
   std::snprintf(digits, sizeof digits, "[%.6g, %.6g, %.6g]", v.x(), v.y(), v.z());
-  said.append(said.empty() ? "" : ", ").append(name).append("=").append(digits);
+  text.append(text.empty() ? "" : ", ").append(name).append("=").append(digits);
 }
 
-struct Said {
+/// Appends the parameters of a shape to a repr().
+struct ReprText {
   std::string text{};
 
   void operator()(const Aabb& box) {
@@ -91,12 +92,12 @@ py::object to_python(AnyVolume&& volume, const Method* method, const EstimationR
 }
 
 const VolumeObject& volume_of(py::handle value, const char* name) {
-  if (!py::isinstance<VolumeObject>(value)) refuse_type(name, "a volume", value);
+  if (!py::isinstance<VolumeObject>(value)) raise_type_error(name, "a volume", value);
   return value.cast<const VolumeObject&>();
 }
 
-std::vector<NumberedVolume> volumes_of(py::handle value, const char* name) {
-  std::vector<NumberedVolume> found;
+std::vector<LabelledVolume> volumes_of(py::handle value, const char* name) {
+  std::vector<LabelledVolume> found;
   const auto add = [&](std::int64_t number, py::handle of) {
     if (py::isinstance<py::list>(of) || py::isinstance<py::tuple>(of)) {
       for (const py::handle each : of)
@@ -171,35 +172,35 @@ py::tuple fit_state(const VolumeObject& volume) {
 
 void set_fit_state(py::handle given, VolumeObject& volume) {
   if (py::isinstance<py::tuple>(given) && py::len(given) == 0) return;
-  const py::tuple state = parts_of_state(given, 6);
+  const py::tuple state = tuple_of_state(given, 6);
   volume.method = method_of(state[0]);
   volume.fit.status = static_cast<EstimationStatus>(whole_number(state[1], "status", {0, 3}));
   volume.fit.rank = static_cast<int>(whole_number(state[2], "rank", {0, 3}));
   volume.fit.used = whole_number(state[3], "used", {0, kNoLimit});
   volume.fit.dropped = whole_number(state[4], "dropped", {0, kNoLimit});
   const std::string reason = text(state[5], "reason");
-  constexpr std::size_t longest = 200;  // reasons are never freed
-  if (reason.size() > longest) refuse_value("reason", "is longer than 200 bytes");
-  volume.fit.reason = kept_text(reason);
+  constexpr std::size_t longest = 200;  // a limit, because reasons are never freed
+  if (reason.size() > longest) raise_value_error("reason", "is longer than 200 bytes");
+  volume.fit.reason = interned_text(reason);
 }
 
 std::string repr_of(const VolumeObject& volume) {
   std::string name(shape_name(volume.value));
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  Said said;
+  ReprText repr;
   if (empty(volume.value)) {
-    said.text = "empty";
+    repr.text = "empty";
   } else {
-    std::visit(said, volume.value);
+    std::visit(repr, volume.value);
   }
   if (volume.method != nullptr) {
-    said.text.append(", method='").append(volume.method->name).append("'");
-    said.text.append(", used=").append(std::to_string(volume.fit.used));
-    if (volume.fit.dropped > 0) said.text.append(", dropped=").append(std::to_string(volume.fit.dropped));
+    repr.text.append(", method='").append(volume.method->name).append("'");
+    repr.text.append(", used=").append(std::to_string(volume.fit.used));
+    if (volume.fit.dropped > 0) repr.text.append(", dropped=").append(std::to_string(volume.fit.dropped));
     if (volume.fit.status != EstimationStatus::ok)
-      said.text.append(", status='").append(status_name(volume.fit.status)).append("'");
+      repr.text.append(", status='").append(status_name(volume.fit.status)).append("'");
   }
-  return name + '(' + said.text + ')';
+  return name + '(' + repr.text + ')';
 }
 
 }  // namespace pcl_bv::python

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A volume as Python holds it: a value that no call changes, so that threads may share it.
+// The data of Python's volumes. They never change, so that threads may share them.
 #pragma once
 
 #include "arguments.h"
@@ -9,37 +9,39 @@
 
 namespace pcl_bv::python {
 
-/// What all have in common, whatever their shape; with what the fit said that made it, if one did.
+/// The base of all shapes' classes: a volume and the result of its fit.
 struct VolumeObject {
   AnyVolume value;
-  const Method* method = nullptr;  ///< Null if it is not the result of a fit.
+  const Method* method = nullptr;  ///< Null if the volume is not the result of a fit.
   EstimationResult fit{};
 };
 
-/// One class of Python for each shape.
+/// The Python class of a shape.
 template <typename Shape>
 struct ShapeObject : VolumeObject {
   const Shape& shape() const { return std::get<Shape>(value); }
 };
 
-/// As an object of the class of its shape.
+/// Converts a volume to an object of its shape's class.
 py::object to_python(AnyVolume&& volume, const Method* method = nullptr, const EstimationResult& fit = {});
 
-/// The volume of an argument.
+/// Returns the volume of an argument. Raises a TypeError if the argument is not a volume.
 const VolumeObject& volume_of(py::handle value, const char* name);
 
-/// The volumes of a list, of a dict's values (each a volume or a list), or one alone; each with its label or
-/// number.
-struct NumberedVolume {
+/// A volume and its label: its key in a dict, otherwise 0.
+struct LabelledVolume {
   std::int64_t number;
   const VolumeObject* volume;
 };
-std::vector<NumberedVolume> volumes_of(py::handle value, const char* name);
 
-/// "ok", "degenerate", "no_valid_points" or "failed".
+/// Returns the volumes of an argument: None, a volume, a list of volumes, or a dict whose values are volumes
+/// or lists.
+std::vector<LabelledVolume> volumes_of(py::handle value, const char* name);
+
+/// Returns the name of a status: "ok", "degenerate", "no_valid_points" or "failed".
 const char* status_name(EstimationStatus status);
 
-/// What a constructor of the class takes, in its order.
+/// Returns the arguments of the constructor that gives the same shape, in order.
 py::tuple arguments_of(const Aabb& box);
 py::tuple arguments_of(const Kdop& kdop);
 py::tuple arguments_of(const Sphere& sphere);
@@ -49,11 +51,12 @@ py::tuple arguments_of(const Capsule& capsule);
 py::tuple arguments_of(const Ellipsoid& ellipsoid);
 py::tuple arguments_of(const Hull& hull);
 
-/// What pickle keeps of a fit, and back. Reasons are texts that are never freed.
+/// Converts the result of a fit to and from the state that pickle stores.
 py::tuple fit_state(const VolumeObject& volume);
 void set_fit_state(py::handle state, VolumeObject& volume);
 
-/// "Sphere(center=[1, 2, 3], radius=4, method='sphere-exact', used=100)", with six digits.
+/// Returns the repr(), with six digits: "Sphere(center=[1, 2, 3], radius=4, method='sphere-exact',
+/// used=100)".
 std::string repr_of(const VolumeObject& volume);
 
 }  // namespace pcl_bv::python

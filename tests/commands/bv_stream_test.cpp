@@ -93,15 +93,15 @@ TEST_F(BvStream, WritesALinePerFrameWithTheDocumentedKeys) {
   }
 }
 
-TEST_F(BvStream, ReadsTheRoadWithVergesMadeOrFromItsFolderWithPosesAlike) {
-  const std::string folder = synth("verges-sequence-16:2:3");
+TEST_F(BvStream, ReadsTheRuralRoadMadeOrFromItsFolderWithPosesAlike) {
+  const std::string folder = synth("rural-road-sequence-16:2:3");
   const std::vector<std::string> common = {"--rate", "max",        "--track", "--volume",
                                            "aabb",   "--frame-id", "road"};
   const auto with = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), common.begin(), common.end());
     return stream(arguments);
   };
-  const Result made = with({"--source", "synth:verges-sequence-16:2:3"});
+  const Result made = with({"--source", "synth:rural-road-sequence-16:2:3"});
   const Result read = with({"--source", folder, "--poses", folder + "/poses.txt"});
   ASSERT_EQ(made.status, 0) << made.err;
   ASSERT_EQ(read.status, 0) << read.err;
@@ -113,9 +113,9 @@ TEST_F(BvStream, ReadsTheRoadWithVergesMadeOrFromItsFolderWithPosesAlike) {
     EXPECT_EQ(found[i]["clusters"], expected[i]["clusters"]);
     EXPECT_EQ(found[i]["counts"], expected[i]["counts"]);
   }
-  const Result refused = with({"--source", "synth:verges-sequence-17"});
+  const Result refused = with({"--source", "synth:rural-road-sequence-17"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("-16, -32, -64 or -128"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("[-16|-32|-64|-128]"), std::string::npos) << refused.err;
 }
 
 TEST_F(BvStream, ReadsItsOwnRecordingToTheSameClusters) {

@@ -71,7 +71,7 @@ TEST_F(GroundOffOrigin, IsRightAndHasALine) {
     const Result result = objects(aside("aside.pcd", x, y, z));
     expect_street(result);
     EXPECT_EQ(result.error_lines(), 1U) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("the points do not lie around a sensor in the origin"));
+    EXPECT_THAT(result.err, HasSubstr("the points do not lie around the origin"));
     EXPECT_THAT(result.err, HasSubstr("use --sensor"));
   }
 }

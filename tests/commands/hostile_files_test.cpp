@@ -32,7 +32,7 @@ TEST_F(HostileFiles, JsonNestedWithoutEndIsALine) {
   const std::string open(20'000, '['), close(20'000, ']');
   expect_refused(drop_inside(R"({"volumes":)" + open + close + "}"), 1, "nested more than 64 deep");
   expect_refused(drop_inside(R"({"volumes":)" + open), 1, "nested more than 64 deep");
-  expect_refused(drop_inside("{\"a\": tru}"), 1, "f.json: line 1, column 10: is no JSON");
+  expect_refused(drop_inside("{\"a\": tru}"), 1, "f.json: line 1, column 10: invalid JSON");
 }
 
 TEST_F(HostileFiles, AnEntryThatIsNoVolumeIsNamedAndNoPointReturns) {
@@ -57,10 +57,10 @@ TEST_F(HostileFiles, ADamagedPartialFileIsOneLine) {
   std::string bytes = read_file(at("part"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   const Result result = run({"--merge", "--volume", "aabb", "--format", "jsonl", file("bad", bytes)});
-  expect_refused(result, 1, "bad: was cut or changed");
-  EXPECT_EQ(result.json()["error"], "not all of the partial results can be merged");
+  expect_refused(result, 1, "bad: is damaged");
+  EXPECT_EQ(result.json()["error"], "some partial results cannot be merged");
   expect_refused(run({"--merge", "--partial", at("both"), file("bad", bytes), at("part")}), 1,
-                 "bad: was cut");
+                 "bad: is damaged");
   EXPECT_FALSE(std::filesystem::exists(at("both")));
 }
 
@@ -127,9 +127,9 @@ TEST_F(HostileFiles, NumbersOfOptionsAreRefusedWithValueAndRange) {
       EXPECT_THAT(result.err, HasSubstr(range)) << option << ' ' << value;
     }
   }
-  expect_refused(
-      run({"--cluster", "1e-300", "synth:sphere:100"}), 2,
-      "--cluster: 1e-300 is too small: it is 0 as float32, which points are; use 0, or at least 1.4e-45");
+  expect_refused(run({"--cluster", "1e-300", "synth:sphere:100"}), 2,
+                 "--cluster: 1e-300 is too small: it becomes 0 as float32, the type of points; use 0, or at "
+                 "least 1.4e-45");
   expect_refused(run({"--cluster", "-1", "synth:sphere:100"}), 2,
                  "--cluster: -1 is not at least 0 and at most 1e+06");
 }

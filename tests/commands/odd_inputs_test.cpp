@@ -70,8 +70,9 @@ TEST_F(OddInputs, GiveTheSameByBothCommandsAndInEveryWayOfReading) {
   expect_box(pcd("upper.pcd", "X Y Z", "4 4 4", "F F F", rows("1")));
   expect_box(pcd("float.pcd", "x y z", "4 4 4", "F F F", rows("1.0")));
   expect_box(pcd("none.pcd", "x y z", "4 4 4", "F F F", rows("-1")));
-  expect_box(pcd("word.pcd", "x y z", "4 4 4", "F F F", rows("car")),
-             "row 1, field 'label': 'car' is no unsigned integer of 4 bytes; 1 such value is read as 0");
+  expect_box(
+      pcd("word.pcd", "x y z", "4 4 4", "F F F", rows("car")),
+      "row 1, field 'label': 'car' is not an unsigned integer of 4 bytes; 1 such value is replaced by 0");
   expect_box(pcd("view.pcd", "x y z", "4 4 4", "F F F", rows("1"), "1 0 0 1 0 0 0"),
              "VIEWPOINT is not the identity and is not applied");
   expect_box(
@@ -124,7 +125,7 @@ TEST_F(OddInputs, OfWhichTheRangeDropsMostNameItAndWhereItComesFrom) {
     far += std::to_string(i < 50 ? 1 : 5) + " 0 " + std::to_string(0.001 * i) + "\n";
   const std::string path = file("far.pcd", header(120) + far);
   const std::string config = file("c.yaml", "filter: {range_max: 3}\n");
-  const std::string said = "70 of 120 points are out of range: not ";
+  const std::string said = "70 of 120 points are outside the range of ";
   const auto error_of = [&](std::vector<std::string> options) {
     options.push_back(path);
     return run(options).err;

@@ -170,7 +170,7 @@ TEST_F(PcdBv, PointsOfDifferentClassesShareNoCluster) {
   const Result absent = with({"--class", "label"});
   EXPECT_EQ(absent.status, 1);
   EXPECT_EQ(absent.err,
-            "pcd_bv: " + at("kinds.pcd") + ": field 'label' is not there: the fields are x, y, z, kind\n");
+            "pcd_bv: " + at("kinds.pcd") + ": there is no field 'label'; the fields are x, y, z, kind\n");
   const Result wrong = with({"--class", "x"});
   EXPECT_EQ(wrong.status, 1);
   EXPECT_EQ(wrong.err, "pcd_bv: " + at("kinds.pcd") + ": field 'x' is floating point, not an integer\n");
@@ -210,7 +210,7 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   refused({"--cluster", "0.5:"}, "--cluster: '' is not a number");
   refused({"--cluster", "0.5:-1"}, "cluster.tolerance_per_metre: -1 is not at least 0 and at most 1e+06");
   refused({"--cluster", "0.5:0.01", "--min-points", "5"},
-          "cluster.min_points: 5 is not 1 where the tolerance grows with the range");
+          "cluster.min_points: 5 is not allowed: must be 1 if cluster.tolerance_per_metre is above 0");
   refused({"--cluster", "0.5", "--oversized", "shrink"},
           "--oversized: 'shrink' is not one of drop, keep, split");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");

@@ -80,7 +80,7 @@ TEST_F(PcdBv, AnOriginIsSubtractedFirstAndNamed) {
   const RawCloud labelled = read_pcd(at("l.pcd"));  // as it was stored
   EXPECT_EQ(load_point(labelled.xyz(), 0).x, 1001);
   const Result automatic = run({"--origin", "auto", "--volume", "aabb", far});
-  EXPECT_THAT(automatic.out, HasSubstr("less origin 1002 2002 0\n"));
+  EXPECT_THAT(automatic.out, HasSubstr("origin 1002 2002 0 subtracted from coordinates\n"));
   EXPECT_EQ(run({"--origin", "1,2", far}).status, 2);
   EXPECT_EQ(run({"--origin", "1,2,inf", far}).status, 2);
 }
@@ -100,7 +100,7 @@ TEST_F(PcdBv, AnOriginKeepsDoublesThatFloatsWouldLose) {
 
 TEST_F(PcdBv, FloatsFarFromTheirOriginAreRemarkedOn) {
   const std::string far = ascii("far.pcd", {"500000 5000000 0", "500010 5000002 1"});
-  EXPECT_THAT(run({far}).err, HasSubstr("far.pcd: float32 coordinates of 5e+06 have steps of 0.5"));
+  EXPECT_THAT(run({far}).err, HasSubstr("far.pcd: float32 coordinates near 5e+06 have a resolution of 0.5"));
   const std::string near = ascii("near.pcd", {"5000 5000 0", "5010 5002 1"});
   EXPECT_EQ(run({near}).err, "");
 }

@@ -168,7 +168,7 @@ TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {
 
   const Result nothing = together("aabb", {file("x.pcd", "no cloud"), at("not there.pcd")});
   EXPECT_EQ(nothing.status, 1);
-  EXPECT_EQ(nothing.json()["error"], "none of the inputs could be read");
+  EXPECT_EQ(nothing.json()["error"], "no input could be read");
 }
 
 TEST_F(PcdBvTogether, RefusesWhatNeedsOneCloudInMemory) {
@@ -247,7 +247,7 @@ class PcdBvMerge : public PcdBvTogether {
 
 TEST_F(PcdBvMerge, RefusesSharesThatAreMissingTwiceOrOfAnotherCloud) {
   expect_refused({files_[1]}, "shares are missing: points 0 to 32768 of 70000");
-  expect_refused({files_[0], files_[1], files_[1]}, "the same share twice?");
+  expect_refused({files_[0], files_[1], files_[1]}, "is the same file given twice?");
   const std::string other = binary("other.pcd", gaussian(70'000, 13));
   ASSERT_EQ(run({"--partial", at("other"), "--part", "1/2", other}).status, 0);
   expect_refused({files_[0], at("other")}, "is a share of another cloud");
@@ -259,10 +259,10 @@ TEST_F(PcdBvMerge, RefusesSharesThatAreMissingTwiceOrOfAnotherCloud) {
 
 TEST_F(PcdBvMerge, RefusesFilesThatAreCutChangedNewerOrNone) {
   const std::string good = read_file(files_[0]);
-  expect_refused({file("cut", good.substr(0, good.size() - 1)), files_[1]}, "cut: was cut or changed");
+  expect_refused({file("cut", good.substr(0, good.size() - 1)), files_[1]}, "cut: is damaged");
   std::string bad = good;
   bad[good.size() / 2] = static_cast<char>(bad[good.size() / 2] ^ 1);
-  expect_refused({file("bad", bad), files_[1]}, "bad: was cut or changed");
+  expect_refused({file("bad", bad), files_[1]}, "bad: is damaged");
   std::string newer = good;
   newer[std::string("pcl_bv partial results ").size()] = '2';
   expect_refused({file("newer", newer), files_[1]}, "newer: was written by another version");

@@ -58,7 +58,7 @@ TEST_F(Recordings, DamageThatIsFoundWhileReadingIsSaid) {
   bytes.replace(bytes.size() / 2, 40, 40, '\x55');
   const Result result = run({"--volume", "aabb", file("damaged.mcap", bytes)});
   EXPECT_EQ(result.status, 1) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("damaged.mcap: passed over "));
+  EXPECT_THAT(result.err, HasSubstr("damaged.mcap: skipped the "));
   EXPECT_THAT(result.err, HasSubstr("the recording ends before this cloud"));
 }
 

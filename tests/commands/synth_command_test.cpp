@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "pcl_bv/io/pcd.h"
+#include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
-#include "pcl_bv/synth/verges.h"
 
 namespace pcl_bv {
 namespace {
@@ -63,7 +63,7 @@ class SynthCommand : public testing::Test {
   fs::path folder_;
 };
 
-void expect_truth(const std::string& line, const VergesFrame& frame, std::size_t number) {
+void expect_truth(const std::string& line, const RuralRoadFrame& frame, std::size_t number) {
   const auto truth = nlohmann::json::parse(line);
   EXPECT_EQ(truth.at("seq"), number);
   EXPECT_EQ(truth.at("stamp_ns"), 100'000'000 * number);
@@ -73,7 +73,7 @@ void expect_truth(const std::string& line, const VergesFrame& frame, std::size_t
   std::size_t points = 0;
   for (std::size_t i = 0; i < frame.objects.size(); ++i) {
     const auto& told = truth.at("objects").at(i);
-    const VergesObject& object = frame.objects[i];
+    const RuralRoadObject& object = frame.objects[i];
     EXPECT_EQ(told.at("id"), object.id);
     EXPECT_EQ(told.at("class"), name_of(object.kind));
     EXPECT_EQ((told.at("center").get<std::array<double, 3>>()), object.center);
@@ -115,16 +115,16 @@ TEST_F(SynthCommand, WritesASequenceIntoAFolderThatItMakes) {
   }
 }
 
-TEST_F(SynthCommand, WritesTheVergesWithTheirPosesAndTruth) {
+TEST_F(SynthCommand, WritesTheRuralRoadWithPosesAndTruth) {
   const fs::path road = path("road");
-  const Outcome outcome = run("verges-sequence-16:3:7 " + road.string());
+  const Outcome outcome = run("rural-road-sequence-16:3:7 " + road.string());
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
   EXPECT_EQ(std::distance(fs::directory_iterator(road), fs::directory_iterator{}), 5);
   std::istringstream poses(content_of(road / "poses.txt")), truths(content_of(road / "truth.jsonl"));
   for (std::size_t number = 0; number < 3; ++number) {
     SCOPED_TRACE(number);
-    const VergesFrame frame = make_verges_frame({7, 16}, number);
+    const RuralRoadFrame frame = make_rural_road_frame({7, 16}, number);
     const RawCloud cloud = read_pcd(road / ("000000000" + std::to_string(number) + ".pcd"));
     EXPECT_EQ(cloud.data, to_raw_cloud(frame.cloud).data);
     for (const char* const field : {"object", "ground", "vegetation", "class"}) {
@@ -168,8 +168,8 @@ TEST_F(SynthCommand, WrongUseIsStatusTwoAndWritesNothing) {
   const std::string file = path("a.pcd").string();
   for (const std::string& arguments :
        {std::string(), std::string("box"), "cube " + file, "box:0 " + file, "paper-4010:5 " + file,
-        "street-sequence:0 " + file, "verges-sequence-17 " + file, "verges-sequence:0 " + file,
-        "verges:7 " + file, "box " + file + " more", "--unknown box " + file}) {
+        "street-sequence:0 " + file, "rural-road-sequence-17 " + file, "rural-road-sequence:0 " + file,
+        "rural-road:7 " + file, "box " + file + " more", "--unknown box " + file}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2);
@@ -185,7 +185,7 @@ TEST_F(SynthCommand, HelpNamesTheScenesAndShowsExamples) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("paper-327323"));
   EXPECT_THAT(outcome.out, HasSubstr("synth street-sequence"));
-  EXPECT_THAT(outcome.out, HasSubstr("synth verges-sequence-16"));
+  EXPECT_THAT(outcome.out, HasSubstr("synth rural-road-sequence-16"));
 }
 
 }  // namespace

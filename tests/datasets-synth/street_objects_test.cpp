@@ -57,7 +57,7 @@ TEST(StreetObjects, ANearCarFillsItsBoxFromGroundToRoof) {
   const auto& [cloud, objects] = street_sweep(2);
   Vector reach{};
   for (const StreetObject& object : objects) {
-    if (object.kind != StreetObjectKind::car) continue;
+    if (object.kind != SynthObjectKind::car) continue;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (cloud.object[i] != object.id || range_of(cloud, i) > 20) continue;
       const Vector p = from_center(object, point_of(cloud, i));
@@ -176,8 +176,8 @@ TEST(StreetObjects, TheStreetHasItsCarsPeoplePolesHousesAndPlants) {
     std::array<int, 7> count{};
     for (const StreetObject& object : street_sweep(seed).objects)
       ++count[static_cast<std::size_t>(object.kind)];
-    EXPECT_GE(count[static_cast<std::size_t>(StreetObjectKind::car)], 20);
-    EXPECT_LE(count[static_cast<std::size_t>(StreetObjectKind::car)], 50);
+    EXPECT_GE(count[static_cast<std::size_t>(SynthObjectKind::car)], 20);
+    EXPECT_LE(count[static_cast<std::size_t>(SynthObjectKind::car)], 50);
     for (const int n : count)
       EXPECT_GE(n, 5);
   }
@@ -202,8 +202,8 @@ TEST(StreetObjects, NearObjectsAreSeenInSomeFrame) {
 }
 
 TEST(StreetObjects, EveryKindHasItsName) {
-  EXPECT_EQ(name_of(StreetObjectKind::car), "car");
-  EXPECT_EQ(name_of(StreetObjectKind::tree), "tree");
+  EXPECT_EQ(name_of(SynthObjectKind::car), "car");
+  EXPECT_EQ(name_of(SynthObjectKind::tree), "tree");
 }
 
 }  // namespace

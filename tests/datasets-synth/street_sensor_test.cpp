@@ -134,11 +134,11 @@ double enter_box(const StreetObject& object, const Vector& direction, const Vect
 double enter_core(const StreetObject& object, const Vector& direction) {
   const auto [x, y, z] = object.half_extents;
   switch (object.kind) {
-    case StreetObjectKind::house:  // behind the bay (0.6 m) and the windows (0.3 m), below the roof (2.5 m)
+    case SynthObjectKind::house:  // behind the bay (0.6 m) and the windows (0.3 m), below the roof (2.5 m)
       return enter_box(object, direction, {-x, -y, -z}, {x, y - 0.95, z - 2.55});
-    case StreetObjectKind::wall:
+    case SynthObjectKind::wall:
       return enter_box(object, direction, {-x, -y, -z}, {x, y, z});
-    case StreetObjectKind::car:  // between wheel arches and below the hood
+    case SynthObjectKind::car:  // between wheel arches and below the hood
       return enter_box(object, direction, {-0.8 * x, -0.6 * y, 0.3 - z}, {0.8 * x, 0.6 * y, 0.8 - z});
     default:
       return std::numeric_limits<double>::infinity();
@@ -155,7 +155,7 @@ bool enters_cabin(const std::vector<StreetObject>& objects, const StreetObject& 
   }
   return std::none_of(objects.begin(), objects.end(), [&](const StreetObject& other) {
     const auto [u, v, w] = other.half_extents;
-    return other.kind == StreetObjectKind::car && other.id != car.id &&
+    return other.kind == SynthObjectKind::car && other.id != car.id &&
            std::isfinite(enter_box(other, direction, {-u, -v, -w}, {u, v, w}));
   });
 }
@@ -166,7 +166,7 @@ TEST(Street, AThirdOfTheRaysOnCarWindowsIsLost) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto [cloud, objects] = make_street_frame({128'000, seed}, 0);
     for (const StreetObject& car : objects) {
-      if (car.kind != StreetObjectKind::car || std::hypot(car.center[0], car.center[1]) > 15) continue;
+      if (car.kind != SynthObjectKind::car || std::hypot(car.center[0], car.center[1]) > 15) continue;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
         const bool returned = is_return(cloud, i);
         if ((returned && cloud.object[i] != car.id) || !enters_cabin(objects, car, beam_of(cloud, i)))
@@ -203,7 +203,7 @@ TEST(Street, ReturnsOfAWallLieOnItsFace) {
   const auto& [cloud, objects] = street_sweep(2);
   std::size_t checked = 0;
   for (const StreetObject& object : objects) {
-    if (object.kind != StreetObjectKind::wall) continue;
+    if (object.kind != SynthObjectKind::wall) continue;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (cloud.object[i] != object.id) continue;
       ASSERT_NEAR(range_of(cloud, i), enter_core(object, beam_of(cloud, i)), noise_bound);
@@ -219,7 +219,7 @@ TEST(Street, RangeNoiseHasItsDeviationAlongTheRay) {
   double squares = 0;
   double n = 0;
   for (const StreetObject& object : objects) {
-    if (object.kind != StreetObjectKind::wall) continue;
+    if (object.kind != SynthObjectKind::wall) continue;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (cloud.object[i] != object.id) continue;
       const double noise = range_of(cloud, i) - enter_core(object, beam_of(cloud, i));

@@ -57,7 +57,7 @@ TEST(StreetSequence, TheSensorPassesWhatStandsAtEightMetresPerSecond) {
   for (const StreetObject& object : street_sweep(1).objects) {
     EXPECT_EQ(object.velocity[1], 0);
     EXPECT_NEAR(object.velocity[2], street_slope * object.velocity[0], 1e-12);
-    if (object.kind != StreetObjectKind::car && object.kind != StreetObjectKind::pedestrian) {
+    if (object.kind != SynthObjectKind::car && object.kind != SynthObjectKind::pedestrian) {
       EXPECT_EQ(object.velocity[0], -8);
     } else {
       ++speeds[object.velocity[0] + 8];

@@ -76,36 +76,66 @@ TEST(ParseSynth, RefusalsNameTheValueAndWhatIsAllowed) {
   EXPECT_THAT(refusal(parse_synth, "box:5:1:1"), HasSubstr("box[:POINTS[:SEED]]"));
 }
 
-TEST(ParseVergesSequence, ReadsBeamsFramesAndSeed) {
-  EXPECT_EQ(parse_verges_sequence("verges-sequence").options.beams, 64u);
-  EXPECT_EQ(parse_verges_sequence("verges-sequence").frames, 100u);
-  EXPECT_EQ(parse_verges_sequence("verges-sequence").options.seed, 1u);
+TEST(ParseRuralRoadSequence, ReadsBeamsFramesAndSeed) {
+  EXPECT_EQ(parse_rural_road_sequence("rural-road-sequence").options.beams, 64u);
+  EXPECT_EQ(parse_rural_road_sequence("rural-road-sequence").frames, 100u);
+  EXPECT_EQ(parse_rural_road_sequence("rural-road-sequence").options.seed, 1u);
   for (const std::size_t beams : {16u, 32u, 64u, 128u}) {
-    const auto spec = parse_verges_sequence("verges-sequence-" + std::to_string(beams) + ":3:4");
+    const auto spec = parse_rural_road_sequence("rural-road-sequence-" + std::to_string(beams) + ":3:4");
     EXPECT_EQ(spec.options.beams, beams);
     EXPECT_EQ(spec.frames, 3u);
     EXPECT_EQ(spec.options.seed, 4u);
   }
-  EXPECT_TRUE(is_verges_sequence("verges-sequence-7:1"));
-  EXPECT_FALSE(is_verges_sequence("verges"));
-  EXPECT_FALSE(is_verges_sequence("street-sequence:verges-sequence"));
+  EXPECT_TRUE(is_rural_road_sequence("rural-road-sequence-7:1"));
+  EXPECT_FALSE(is_rural_road_sequence("rural-road"));
+  EXPECT_FALSE(is_rural_road_sequence("street-sequence:rural-road-sequence"));
 }
 
-TEST(ParseVergesSequence, RefusalsNameTheValueAndWhatIsAllowed) {
-  for (const std::string name :
-       {"verges-sequence-", "verges-sequence-17", "verges-sequences", "verges-sequence16", "verges"}) {
-    const std::string reason = refusal(parse_verges_sequence, name);
+TEST(ParseRuralRoadSequence, RefusalsNameTheValueAndWhatIsAllowed) {
+  for (const std::string name : {"rural-road-sequence-", "rural-road-sequence-17", "rural-road-sequences",
+                                 "rural-road-sequence16", "rural-road"}) {
+    const std::string reason = refusal(parse_rural_road_sequence, name);
     EXPECT_THAT(reason, HasSubstr("'" + name + "'"));
-    EXPECT_THAT(reason, HasSubstr("-16, -32, -64 or -128"));
+    EXPECT_THAT(reason, HasSubstr("[-16|-32|-64|-128]"));
   }
-  EXPECT_THAT(refusal(parse_verges_sequence, "verges-sequence:0"), HasSubstr("FRAMES '0'"));
-  EXPECT_THAT(refusal(parse_verges_sequence, "verges-sequence-16:1:2:3"), HasSubstr("[:FRAMES[:SEED]]"));
+  EXPECT_THAT(refusal(parse_rural_road_sequence, "rural-road-sequence:0"), HasSubstr("FRAMES '0'"));
+  EXPECT_THAT(refusal(parse_rural_road_sequence, "rural-road-sequence-16:1:2:3"),
+              HasSubstr("[:FRAMES[:SEED]]"));
 }
 
-TEST(MakeSynth, TheVergesHaveAsManyPointsAsParsingSays) {
-  for (const char* const name : {"verges", "verges-16", "verges-32", "verges-128"})
+TEST(MakeSynth, TheRuralRoadHasAsManyPointsAsParsingSays) {
+  for (const char* const name : {"rural-road", "rural-road-16", "rural-road-32", "rural-road-128"})
     EXPECT_EQ(make_synth(parse_synth(name)).size(), parse_synth(name).points) << name;
-  EXPECT_THAT(refusal(parse_synth, "verges:5"), HasSubstr("verges has 128000 points"));
+  EXPECT_THAT(refusal(parse_synth, "rural-road:5"), HasSubstr("rural-road has 128000 points"));
+}
+
+TEST(MakeSynth, VergesIsAnAliasOfTheRuralRoad) {
+  for (const std::string sensor : {"", "-16", "-32", "-128"}) {
+    const SynthSpec old_name =
+        parse_synth("verges" + sensor + ":" + std::to_string(parse_synth("verges" + sensor).points) + ":5");
+    const SynthSpec spec = parse_synth("rural-road" + sensor);
+    EXPECT_EQ(old_name.name, "rural-road" + sensor);
+    EXPECT_EQ(old_name.points, spec.points);
+    EXPECT_EQ(old_name.seed, 5u);
+  }
+  const SynthCloud cloud = make_synth(parse_synth("rural-road-16"));
+  EXPECT_EQ(make_synth(parse_synth("verges-16")).xyz, cloud.xyz);
+  EXPECT_EQ(make_synth({"verges-16", 28'800, 1}).xyz, cloud.xyz);
+  EXPECT_EQ(synth_names().find("verges"), std::string::npos);
+  for (const std::string name : {"verges-", "verges-17", "vergesx", "verges-sequence"})
+    EXPECT_THAT(refusal(parse_synth, name), HasSubstr("'" + name + "'"));
+}
+
+TEST(ParseRuralRoadSequence, VergesSequenceIsAnAlias) {
+  const RuralRoadSequenceSpec spec = parse_rural_road_sequence("verges-sequence-16:3:4");
+  EXPECT_EQ(spec.options.beams, 16u);
+  EXPECT_EQ(spec.options.seed, 4u);
+  EXPECT_EQ(spec.frames, 3u);
+  EXPECT_EQ(parse_rural_road_sequence("verges-sequence").options.beams, 64u);
+  EXPECT_TRUE(is_rural_road_sequence("verges-sequence-7:1"));
+  EXPECT_FALSE(is_rural_road_sequence("verges"));
+  EXPECT_FALSE(is_rural_road_sequence("street-sequence:verges-sequence"));
+  EXPECT_THAT(refusal(parse_rural_road_sequence, "verges-sequence-17"), HasSubstr("'verges-sequence-17'"));
 }
 
 TEST(ParseStreetSequence, ReadsFramesAndSeed) {
@@ -116,7 +146,7 @@ TEST(ParseStreetSequence, ReadsFramesAndSeed) {
 }
 
 TEST(ParseStreetSequence, RefusalsNameTheValueAndWhatIsAllowed) {
-  EXPECT_THAT(refusal(parse_street_sequence, "street"), HasSubstr("'street': it is street-sequence"));
+  EXPECT_THAT(refusal(parse_street_sequence, "street"), HasSubstr("'street', expected street-sequence"));
   EXPECT_THAT(refusal(parse_street_sequence, "street-sequence:0"),
               HasSubstr("FRAMES '0' is not a whole number"));
   EXPECT_THAT(refusal(parse_street_sequence, "street-sequence:1:2:3"), HasSubstr("[:FRAMES[:SEED]]"));

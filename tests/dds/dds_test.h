@@ -26,7 +26,7 @@ class BvStream : public Background {
   BvStream(const std::filesystem::path& errors, std::vector<std::string> arguments)
       : Background(errors, command(std::move(arguments))) {}
 
-  /// Without the remark on a kernel whose receive buffers are small, as they are on most machines.
+  /// Removes the warning about the kernel's limit of receive buffers, which most machines cause.
   std::string errors() const {
     std::string text = Background::errors();
     const std::size_t at = text.find("net.core.rmem_max");

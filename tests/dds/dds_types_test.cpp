@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What we write is what Cyclone DDS writes of the same types, made by its own compiler from ROS's definitions.
+// What we write is what Cyclone DDS writes of the same types, made by its own compiler from ROS's
+// definitions.
 
 #include <dds/dds.h>
 #include <ros2.h>
@@ -13,7 +14,7 @@
 #include "dds_test.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::test {
 namespace {
@@ -106,15 +107,17 @@ TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
   const std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(dds_create_qos(), dds_delete_qos);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
   const dds_entity_t reader = dds_create_reader(
-      participant, dds_create_topic(participant, &TypeParam::type(), "rt/out", nullptr, nullptr), qos.get(), nullptr);
+      participant, dds_create_topic(participant, &TypeParam::type(), "rt/out", nullptr, nullptr), qos.get(),
+      nullptr);
   const dds_entity_t writer = dds_create_writer(
-      participant, dds_create_topic(participant, &TypeParam::type(), "rt/back", nullptr, nullptr), qos.get(), nullptr);
+      participant, dds_create_topic(participant, &TypeParam::type(), "rt/back", nullptr, nullptr), qos.get(),
+      nullptr);
   ASSERT_GT(reader, 0);
   ASSERT_GT(writer, 0);
   dds_publication_matched_status_t matched{};
   ASSERT_TRUE(wait_for([&] {
     dds_get_publication_matched_status(writer, &matched);
-    return carrier->wanted(out) && matched.current_count > 0;
+    return carrier->has_subscribers(out) && matched.current_count > 0;
   }));
 
   for (int round = 0; round < 200; ++round) {
@@ -134,7 +137,7 @@ TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
     ASSERT_TRUE(back->next(received, std::chrono::seconds(30)));
     ASSERT_EQ(unpadded(received.data, received.size), sent) << "round " << round;
   }
-  EXPECT_TRUE(carrier->take_remarks().empty());
+  EXPECT_TRUE(carrier->take_warnings().empty());
   dds_delete(participant);
 }
 

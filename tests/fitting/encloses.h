@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "exact.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv::test {

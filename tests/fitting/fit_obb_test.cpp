@@ -120,7 +120,7 @@ TEST(FewPoints, AreAllOfNoMoreThanThereAreEndsAndOfMoreTheEnds) {
       const auto cloud = gaussian<double>(n, n);
       const Supports supports = find_supports(cloud.view(), set, SupportDetail::points, {});
       const LocalFrame frame(supports);
-      const FewPoints few = few_points(cloud.view(), supports, frame);
+      const FewPoints few = support_or_all_points(cloud.view(), supports, frame);
       ASSERT_EQ(few.size(), std::min(n, ends));
       for (std::size_t k = 0; k < n && n <= ends; ++k)
         EXPECT_EQ(few[k], frame.local(load_point(cloud.view(), k)));

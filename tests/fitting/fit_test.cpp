@@ -14,7 +14,7 @@
 #include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/small_ball.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 
 namespace pcl_bv {
 namespace {

@@ -3,7 +3,7 @@
 
 // The internals behind upright and minimal boxes, against slow judges.
 
-#include "box/flat_box.h"
+#include "box/rectangle.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ std::vector<Points> planar_clouds() {
   return clouds;
 }
 
-TEST(FlatBox, ChainIsTheHullCounterClockwise) {
+TEST(Rectangle, ChainIsTheHullCounterClockwise) {
   for (const Points& cloud : planar_clouds()) {
     Points points = cloud;
     points.resize(to_convex_chain(points.data(), points.size()));
@@ -72,10 +72,10 @@ double area_along(const Points& points, double angle) {
   return area;
 }
 
-TEST(FlatBox, NoAngleGivesLessAreaThanTheCalipers) {
+TEST(Rectangle, NoAngleGivesLessAreaThanTheCalipers) {
   for (const Points& cloud : planar_clouds()) {
     Points points = cloud;
-    const FlatBox box = least_rectangle(points.data(), to_convex_chain(points.data(), points.size()));
+    const Rectangle box = smallest_rectangle(points.data(), to_convex_chain(points.data(), points.size()));
     EXPECT_NEAR(box.side.norm(), 1, 1e-15);
     const double of_side = area_along(cloud, std::atan2(box.side.y(), box.side.x()));
     EXPECT_NEAR(box.area(), of_side, 1e-12);
@@ -84,17 +84,17 @@ TEST(FlatBox, NoAngleGivesLessAreaThanTheCalipers) {
   }
 }
 
-TEST(FlatBox, OfALineIsAlongIt) {
+TEST(Rectangle, OfALineIsAlongIt) {
   Points line{{1, 2}, {3, 6}, {-2, -4}, {0, 0}};
-  const FlatBox box = least_rectangle(line.data(), to_convex_chain(line.data(), line.size()));
+  const Rectangle box = smallest_rectangle(line.data(), to_convex_chain(line.data(), line.size()));
   EXPECT_EQ(box.area(), 0);
   EXPECT_NEAR(std::abs(box.side.dot(Eigen::Vector2d(1, 2).normalized())), 1, 1e-15);
   EXPECT_NEAR(box.diagonal(), std::sqrt(125.0), 1e-14);
 }
 
-TEST(FlatBox, OfOnePointHasNoSize) {
+TEST(Rectangle, OfOnePointHasNoSize) {
   const Eigen::Vector2d point(3, -4);
-  const FlatBox box = least_rectangle(&point, 1);
+  const Rectangle box = smallest_rectangle(&point, 1);
   EXPECT_EQ(box.side, Eigen::Vector2d::UnitX());
   EXPECT_EQ(box.width, 0);
   EXPECT_EQ(box.height, 0);

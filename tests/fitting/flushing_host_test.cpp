@@ -88,7 +88,7 @@ TEST(FlushingHost, LearnsWhatIsOutsideByADenormal) {
     result = verify(Aabb({0, 0, 0}, {1e-310, 0, 0}), PointView::of(p, 24, 2));
   }
   EXPECT_EQ(result.outside, 1U);
-  EXPECT_EQ(result.worst, 2e-310 - 1e-310);
+  EXPECT_EQ(result.max_violation, 2e-310 - 1e-310);
 }
 
 }  // namespace

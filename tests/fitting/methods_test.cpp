@@ -121,7 +121,7 @@ TEST(Methods, OnTheHullAreThoseThatASharedHullSparesAPass) {
       method.fit(points, volume, shared);
       return source.loads - before;
     };
-    EXPECT_EQ(passes(with) < passes(without), method.on_hull) << method.name;
+    EXPECT_EQ(passes(with) < passes(without), method.needs_hull) << method.name;
   }
 }
 

@@ -10,7 +10,7 @@
 
 #include "clouds.h"
 #include "exact.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {

@@ -63,7 +63,7 @@ Ends by_definition(const PointView& points, const Direction& n) {
 }
 
 void expect_exact(const PointView& points, const Directions& directions) {
-  const OwnSupports supports = find_supports(points, directions);
+  const CustomSupports supports = find_supports(points, directions);
   std::size_t used = 0;
   for (std::size_t i = 0; i < points.count; ++i)
     used += is_valid(load_point(points, i)) ? 1 : 0;
@@ -94,14 +94,14 @@ void expect_exact_on_nasty_clouds() {
   }
 }
 
-TEST(OwnSupports, AreTheTrueOnesOfAFloatCloud) {
+TEST(CustomSupports, AreTheTrueOnesOfAFloatCloud) {
   expect_exact_on_nasty_clouds<float>();
 }
-TEST(OwnSupports, AreTheTrueOnesOfADoubleCloud) {
+TEST(CustomSupports, AreTheTrueOnesOfADoubleCloud) {
   expect_exact_on_nasty_clouds<double>();
 }
 
-TEST(OwnSupports, OfDoublesWhoseProductsVanishAreTheTrueOnes) {
+TEST(CustomSupports, OfDoublesWhoseProductsVanishAreTheTrueOnes) {
   for (const double scale : {1e-300, 1e-310, 1e-322}) {
     TestCloud<double> cloud = test::gaussian<double>(100, 1);
     for (double& c : cloud.xyz)
@@ -110,7 +110,7 @@ TEST(OwnSupports, OfDoublesWhoseProductsVanishAreTheTrueOnes) {
   }
 }
 
-TEST(OwnSupports, OfIntegerLatticesAreTheTrueOnes) {
+TEST(CustomSupports, OfIntegerLatticesAreTheTrueOnes) {
   TestCloud<float> cloud{"lattice", {}};
   for (int i = 0; i < 12 * 12 * 12; ++i) {
     cloud.xyz.insert(cloud.xyz.end(), {static_cast<float>(i % 12), static_cast<float>(i / 12 % 12),
@@ -119,7 +119,7 @@ TEST(OwnSupports, OfIntegerLatticesAreTheTrueOnes) {
   expect_exact(cloud.view(), test::integer_directions());
 }
 
-void expect_same(const OwnSupports& a, const OwnSupports& b) {
+void expect_same(const CustomSupports& a, const CustomSupports& b) {
   EXPECT_EQ(a.used, b.used);
   EXPECT_EQ(a.dropped, b.dropped);
   ASSERT_EQ(a.along.size(), b.along.size());
@@ -134,14 +134,14 @@ void expect_same(const OwnSupports& a, const OwnSupports& b) {
 
 template <typename T>
 void expect_same_for_every_execution(const TestCloud<T>& cloud, const Directions& directions) {
-  const OwnSupports expected = find_supports(cloud.view(), directions, {Serial{}, Isa::scalar});
+  const CustomSupports expected = find_supports(cloud.view(), directions, {Serial{}, Isa::scalar});
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(cloud.name + ", " + name);
     expect_same(find_supports(cloud.view(), directions, execution), expected);
   }
 }
 
-TEST(OwnSupports, SameBitsForEveryInstructionSetAndThreadCount) {
+TEST(CustomSupports, SameBitsForEveryInstructionSetAndThreadCount) {
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>())
     expect_same_for_every_execution(cloud, test::nasty_directions());
   for (const TestCloud<double>& cloud : test::nasty_clouds<double>())
@@ -155,14 +155,14 @@ TEST(OwnSupports, SameBitsForEveryInstructionSetAndThreadCount) {
   expect_same_for_every_execution(large, test::integer_directions());
 }
 
-TEST(OwnSupports, AlongTheCubesDirectionsAreThoseOfTheCubesKernel) {
+TEST(CustomSupports, AlongTheCubesDirectionsAreThoseOfTheCubesKernel) {
   Directions directions;
   for (const CubeDirection& d : kCubeDirections)
     directions.push_back({double(d[0]), double(d[1]), double(d[2])});
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
     SCOPED_TRACE(cloud.name);
     const Supports expected = find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {});
-    const OwnSupports supports = find_supports(cloud.view(), directions);
+    const CustomSupports supports = find_supports(cloud.view(), directions);
     EXPECT_EQ(supports.used, expected.used);
     for (std::size_t k = 0; k < supports.along.size(); ++k) {
       EXPECT_EQ(supports.along[k].low, expected.along[k].low);
@@ -173,7 +173,7 @@ TEST(OwnSupports, AlongTheCubesDirectionsAreThoseOfTheCubesKernel) {
   }
 }
 
-TEST(OwnSupports, NameTheCloudsIndexUnderAnIndexList) {
+TEST(CustomSupports, NameTheCloudsIndexUnderAnIndexList) {
   const TestCloud<float> cloud = test::gaussian<float>(3000, 6);
   std::vector<std::int32_t> indices(2000);
   std::iota(indices.rbegin(), indices.rend(), 500);
@@ -181,23 +181,23 @@ TEST(OwnSupports, NameTheCloudsIndexUnderAnIndexList) {
                test::random_directions(3, 9));
 }
 
-TEST(OwnSupports, ADirectionOfAnotherLengthHasTheSamePoints) {
+TEST(CustomSupports, ADirectionOfAnotherLengthHasTheSamePoints) {
   const TestCloud<float> cloud = test::gaussian<float>(5000, 12, 3, 100);
   Directions directions = test::random_directions(10, 1), longer = directions;
   for (auto& d : longer)
     d = {d[0] * 0x1p80, d[1] * 0x1p80, d[2] * 0x1p80};
-  const OwnSupports a = find_supports(cloud.view(), directions);
-  const OwnSupports b = find_supports(cloud.view(), longer);
+  const CustomSupports a = find_supports(cloud.view(), directions);
+  const CustomSupports b = find_supports(cloud.view(), longer);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     EXPECT_EQ(b.along[k].high, a.along[k].high * 0x1p80);
     EXPECT_EQ(b.along[k].high_point.index, a.along[k].high_point.index);
   }
 }
 
-TEST(OwnSupports, SurviveAHostThatFlushesDenormals) {
+TEST(CustomSupports, SurviveAHostThatFlushesDenormals) {
   const TestCloud<float> cloud = test::gaussian<float>(700, 7, 1e-41);
   const Directions directions = test::random_directions(4, 2);
-  const OwnSupports expected = find_supports(cloud.view(), directions);
+  const CustomSupports expected = find_supports(cloud.view(), directions);
   ASSERT_GT(expected.along[0].high, 0);
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(name);
@@ -206,7 +206,7 @@ TEST(OwnSupports, SurviveAHostThatFlushesDenormals) {
   }
 }
 
-TEST(OwnSupports, RefusesWhatIsNoDirection) {
+TEST(CustomSupports, RefusesWhatIsNoDirection) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 1);
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const auto find = [&](const Directions& d) { return find_supports(cloud.view(), d); };

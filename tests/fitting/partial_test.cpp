@@ -25,7 +25,7 @@ using test::TestCloud;
 std::vector<const Method*> served() {
   std::vector<const Method*> found;
   for (const Method& method : methods()) {
-    if (Partial::serves(method)) found.push_back(&method);
+    if (Partial::can_fit(method)) found.push_back(&method);
   }
   return found;
 }
@@ -123,7 +123,7 @@ TYPED_TEST(Partials, GiveTheBitsOfTheWholeHoweverItIsCut) {
       const Partial all = merged_at_random(parts_of(cloud.view(), count, random), random);
       EXPECT_EQ(all.size(), cloud.size());
       for (const Method* method : served()) {
-        if (!exact(*method) && cloud.size() > Partial::kAllKept) continue;
+        if (!exact(*method) && cloud.size() > Partial::kMaxStored) continue;
         AnyVolume expected, found;
         const EstimationResult whole = method->fit(cloud.view(), expected, {});
         const EstimationResult result = all.fit(*method, found);
@@ -174,8 +174,8 @@ TYPED_TEST(Partials, FindTheSmallestSphereOfTheWholeByAskingTheParts) {
       ++questions;
       for (const PointView& part : parts) {
         OctantPoints own;
-        farthest_points(part, center, limit, own);
-        keep_farthest(own, found);
+        answer_farthest(part, center, limit, own);
+        update_farthest(own, found);
       }
       return std::any_of(found.begin(), found.end(),
                          [](const FarPoint& p) { return p.squared_distance >= 0; });
@@ -189,15 +189,15 @@ TYPED_TEST(Partials, FindTheSmallestSphereOfTheWholeByAskingTheParts) {
     EXPECT_EQ(result.rank, whole.rank) << cloud.name;
     EXPECT_EQ(certificate.support, of_whole.support) << cloud.name;
     EXPECT_EQ(certificate.passes, of_whole.passes) << cloud.name;
-    EXPECT_EQ(questions, all.count > Partial::kAllKept ? certificate.passes : 0) << cloud.name;
+    EXPECT_EQ(questions, all.count > Partial::kMaxStored ? certificate.passes : 0) << cloud.name;
   }
 }
 
-TEST(FarthestPoints, RefusesAnIndexList) {
+TEST(FarthestQuery, RefusesAnIndexList) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 15);
   const std::int32_t indices[] = {1, 2};
   OctantPoints found;
-  EXPECT_THROW(farthest_points(PointView::of(cloud.xyz.data(), 12, 2, indices), {}, 0, found),
+  EXPECT_THROW(answer_farthest(PointView::of(cloud.xyz.data(), 12, 2, indices), {}, 0, found),
                std::invalid_argument);
 }
 
@@ -267,7 +267,7 @@ TEST(Partial, RefusesMethodsThatNeedAllPoints) {
   for (const char* name :
        {"sphere-ritter", "sphere-epos6", "sphere-epos14", "sphere-epos26", "sphere-epos98", "obb-lshape"}) {
     AnyVolume volume;
-    ASSERT_FALSE(Partial::serves(*find_method(name)));
+    ASSERT_FALSE(Partial::can_fit(*find_method(name)));
     EXPECT_THROW(all.fit(*find_method(name), volume), std::invalid_argument) << name;
   }
 }

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 using test::Rational;
 
-int exact_turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+int exact_orientation(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Rational left = (Rational(b.x()) - Rational(a.x())) * (Rational(c.y()) - Rational(a.y()));
   const Rational right = (Rational(b.y()) - Rational(a.y())) * (Rational(c.x()) - Rational(a.x()));
   return left > right ? 1 : left < right ? -1 : 0;
@@ -45,7 +45,7 @@ TEST(PlanarHull, TurnsAreExactInAnyUnit) {
       for (Vector2d& corner : p)
         corner = {std::ldexp(coordinate(), exponent), std::ldexp(coordinate(), exponent)};
       if (i % 2 == 0) p[i % 3].x() = std::nextafter(p[i % 3].x(), 1e300);
-      ASSERT_EQ(turn(p[0], p[1], p[2]), exact_turn(p[0], p[1], p[2]))
+      ASSERT_EQ(orientation(p[0], p[1], p[2]), exact_orientation(p[0], p[1], p[2]))
           << "seed 22, unit 2^" << exponent << ", " << i;
     }
   }
@@ -53,9 +53,9 @@ TEST(PlanarHull, TurnsAreExactInAnyUnit) {
 
 TEST(PlanarHull, TurnsAreExact) {
   // 2^-60 above the line, which plain double cannot tell.
-  EXPECT_EQ(turn({0, 0}, {1, 1}, {0.5, 0.5}), 0);
-  EXPECT_EQ(turn({0x1p-60, 0}, {1, 1}, {0.5, 0.5}), 1);
-  EXPECT_EQ(turn({0, 0x1p-60}, {1, 1}, {0.5, 0.5}), -1);
+  EXPECT_EQ(orientation({0, 0}, {1, 1}, {0.5, 0.5}), 0);
+  EXPECT_EQ(orientation({0x1p-60, 0}, {1, 1}, {0.5, 0.5}), 1);
+  EXPECT_EQ(orientation({0, 0x1p-60}, {1, 1}, {0.5, 0.5}), -1);
 }
 
 TEST(PlanarHull, TurnsAreExactForPointsNearlyInARow) {
@@ -69,7 +69,8 @@ TEST(PlanarHull, TurnsAreExactForPointsNearlyInARow) {
       Vector2d c = a + t * along;
       for (std::uint64_t steps = random() % 4; steps > 0; --steps)
         c.y() = std::nextafter(c.y(), i % 2 == 0 ? 1e300 : -1e300);
-      ASSERT_EQ(turn(a, b, c), exact_turn(a, b, c)) << "seed 1, size " << size << ", case " << i;
+      ASSERT_EQ(orientation(a, b, c), exact_orientation(a, b, c))
+          << "seed 1, size " << size << ", case " << i;
     }
   }
 }

@@ -3,7 +3,7 @@
 
 // Points that come part by part give what points in memory give.
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ std::vector<test::TestCloud<T>> clouds() {
 
 // The hull of a ball's surface takes half a minute.
 bool too_slow(const Method& method, const std::string& cloud) {
-  return cloud == "surface of a ball" && method.begins_with == DirectionSet::dop26 &&
+  return cloud == "surface of a ball" && method.initial_directions == DirectionSet::dop26 &&
          method.shape != "sphere" && method.shape != "kdop" && !method.upright;
 }
 

@@ -292,7 +292,7 @@ TEST(AxisSearch, LooksAtAllOfFewVertices) {
   LocalHull hull;
   for (int i = 0; i < 3; ++i)
     hull.vertices.push_back({{}, Eigen::Vector3d::Unit(i), 0});
-  EXPECT_EQ(essential_vertices(hull),
+  EXPECT_EQ(search_vertices(hull),
             (std::vector<Eigen::Vector3d>{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
                                           Eigen::Vector3d::UnitZ()}));
 }
@@ -316,7 +316,7 @@ TEST(AxisSearch, LooksAtThoseOfManyPointsThatReachFarthestAlongEachOf49Direction
   std::vector<Eigen::Vector3d> expected;
   for (const std::size_t i : farthest)
     expected.push_back(points[i]);
-  EXPECT_EQ(essential_vertices(hull), expected) << "seed 12";
+  EXPECT_EQ(search_vertices(hull), expected) << "seed 12";
 }
 
 TEST(RoundFits, OfNothingAreEmpty) {

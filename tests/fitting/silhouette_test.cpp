@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "box/flat_box.h"
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
@@ -98,16 +98,16 @@ std::vector<Eigen::Matrix3d> frames(const Solid& shape) {
 TEST(Silhouette, IsTheOutlineOfAllVertices) {
   for (const Solid& shape : solids()) {
     const Silhouette silhouette(shape.vertices, shape.triangles);
-    Silhouette::View view;
+    Silhouette::Projection projection;
     for (const Eigen::Matrix3d& axes : frames(shape)) {
       for (int a = 0; a < 3; ++a) {
         const Eigen::Vector3d u = axes.col((a + 1) % 3), v = axes.col((a + 2) % 3);
-        const Corners& seen = silhouette.look(u, v, view);
+        const Corners& seen = silhouette.project(u, v, projection);
         const Corners all = chain(shape.vertices, u, v);
         EXPECT_LE(seen.size(), all.size() + 1);  // the first may be on an edge
         EXPECT_NEAR(area(seen), area(all), 1e-12);
-        const FlatBox box = least_rectangle(seen.data(), seen.size());
-        const FlatBox least = least_rectangle(all.data(), all.size());
+        const Rectangle box = smallest_rectangle(seen.data(), seen.size());
+        const Rectangle least = smallest_rectangle(all.data(), all.size());
         EXPECT_NEAR(box.area(), least.area(), 1e-11) << shape.vertices.size() << " vertices\n" << axes;
       }
     }
@@ -120,10 +120,11 @@ TEST(Silhouette, OfACubeFromACornerIsMadeOfSixEdges) {
     cube.emplace_back(i & 1, i >> 1 & 1, i >> 2);
   const Solid shape = solid(cube);
   const Silhouette silhouette(shape.vertices, shape.triangles);
-  Silhouette::View view;
-  const Eigen::Vector3d u = Eigen::Vector3d(1, -1, 0).normalized(), v = Eigen::Vector3d(1, 1, -2).normalized();
-  EXPECT_EQ(silhouette.look(u, v, view).size(), 6U);
-  EXPECT_EQ(view.rim.size(), 6U);
+  Silhouette::Projection projection;
+  const Eigen::Vector3d u = Eigen::Vector3d(1, -1, 0).normalized(),
+                        v = Eigen::Vector3d(1, 1, -2).normalized();
+  EXPECT_EQ(silhouette.project(u, v, projection).size(), 6U);
+  EXPECT_EQ(projection.rim.size(), 6U);
 }
 
 TEST(Silhouette, OfAHullWhoseNormalsVanishIsThatOfItsVertices) {
@@ -131,9 +132,9 @@ TEST(Silhouette, OfAHullWhoseNormalsVanishIsThatOfItsVertices) {
   for (Eigen::Vector3d& p : shape.vertices)
     p *= 1e-170;  // products of two are below 1e-308
   const Silhouette silhouette(shape.vertices, shape.triangles);
-  Silhouette::View view;
+  Silhouette::Projection projection;
   const Eigen::Vector3d u = Eigen::Vector3d::UnitX(), v = Eigen::Vector3d::UnitY();
-  const Corners seen = silhouette.look(u, v, view);
+  const Corners seen = silhouette.project(u, v, projection);
   ASSERT_GT(seen.size(), 2U);
   EXPECT_EQ(seen, chain(shape.vertices, u, v));
 }

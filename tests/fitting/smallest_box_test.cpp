@@ -111,8 +111,8 @@ double least_of_descents(const Points& points, int starts, std::mt19937_64& rand
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < starts; ++start) {
     Matrix3d axes = random_turn(random);
-    int in_vain = 0;
-    for (int axis = 0; in_vain < 3; axis = (axis + 1) % 3) {
+    int stuck_axes = 0;
+    for (int axis = 0; stuck_axes < 3; axis = (axis + 1) % 3) {
       std::vector<Eigen::Vector2d> seen;
       const Vector3d u = axes.col((axis + 1) % 3), v = axes.col((axis + 2) % 3);
       double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -151,7 +151,7 @@ double least_of_descents(const Points& points, int starts, std::mt19937_64& rand
         if ((right - left) * top < area) area = (right - left) * top, best = side;
       }
       const double volume = area * (high - low);
-      in_vain = volume < least * (1 - 1e-12) ? 0 : in_vain + 1;
+      stuck_axes = volume < least * (1 - 1e-12) ? 0 : stuck_axes + 1;
       if (volume < least) least = volume;
       axes.col((axis + 1) % 3) = best.x() * u + best.y() * v;
       axes.col((axis + 2) % 3) = best.x() * v - best.y() * u;

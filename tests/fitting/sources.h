@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "clouds.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv::test {
 

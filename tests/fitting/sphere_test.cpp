@@ -137,7 +137,7 @@ TEST(SmallestSphere, OfOnePointIsCertifiedByItWithoutAPass) {
   EXPECT_EQ(certificate.passes, 0);
 }
 
-// The definition of FarthestPoints, for a part of a cloud.
+// The definition of FarthestQuery, for a part of a cloud.
 OctantPoints farthest_by_definition(const PointView& part, const DistanceCenter& center, double limit) {
   OctantPoints found;
   for (std::size_t i = 0; i < part.count; ++i) {
@@ -160,7 +160,7 @@ void expect_same_from_two_halves(const TestCloud<T>& cloud) {
     ++questions;
     const std::size_t half = points.count / 2;
     found = farthest_by_definition(points.slice(half, points.count - half), center, limit);
-    keep_farthest(farthest_by_definition(points.slice(0, half), center, limit), found);
+    update_farthest(farthest_by_definition(points.slice(0, half), center, limit), found);
     return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
   };
   Sphere expected;

@@ -9,7 +9,7 @@
 
 #include "clouds.h"
 #include "pcl_bv/fitting/summary.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {
@@ -43,7 +43,7 @@ struct Brute {
 
 void expect_accurate(const PointView& points) {
   const CloudSummary summary = summarize(points);
-  const Brute brute(points, summary.scale);
+  const Brute brute(points, summary.covariance_scale);
   ASSERT_EQ(summary.supports.used, brute.valid.size());
   ASSERT_EQ(summary.supports.used + summary.supports.dropped, points.count);
   if (brute.valid.empty()) return;
@@ -62,7 +62,8 @@ void expect_accurate(const PointView& points) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const long double bound =
-          3 * errors * (extent[i] * summary.scale) * (extent[j] * summary.scale) + 0x1p-1073L;
+          3 * errors * (extent[i] * summary.covariance_scale) * (extent[j] * summary.covariance_scale) +
+          0x1p-1073L;
       EXPECT_LE(std::abs(summary.covariance(i, j) - brute.covariance[i][j]), bound) << i << ", " << j;
       EXPECT_EQ(summary.covariance(i, j), summary.covariance(j, i));
     }

@@ -15,8 +15,8 @@
 #include "executions.h"
 #include "flush_to_zero.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_groups.h"
 
 namespace pcl_bv {
 namespace {
@@ -34,7 +34,7 @@ void expect_same(const CloudSummary& a, const CloudSummary& b) {
     EXPECT_EQ(a.supports.along[k].high_point.index, b.supports.along[k].high_point.index)
         << "direction " << k;
   }
-  EXPECT_EQ(a.scale, b.scale);
+  EXPECT_EQ(a.covariance_scale, b.covariance_scale);
   EXPECT_EQ(std::memcmp(a.centroid.data(), b.centroid.data(), 3 * sizeof(double)), 0)
       << a.centroid.transpose() << " and " << b.centroid.transpose();
   EXPECT_EQ(std::memcmp(a.covariance.data(), b.covariance.data(), 9 * sizeof(double)), 0)
@@ -155,7 +155,7 @@ TEST(Summary, OfOnePointIsThatPoint) {
   const CloudSummary summary = summarize(PointView::of(point, 24, 1));
   EXPECT_EQ(summary.centroid, Eigen::Vector3d(5e6, -1e-300, 1e99));
   EXPECT_EQ(summary.covariance, Eigen::Matrix3d::Zero());
-  EXPECT_EQ(summary.scale, 1);
+  EXPECT_EQ(summary.covariance_scale, 1);
 }
 
 TEST(Summary, TinyDoublesAreScaledByAPowerOfTwoAndNothingElse) {
@@ -167,16 +167,16 @@ TEST(Summary, TinyDoublesAreScaledByAPowerOfTwoAndNothingElse) {
   TestCloud<double> scaled = tiny;
   const CloudSummary summary = summarize(tiny.view());
   int exponent = 0;
-  EXPECT_EQ(std::frexp(summary.scale, &exponent), 0.5);
-  EXPECT_GT(summary.scale, 1);
+  EXPECT_EQ(std::frexp(summary.covariance_scale, &exponent), 0.5);
+  EXPECT_GT(summary.covariance_scale, 1);
   for (std::size_t i = 0; i < scaled.xyz.size(); ++i)
-    if (i % 3 != 2) scaled.xyz[i] *= summary.scale;
+    if (i % 3 != 2) scaled.xyz[i] *= summary.covariance_scale;
   EXPECT_EQ(summary.supports.dropped, 2U);
   const CloudSummary expected = summarize(scaled.view());
-  EXPECT_EQ(expected.scale, 1);
+  EXPECT_EQ(expected.covariance_scale, 1);
   EXPECT_EQ(summary.covariance, expected.covariance);
   EXPECT_GT(summary.covariance(0, 0), 0);
-  EXPECT_EQ(summary.centroid.x(), expected.centroid.x() / summary.scale);
+  EXPECT_EQ(summary.centroid.x(), expected.centroid.x() / summary.covariance_scale);
   EXPECT_EQ(summary.centroid.z(), 1e100);
 }
 

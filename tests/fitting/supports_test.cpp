@@ -16,7 +16,7 @@
 #include "exact.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {

@@ -27,7 +27,7 @@ TEST(Verify, CountsPointsThatAreOneDoubleOutside) {
   const Verification result = verify(Aabb({0.5, 2, 3}, {std::nextafter(1.0, 0.0), 2, 3}), points);
   EXPECT_EQ(result.checked, 2U);
   EXPECT_EQ(result.outside, 1U);
-  EXPECT_EQ(result.worst, 0x1p-53);
+  EXPECT_EQ(result.max_violation, 0x1p-53);
 }
 
 TEST(Verify, DecidesBoxesThatRoundingCannotTell) {
@@ -112,7 +112,7 @@ TEST(Verify, DecidesPlanesThatRoundingCannotTell) {
 
 TEST(Verify, SaysHowFarOutsideThePointsAre) {
   const auto worst = [](const AnyVolume& volume, const Eigen::Vector3d& point) {
-    return verify(volume, PointView::of(point.data(), 24, 1)).worst;
+    return verify(volume, PointView::of(point.data(), 24, 1)).max_violation;
   };
   const Capsule capsule({0, 0, 0}, {0, 0, 4}, 1);
   EXPECT_DOUBLE_EQ(worst(capsule, {3, 0, 0.5}), 2);
@@ -178,7 +178,7 @@ TEST(Verify, CountsTheSameOnEveryThread) {
   for (const auto& [name, execution] : test::every_execution()) {
     const Verification result = verify(Sphere({0, 0, 0}, 2), cloud.view(), execution);
     EXPECT_EQ(result.outside, expected.outside) << name;
-    EXPECT_EQ(result.worst, expected.worst) << name;
+    EXPECT_EQ(result.max_violation, expected.max_violation) << name;
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // A view and a copy agree to the bit.
 void look(const msg::PointCloud2& cloud) {
-  const std::optional<PointView> view = points_in_place(cloud);
+  const std::optional<PointView> view = view_points(cloud);
   const RawCloud copy = raw_cloud_of(cloud);
   if (!view || view->count == 0) return;
   const PointView all = copy.xyz();

@@ -18,14 +18,15 @@ void look(const std::string& text) {
   const Request request = parse_request(text);
   if (const auto* set = std::get_if<SetParameters>(&request)) {
     const std::string answer = parameter_values(set->object, set->names, set->id);
-    if (!std::holds_alternative<Unknown>(parse_request(answer))) __builtin_trap();  // no client says that
+    if (!std::holds_alternative<InvalidRequest>(parse_request(answer)))
+      __builtin_trap();  // no client says that
   }
   known_subprotocol(text);
   try {
     parse_address(text);
   } catch (const std::invalid_argument&) {
   }
-  is_our_host(text, {});
+  is_server_host(text, {});
   // A page of another site never gets in by the way it writes itself.
   if (may_connect("http://" + text + ".evil.example", text) && text.find_first_of("[:") == std::string::npos)
     __builtin_trap();

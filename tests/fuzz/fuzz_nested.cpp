@@ -52,7 +52,7 @@ void read_request(const std::string& text) {
   const live::Request request = live::parse_request(text);
   if (const auto* set = std::get_if<live::SetParameters>(&request))
     check_words(settings->change(set->object));
-  if (const auto* unknown = std::get_if<live::Unknown>(&request))
+  if (const auto* unknown = std::get_if<live::InvalidRequest>(&request))
     if (live::status(live::Level::error, unknown->why).size() > 4 * live::kMaxStatusLength) std::abort();
 }
 

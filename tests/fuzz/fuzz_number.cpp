@@ -26,7 +26,7 @@ void check(const std::string& text, std::size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);
-  text.append(pcl_bv::text_padding, '\n');
+  text.append(pcl_bv::kTextPadding, '\n');
   check<float>(text, size);
   check<double>(text, size);
   return 0;

@@ -158,7 +158,7 @@ TEST_F(AtomicFile, AnUnfinishedOneIsRemovedAndNoneIsWrittenAnyMore) {
       if (entries() != 1) _exit(2);
       return 0;
     };
-    const std::string why = "cannot write: the program is being ended";
+    const std::string why = "cannot write: the program is terminating";
     if (reason(file("a"), "new") != why || file_content(file("a")) != "old") _exit(3);
     if (reason(file("b"), "new") != why || entries() != 1) _exit(4);
     _exit(0);
@@ -167,13 +167,13 @@ TEST_F(AtomicFile, AnUnfinishedOneIsRemovedAndNoneIsWrittenAnyMore) {
 }
 
 TEST_F(AtomicFile, ItsFoldersAreMadeWhereTheyAreMissing) {
-  make_folder_of(file("new/folder/a"));
+  create_parent_folders(file("new/folder/a"));
   EXPECT_TRUE(fs::is_directory(file("new/folder")));
   EXPECT_FALSE(fs::exists(file("new/folder/a")));
-  make_folder_of(file("new/folder/b"));
-  make_folder_of("plain");
+  create_parent_folders(file("new/folder/b"));
+  create_parent_folders("plain");
   write_text(file("blocked"), "old");
-  EXPECT_THROW(make_folder_of(file("blocked/folder/a")), IoError);
+  EXPECT_THROW(create_parent_folders(file("blocked/folder/a")), IoError);
 }
 
 TEST_F(AtomicFile, AReaderSeesTheOldOrTheNewContentNeverAPart) {

@@ -40,7 +40,7 @@ TEST_F(Bin, OfAnyOtherSizeIsTruncated) {
   const std::string whole = bytes_of(sample_cloud(sample_layouts()[1], 3, 1, 9));
   for (std::size_t size = 1; size <= whole.size(); ++size) {
     const std::string expected =
-        "truncated: " + std::to_string(size) + " bytes are no multiple of the 16 of a point";
+        "truncated: " + std::to_string(size) + " bytes are not a multiple of the 16 bytes of a point";
     EXPECT_EQ(reason_for_content(whole.substr(0, size), ".bin"), size % 16 == 0 ? "" : expected);
   }
 }
@@ -87,8 +87,8 @@ TEST_F(Bin, OfAnotherNumberOfFloatsIsRefusedWithTheNumberToTry) {
     for (const std::size_t points : {32UL, 320UL, 32'000UL}) {
       const std::string number = std::to_string(fields);
       write_text(file("sweep.bin"), text_of(sweep(points, fields)));
-      EXPECT_EQ(reason_for(file("sweep.bin")), "as points of 4 floats its points leap, as points of " +
-                                                   number + " they do not: try --bin-fields " + number)
+      EXPECT_EQ(reason_for(file("sweep.bin")), "with 4 floats per point, successive points jump; " + number +
+                                                   " floats per point fit better: try --bin-fields " + number)
           << points;
       EXPECT_EQ(read_bin(file("sweep.bin"), fields).size(), points);
     }
@@ -129,7 +129,8 @@ TEST_F(Bin, OfWhatIsNoFloatsIsRefused) {
   EXPECT_NE(reason_for_content(as_text, ".bin"), "");
   const std::vector<float> nothing(400, std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(reason_for_content(text_of(nothing), ".bin"),
-            "as points of 4 floats most values are no coordinates: not such a file");
+            "with 4 floats per point, most values are not plausible coordinates: probably not a .bin point "
+            "cloud");
 }
 
 TEST_F(Bin, WithAnImpossibleNumberOfFieldsIsWrongUse) {

@@ -271,17 +271,17 @@ TEST_F(CloudInFile, HasAHeaderThatSaysHowManyPointsWithoutReadingThem) {
     EXPECT_EQ(header.cloud.size(), 120U);
     EXPECT_EQ(header.cloud.data.size(), 0U);
     EXPECT_EQ(header.scalar, ScalarType::float64);
-    EXPECT_EQ(header.by_position, encoding == PcdEncoding::binary);
+    EXPECT_EQ(header.random_access, encoding == PcdEncoding::binary);
   }
   std::ofstream(file("a.bin"), std::ios::binary) << std::string(160, '\0');
   EXPECT_EQ(read_cloud_header(file("a.bin")).cloud.size(), 10U);
   EXPECT_EQ(read_cloud_header(file("a.bin"), 5).cloud.size(), 8U);
-  EXPECT_TRUE(read_cloud_header(file("a.bin")).by_position);
+  EXPECT_TRUE(read_cloud_header(file("a.bin")).random_access);
   std::ofstream(file("a.ply"))
       << "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\n"
          "property float z\nend_header\n";
   EXPECT_EQ(read_cloud_header(file("a.ply")).cloud.size(), 7U);
-  EXPECT_FALSE(read_cloud_header(file("a.ply")).by_position);
+  EXPECT_FALSE(read_cloud_header(file("a.ply")).random_access);
 }
 
 TEST_F(CloudInFile, HasAHeaderOnlyIfItHoldsAllPoints) {

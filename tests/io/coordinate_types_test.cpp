@@ -142,7 +142,7 @@ TEST_F(CoordinateTypes, ThatAreIntegersBeyondDoublesAreRefused) {
     put((std::int64_t{1} << 53) + 1, cloud.data.data());
     write_pcd(file("a.pcd"), cloud);
     EXPECT_EQ(reason_for(file("a.pcd")),
-              "the coordinate 9007199254740993 is no double: integers of 8 bytes may be at most 2^53");
+              "the coordinate 9007199254740993 is too large: integers may be at most 2^53 in magnitude");
   }
 }
 

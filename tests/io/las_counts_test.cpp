@@ -49,7 +49,7 @@ const LasFile kNarrow{4, 1, 28, 4};
 
 TEST_F(LasCounts, OfVersion14AreThoseOf64BitsNotTheLegacyOnes) {
   const std::string note =
-      "the header says 6 points by its legacy count and 4 by that of version 1.4; the second is taken";
+      "the header has a legacy count of 6 points and a 64-bit count of 4; the 64-bit count is used";
   for (const LasFile& las : {kWide, kNarrow, LasFile{5, 7, 36, 4}}) {
     for (const std::size_t payload : {0U, 1000U}) {
       const RawCloud cloud = read(with_legacy(with_record(las.bytes(), payload), 6));
@@ -66,20 +66,20 @@ TEST_F(LasCounts, ThatAWriterLeftZeroAreTheLegacyOnesWhereThoseMeanAnything) {
   const RawCloud cloud = read(with_count(kNarrow.bytes(), 0));
   EXPECT_EQ(cloud.size(), 4U);
   EXPECT_EQ(cloud.note,
-            "the header says 4 points by its legacy count and 0 by that of version 1.4; the first is taken");
+            "the header has a legacy count of 4 points and a 64-bit count of 0; the legacy count is used");
   EXPECT_EQ(reason(with_legacy(with_count(kWide.bytes(), 0), 4)),
-            "header: 0 points, but 120 bytes of 4 more points follow");
+            "header: 0 points, but 120 more bytes (4 points) follow");
 }
 
 TEST_F(LasCounts, ThatAreTooSmallAreSaid) {
-  const std::string note = "the header says 3 points; 30 bytes of 1 more points follow, which are not read";
+  const std::string note = "the header says 3 points; 30 more bytes (1 point) follow, which are not read";
   EXPECT_EQ(read(with_count(kWide.bytes(), 3)).note, note);
   EXPECT_EQ(read(with_record(with_count(kWide.bytes(), 3), 500)).note, note);
   EXPECT_EQ(read(with_record(kWide.bytes(), 500)).note, "");
   const std::string old = LasFile{2, 0, 20, 4}.bytes();
   EXPECT_EQ(read(old + std::string(19, 'x')).note, "");
   EXPECT_NE(read(old + std::string(20, 'x')).note, "");
-  EXPECT_EQ(reason(with_legacy(old, 0)), "header: 0 points, but 80 bytes of 4 more points follow");
+  EXPECT_EQ(reason(with_legacy(old, 0)), "header: 0 points, but 80 more bytes (4 points) follow");
 }
 
 TEST_F(LasCounts, ThatReachIntoOtherRecordsAreRefused) {

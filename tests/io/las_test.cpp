@@ -113,8 +113,10 @@ TEST_F(Las, ThatContradictsItselfIsRefused) {
   std::string bytes = LasFile().bytes();
   bytes[104] = 11;
   EXPECT_EQ(reason_for_content(bytes, ".las"), "header: point format 11 is not one of 0 to 10");
-  EXPECT_EQ(reason({.format = 3, .record = 33}),
-            "header: records of 33 bytes from byte 281 on are too short or in the header");
+  EXPECT_EQ(
+      reason({.format = 3, .record = 33}),
+      "header: record size 33 is too small for the point format, or the point data offset 281 is inside "
+      "the header");
   EXPECT_EQ(reason({.scale = 0}), "header: a scale is 0 or not finite, or an offset is not finite");
 }
 

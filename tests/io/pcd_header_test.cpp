@@ -333,12 +333,12 @@ TEST_F(PcdHeader, WithTheLineDataTwiceIsRefused) {
 
 TEST_F(PcdHeader, OfZeroPointsBeforeSomeIsRefusedAndOfTooFewIsSaid) {
   set("DATA", "DATA binary").set("WIDTH", "WIDTH 0").set("POINTS", "POINTS 0");
-  EXPECT_EQ(reason(std::string(25, 'a')), "header: 0 points, but 25 bytes of 2 more points follow");
+  EXPECT_EQ(reason(std::string(25, 'a')), "header: 0 points, but 25 more bytes (2 points) follow");
   EXPECT_EQ(reason(std::string(11, 'a')), "");
   set("WIDTH", "WIDTH 2").set("POINTS", "POINTS 2");
   EXPECT_EQ(read(std::string(24 + 11, 'a')).note, "");
   EXPECT_EQ(read(std::string(24 + 36, 'a')).note,
-            "the header says 2 points; 36 bytes of 3 more points follow, which are not read");
+            "the header says 2 points; 36 more bytes (3 points) follow, which are not read");
   EXPECT_EQ(read(std::string(24, 'a') + std::string(4095, '\0')).note, "");  // as PCL fills up a page
   EXPECT_NE(read(std::string(24, 'a') + std::string(4095, '\0') + 'a').note, "");
   EXPECT_NE(read(std::string(24, 'a') + std::string(4096, '\0')).note, "");

@@ -74,7 +74,7 @@ TEST_F(PlyHeaderFile, NeedsAFormatThatIsKnown) {
   EXPECT_EQ(reason_of("format text 1.0\n"),
             "header: format 'text' is not one of ascii, binary_little_endian, binary_big_endian");
   EXPECT_EQ(reason_of("format ascii 2.0\n"), "header: format version '2.0' is not 1.0");
-  EXPECT_EQ(reason_of("format ascii\n"), "header: 'format ascii' is not understood");
+  EXPECT_EQ(reason_of("format ascii\n"), "header: invalid line 'format ascii'");
   EXPECT_EQ(reason_of("format ascii 1.0\nformat ascii 1.0\n"), "header: format occurs twice");
 }
 
@@ -100,14 +100,14 @@ TEST_F(PlyHeaderFile, OfNoVerticesNeedsNoProperties) {
 
 TEST_F(PlyHeaderFile, LinesThatMakeNoSenseAreNamed) {
   EXPECT_EQ(reason_of("format ascii 1.0\n" + xyz), "header: a property before any element");
-  EXPECT_EQ(reason_of_vertex("property float\n"), "header: 'property float' is not understood");
-  EXPECT_EQ(reason_of_vertex("property float x y\n"), "header: 'property float x y' is not understood");
+  EXPECT_EQ(reason_of_vertex("property float\n"), "header: invalid line 'property float'");
+  EXPECT_EQ(reason_of_vertex("property float x y\n"), "header: invalid line 'property float x y'");
   EXPECT_EQ(reason_of_vertex("property lost uchar int l\n"),
-            "header: 'property lost uchar int l' is not understood");
+            "header: invalid line 'property lost uchar int l'");
   EXPECT_EQ(reason_of_vertex("property long x\n"), "header: unknown property type 'long'");
   EXPECT_EQ(reason_of_vertex("property list float int l\n"), "header: a list cannot have 'float' elements");
-  EXPECT_EQ(reason_of_vertex("nonsense\x01\n"), "header: 'nonsense?' is not understood");
-  EXPECT_EQ(reason_of("format ascii 1.0\nelement vertex\n"), "header: 'element vertex' is not understood");
+  EXPECT_EQ(reason_of_vertex("nonsense\x01\n"), "header: invalid line 'nonsense?'");
+  EXPECT_EQ(reason_of("format ascii 1.0\nelement vertex\n"), "header: invalid line 'element vertex'");
 }
 
 TEST_F(PlyHeaderFile, CountsMustBeNumbers) {

@@ -121,7 +121,7 @@ TEST_F(Ply, BytesAfterTheVerticesAreIgnored) {
   EXPECT_EQ(read(binary("", std::string(99, '\0'))).size(), 2u);
   EXPECT_EQ(read(binary("", std::string(35, 'x'))).note, "");
   EXPECT_EQ(read(binary("", std::string(49, 'x'))).note,
-            "the header says 2 points; 25 bytes of 2 more points follow, which are not read");
+            "the header says 2 points; 25 more bytes (2 points) follow, which are not read");
 }
 
 TEST_F(Ply, IsChosenByTheNameInAnyCase) {

@@ -27,7 +27,7 @@ auto bits(T value) {
 template <typename T>
 bool takes(std::string text) {
   const std::size_t size = text.size();
-  text.append(text_padding, '\n');
+  text.append(kTextPadding, '\n');
   T quick;
   const char* after = read_short_decimal(text.data(), quick);
   if (!after) return false;

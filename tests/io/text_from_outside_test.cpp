@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,12 +57,12 @@ TEST(TextFromOutside, DepthEndsWhereItShouldWhateverFollows) {
 }
 
 TEST(TextFromOutside, WhatIsNoJsonHasItsPlaceInOurWords) {
-  EXPECT_EQ(error_of("{\n \"a\": nope}"), "line 2, column 8: is no JSON");
-  EXPECT_EQ(error_of("[1, 2"), "is cut off: the last value has no end");
-  EXPECT_EQ(error_of("{\"a"), "is cut off: the last value has no end");
+  EXPECT_EQ(error_of("{\n \"a\": nope}"), "line 2, column 8: invalid JSON");
+  EXPECT_EQ(error_of("[1, 2"), "truncated JSON: the last value is incomplete");
+  EXPECT_EQ(error_of("{\"a"), "truncated JSON: the last value is incomplete");
   EXPECT_EQ(error_of("[1e999]"), "line 1, column 1: a number is too large");
-  EXPECT_EQ(error_of("  "), "is no JSON: it is empty");
-  EXPECT_EQ(error_of("1 2"), "is no JSON: something follows the value");
+  EXPECT_EQ(error_of("  "), "invalid JSON: the text is empty");
+  EXPECT_EQ(error_of("1 2"), "invalid JSON: text after the value");
   for (const char* text :
        {"]", "}", "[}", "{]", "\xff", "[\"\xff\"]", "\"\\u12\"", "{1:2}", "[1,]", ",", "[1 2]"})
     EXPECT_THAT(error_of(text), testing::Not(HasSubstr("exception"))) << text;
@@ -74,7 +74,7 @@ TEST(TextFromOutside, ManyKeysAreReadIntoAMap) {
   for (int i = 0; i < 100'000; ++i)
     text += (i == 0 ? "\"" : ",\"") + std::to_string(i) + "\":0";
   EXPECT_EQ(read_json(text + "}").size(), 100'000U);
-  static_assert(std::is_same_v<JsonFromOutside::object_t::key_compare, std::less<>>);
+  static_assert(std::is_same_v<UntrustedJson::object_t::key_compare, std::less<>>);
 }
 
 using FilesFromOutside = FileTest;
@@ -82,10 +82,10 @@ using FilesFromOutside = FileTest;
 TEST_F(FilesFromOutside, AreReadNoFartherThanTheyMayGo) {
   const std::filesystem::path small = file("text");
   write_text(small, std::string(1000, 'x'));
-  EXPECT_EQ(read_text_from_outside(small, 1000).size(), 1000U);
+  EXPECT_EQ(read_untrusted_text(small, 1000).size(), 1000U);
   const auto error_of_file = [](const std::filesystem::path& path, std::size_t most) -> std::string {
     try {
-      static_cast<void>(read_text_from_outside(path, most));
+      static_cast<void>(read_untrusted_text(path, most));
     } catch (const IoError& error) {
       return error.what();
     }
@@ -95,7 +95,7 @@ TEST_F(FilesFromOutside, AreReadNoFartherThanTheyMayGo) {
   EXPECT_EQ(error_of_file("/dev/zero", 100'000), "has more than 100000 bytes");
   EXPECT_EQ(error_of_file("/no/such/file", 1), "cannot be read");
   EXPECT_EQ(error_of_file("/tmp", 1), "cannot be read");
-  EXPECT_EQ(read_text_from_outside("/dev/null", 1), "");
+  EXPECT_EQ(read_untrusted_text("/dev/null", 1), "");
 }
 
 }  // namespace

@@ -61,17 +61,19 @@ TEST_F(UnneededValues, OfMinusOneAreTheGreatestOfUnsignedFields) {
 TEST_F(UnneededValues, ThatAreNoNumbersAreSaidAndReadAsNothing) {
   RawCloud cloud = read(text("U", 1, {"4", "256", "-129", "1.5"}));
   EXPECT_EQ(cloud.size(), 4U);
-  EXPECT_EQ(cloud.note,
-            "row 2, field 'label': '256' is no unsigned integer of 1 byte; 3 such values are read as 0");
+  EXPECT_EQ(
+      cloud.note,
+      "row 2, field 'label': '256' is not an unsigned integer of 1 byte; 3 such values are replaced by 0");
   EXPECT_EQ(cloud.data[12], std::byte{4});
   EXPECT_EQ(cloud.data[13 + 12], std::byte{0});
   cloud = read(text("F", 4, {"none", "2"}));
-  EXPECT_EQ(cloud.note, "row 1, field 'label': 'none' is no number; 1 such value is read as NaN");
+  EXPECT_EQ(cloud.note, "row 1, field 'label': 'none' is not a number; 1 such value is replaced by NaN");
   float value = 0;
   std::memcpy(&value, &cloud.data[12], 4);
   EXPECT_TRUE(std::isnan(value));
   cloud = read_ply_text("int", "1 x 3 4\n1 9007199254740994 3 4\n");
-  EXPECT_EQ(cloud.note, "vertex 0, field 'label': 'x' is no integer of 4 bytes; 2 such values are read as 0");
+  EXPECT_EQ(cloud.note,
+            "vertex 0, field 'label': 'x' is not an integer of 4 bytes; 2 such values are replaced by 0");
   EXPECT_EQ(load_point(cloud.xyz(), 1).z, 4);
 }
 
@@ -92,7 +94,7 @@ TEST_F(UnneededValues, AreSaidTheSameForAnyNumberOfThreads) {
     words[i] = "w" + std::to_string(i);
   const std::string all = text("I", 2, words);
   const std::string expected =
-      "row 778, field 'label': 'w777' is no integer of 2 bytes; 19741 such values are read as 0";
+      "row 778, field 'label': 'w777' is not an integer of 2 bytes; 19741 such values are replaced by 0";
   for (const unsigned threads : {1U, 2U, 5U})
     EXPECT_EQ(read(all, Threads{threads}).note, expected) << threads;
 }

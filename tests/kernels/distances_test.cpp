@@ -46,7 +46,7 @@ std::vector<double> run(Isa isa, const PointView& points, const DistanceCenter& 
   for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
     OctantScan scan{center, limit, filter};
     scan_octants(isa, points.slice(begin, std::min(kBlockPoints, points.count - begin)), scan);
-    greatest.push_back(*std::max_element(scan.greatest.begin(), scan.greatest.end()));
+    greatest.push_back(*std::max_element(scan.max_squared.begin(), scan.max_squared.end()));
   }
   return greatest;
 }
@@ -94,7 +94,7 @@ TEST(DistancesReference, FollowsTheDefinition) {
       OctantScan scan{center, 0.125};
       scan_octants(Isa::scalar, points.slice(begin, std::min(kBlockPoints, points.count - begin)), scan);
       for (std::size_t o = 0; o < 8; ++o)
-        found[o] = std::max(found[o], scan.greatest[o]);
+        found[o] = std::max(found[o], scan.max_squared[o]);
     }
     EXPECT_EQ(found, octants);
   }
@@ -122,7 +122,7 @@ class DistanceParity : public testing::TestWithParam<Isa> {
       OctantScan expected{center, limit};
       scan_octants(GetParam(), block, scan);
       scan_octants(Isa::scalar, block, expected);
-      EXPECT_EQ(scan.greatest, expected.greatest);
+      EXPECT_EQ(scan.max_squared, expected.max_squared);
       if (filter == FloatFilter::reject && points.scalar == ScalarType::float32) {
         for (const double other : {limit, limit * 0.5, limit * 1.00001})
           expect_reached(block, center, other, bounds.data());
@@ -133,7 +133,8 @@ class DistanceParity : public testing::TestWithParam<Isa> {
   void expect_reached(const PointView& block, const DistanceCenter& center, double limit,
                       const float* bounds) {
     std::vector<std::uint32_t> reached(kBlockPoints);
-    reached.resize(list_reaching(GetParam(), block, {bounds, limit}, center, -infinity, reached.data()));
+    reached.resize(
+        list_distant_by_bounds(GetParam(), block, {bounds, limit}, center, -infinity, reached.data()));
     std::sort(reached.begin(), reached.end());
     EXPECT_EQ(std::adjacent_find(reached.begin(), reached.end()), reached.end());
     const std::vector<std::uint32_t> expected = list(Isa::scalar, block, center, limit, FloatFilter::off);

@@ -17,12 +17,12 @@
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
-#include "pcl_bv/kernels/point_groups.h"
-#include "pcl_bv/kernels/point_records.h"
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_records.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {
@@ -55,12 +55,12 @@ const std::vector<Kernel>& kernels() {
       {"chunk_supports of the cube", kChunkPoints,
        [](Isa isa, const PointView& points) {
          ChunkSupports out;
-         chunk_supports(isa, points, SupportDirections::of(DirectionSet::dop26), nothing_reached(), out);
+         chunk_supports(isa, points, SupportDirections::of(DirectionSet::dop26), no_support_bounds(), out);
        }},
       {"chunk_supports", kChunkPoints,
        [](Isa isa, const PointView& points) {
          ChunkSupports out;
-         chunk_supports(isa, points, one_direction(), nothing_reached(), out);
+         chunk_supports(isa, points, one_direction(), no_support_bounds(), out);
        }},
       {"block_moments", kBlockPoints, [](Isa isa, const PointView& points) { block_moments(isa, points); }},
       {"scan_octants", kBlockPoints,
@@ -68,10 +68,10 @@ const std::vector<Kernel>& kernels() {
          OctantScan scan;
          scan_octants(isa, points, scan);
        }},
-      {"list_reaching", kBlockPoints,
+      {"list_distant_by_bounds", kBlockPoints,
        [](Isa isa, const PointView& points) {
          const std::vector<float> bounds(kBlockBounds, 1.0F);
-         list_reaching(isa, points, {bounds.data(), 0}, {}, 1, room(points).data());
+         list_distant_by_bounds(isa, points, {bounds.data(), 0}, {}, 1, room(points).data());
        }},
       {"list_distant", std::size_t{1} << 32,
        [](Isa isa, const PointView& points) {
@@ -167,9 +167,10 @@ TEST(Misuse, DistancesOfFloatsHaveNoUnitOfTheirOwnAndBoundsBelongToFloats) {
   EXPECT_NO_THROW(scan_octants(Isa::scalar, doubles.view(), scan));
   const std::vector<float> bounds(kBlockBounds, 1.0F);
   std::uint32_t positions[10];
-  EXPECT_THROW(list_reaching(Isa::scalar, doubles.view(), {bounds.data(), 0}, {}, 0, positions),
+  EXPECT_THROW(list_distant_by_bounds(Isa::scalar, doubles.view(), {bounds.data(), 0}, {}, 0, positions),
                std::invalid_argument);
-  EXPECT_THROW(list_reaching(Isa::scalar, cloud.view(), {}, {}, 0, positions), std::invalid_argument);
+  EXPECT_THROW(list_distant_by_bounds(Isa::scalar, cloud.view(), {}, {}, 0, positions),
+               std::invalid_argument);
 }
 
 TEST(Misuse, APolytopeHasNoMoreHalfSpacesThanThereIsRoomFor) {
@@ -245,12 +246,12 @@ TEST(Misuse, ViewsAreTheSamePlacesOnlyIfNothingDiffers) {
   const std::vector<std::int32_t> indices(10, 1);
   const NoSource source;
   const PointView view = cloud.view();
-  EXPECT_TRUE(same_places(view, cloud.view()));
-  EXPECT_FALSE(same_places(view, other.view()));
+  EXPECT_TRUE(same_memory(view, cloud.view()));
+  EXPECT_FALSE(same_memory(view, other.view()));
   const auto differs = [&](const auto& change) {
     PointView changed = view;
     change(changed);
-    return !same_places(view, changed) && !same_places(changed, view);
+    return !same_memory(view, changed) && !same_memory(changed, view);
   };
   EXPECT_TRUE(differs([](PointView& v) { v.stride = 24; }));
   EXPECT_TRUE(differs([](PointView& v) { v.count = 9; }));

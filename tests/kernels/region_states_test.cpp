@@ -53,7 +53,7 @@ ConvexRegion slabs(const Coordinates& center, double half) {
 // A box with round edges, in another unit along an axis.
 ConvexRegion round_box(const Coordinates& center, double size) {
   ConvexRegion region = body(center, 2 * size);
-  region.shape = RegionShape::body;
+  region.shape = RegionShape::rounded;
   region.slab[2] = 0.75 * size;
   region.core = {0.5 * size, 0.25 * size, 0};
   region.weight = {1, 2, 0};

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "clouds.h"
-#include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/points/point_groups.h"
 
 namespace pcl_bv {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "clouds.h"
 #include "directions.h"
-#include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/points/point_groups.h"
 
 namespace pcl_bv {
 namespace {

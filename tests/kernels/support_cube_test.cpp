@@ -11,8 +11,8 @@
 
 #include "clouds.h"
 #include "pcl_bv/kernels/axis_extents.h"
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_groups.h"
 #include "supports_by_definition.h"
 
 namespace pcl_bv {
@@ -172,7 +172,7 @@ TEST_P(CubeSupports, SumsAreNotContracted) {
   const TestCloud<float> cloud{"fma", {1.0F + 0x1p-23F, 0x1p-24F, -1.0F, 16777216.0F, 1.0F, 1.0F}};
   expect_definition<float>(cloud.view());
   const SupportDirections& directions = SupportDirections::of(DirectionSet::dop14);
-  EXPECT_EQ(run(GetParam(), cloud.view(), directions).ends[7].index, 1U);
+  EXPECT_EQ(run(GetParam(), cloud.view(), directions).supports[7].index, 1U);
 }
 
 TEST_P(CubeSupports, ABoxOfMixedZerosHasPositiveZeros) {

@@ -18,10 +18,10 @@ TEST(SupportPoint, IsTheExactlyGreatestWithTheSmallestIndex) {
     if (cloud.size() > 2000) continue;  // rationals are slow
     const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
     ChunkSupports supports;
-    chunk_supports(Isa::automatic, cloud.view(), set, nothing_reached(), supports);
-    for (std::size_t end = 0; end < 2 * set.count; ++end) {
-      const Direction direction = set.end_direction(end);
-      const SupportPoint& best = supports.ends[end];
+    chunk_supports(Isa::automatic, cloud.view(), set, no_support_bounds(), supports);
+    for (std::size_t support = 0; support < 2 * set.count; ++support) {
+      const Direction direction = set.support_direction(support);
+      const SupportPoint& best = supports.supports[support];
       bool found = false;
       Rational greatest;
       std::size_t index = 0;
@@ -49,8 +49,8 @@ TEST(SupportPoint, NamesTheCloudsIndexUnderAnIndexListAndBreaksTiesByIt) {
   const PointView view = PointView::of(cloud.xyz.data(), 12, 4, indices);
   const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
   ChunkSupports supports;
-  chunk_supports(Isa::automatic, view, set, nothing_reached(), supports);
-  EXPECT_EQ(supports.ends[2 * 11 + 1].index, 1U);  // (0, 1, 1)
+  chunk_supports(Isa::automatic, view, set, no_support_bounds(), supports);
+  EXPECT_EQ(supports.supports[2 * 11 + 1].index, 1U);  // (0, 1, 1)
 }
 
 }  // namespace

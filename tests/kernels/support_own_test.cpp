@@ -15,8 +15,8 @@
 #include "clouds.h"
 #include "directions.h"
 #include "exact.h"
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_groups.h"
 #include "supports_by_definition.h"
 
 namespace pcl_bv {
@@ -37,7 +37,7 @@ SupportDirections set_of(const Directions& directions) {
   return set;
 }
 
-class OwnSupports : public testing::TestWithParam<Isa> {
+class CustomSupports : public testing::TestWithParam<Isa> {
  protected:
   void expect_definition(const PointView& points, const Directions& directions) {
     const SupportDirections set = set_of(directions);
@@ -53,18 +53,18 @@ class OwnSupports : public testing::TestWithParam<Isa> {
   }
 };
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForFloat) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForFloat) {
   expect_definition_on_nasty_clouds<float>(test::nasty_directions());
   expect_definition_on_nasty_clouds<float>(test::random_directions(5, 1));
   expect_definition_on_nasty_clouds<float>(test::integer_directions());
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForDouble) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForDouble) {
   expect_definition_on_nasty_clouds<double>(test::nasty_directions());
   expect_definition_on_nasty_clouds<double>(test::random_directions(5, 2));
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryNumberOfDirections) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForEveryNumberOfDirections) {
   // Groups of directions, and parts of a chunk that shrink as directions grow.
   const TestCloud<float> cloud = test::gaussian<float>(kChunkPoints, 5);
   for (std::size_t n = 1; n <= kMaxSupportDirections; n += n < 10 ? 1 : 3) {
@@ -73,7 +73,7 @@ TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryNumberOfDirections) {
   }
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
   const Directions directions = test::random_directions(3, 4);
   for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
     const TestCloud<float> cloud = test::gaussian<float>(n, n);
@@ -89,7 +89,7 @@ TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
   }
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
   // The last packet of a block may start amid a group, where a vector of x must not end in y.
   const Directions directions = test::random_directions(3, 7);
   for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
@@ -103,7 +103,7 @@ TEST_P(OwnSupports, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
   }
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                        -std::numeric_limits<float>::infinity()};
   const Directions directions = test::random_directions(6, 5);
@@ -119,7 +119,7 @@ TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
   }
 }
 
-TEST_P(OwnSupports, OfTheOnlyValidPointAreItsOwn) {
+TEST_P(CustomSupports, OfTheOnlyValidPointAreItsOwn) {
   const Directions directions = test::random_directions(3, 5);
   for (const std::size_t n : {1, 15, 40}) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -131,7 +131,7 @@ TEST_P(OwnSupports, OfTheOnlyValidPointAreItsOwn) {
   }
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
   const TestCloud<float> cloud = test::gaussian<float>(4000, 3);
   std::vector<std::int32_t> indices(4000);
   std::iota(indices.begin(), indices.end(), 0);
@@ -149,7 +149,7 @@ TEST_P(OwnSupports, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
   }
 }
 
-TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryTailOfABlock) {
+TEST_P(CustomSupports, AreThoseOfTheDefinitionForEveryTailOfABlock) {
   const Directions directions = {{0.3, 0.2, 0.1}, {-0.1, 0.1, 0.5}};
   for (const std::size_t whole : {64, 128, 256, 512, 1024}) {
     for (std::size_t n = whole + 1; n < whole + 18; ++n) {
@@ -165,12 +165,12 @@ TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryTailOfABlock) {
   }
 }
 
-TEST_P(OwnSupports, OfEqualPointsAreTheSmallestIndexWhateverTheOrder) {
+TEST_P(CustomSupports, OfEqualPointsAreTheSmallestIndexWhateverTheOrder) {
   const std::vector<float> xyz(3 * 100, 0.7F);
   const std::vector<std::int32_t> indices = {50, 7, 99, 3, 8};
   const PointView view = PointView::of(xyz.data(), 12, indices.size(), indices.data());
   expect_definition(view, test::nasty_directions());
-  EXPECT_EQ(run(GetParam(), view, set_of({{1, 2, 3}})).ends[0].index, 3U);
+  EXPECT_EQ(run(GetParam(), view, set_of({{1, 2, 3}})).supports[0].index, 3U);
 }
 
 template <typename T>
@@ -181,7 +181,7 @@ TestCloud<T> flat(std::uint64_t seed, double offset) {
   return cloud;
 }
 
-TEST_P(OwnSupports, OfPointsFlatInTheDirectionAreDecidedExactly) {
+TEST_P(CustomSupports, OfPointsFlatInTheDirectionAreDecidedExactly) {
   // Planes far from the origin and near: every point is within the filter's band, the last bits decide.
   const Directions directions = {{1.0 / 3, 1, -1}, {-1.0 / 3, -1, 1}, {0.1 / 3, 0.1, -0.1}};
   for (const double offset : {0.0, 5e6}) {
@@ -193,15 +193,15 @@ TEST_P(OwnSupports, OfPointsFlatInTheDirectionAreDecidedExactly) {
   }
 }
 
-TEST_P(OwnSupports, AreRightWherePartialSumsOverflow) {
+TEST_P(CustomSupports, AreRightWherePartialSumsOverflow) {
   // 1.9 x is -infinity in float; 1.9 (x + y) is the greatest projection.
   TestCloud<float> cloud = test::gaussian<float>(200, 2, 1e36);
   cloud.xyz.insert(cloud.xyz.begin() + 3 * 30, {-2e38F, 2.2e38F, 1e36F});
   cloud.xyz.insert(cloud.xyz.begin() + 3 * 60, {2.1e38F, -2.4e38F, 1e36F});
   expect_definition(cloud.view(), {{1.9, 1.9, 1.9}});
   const ChunkSupports farthest = run(GetParam(), cloud.view(), set_of({{1.9, 1.9, 1.9}}));
-  EXPECT_EQ(farthest.ends[0].index, 60U);
-  EXPECT_EQ(farthest.ends[1].index, 30U);
+  EXPECT_EQ(farthest.supports[0].index, 60U);
+  EXPECT_EQ(farthest.supports[1].index, 30U);
 }
 
 template <typename T>
@@ -231,7 +231,7 @@ constexpr Direction kTinyComponents[] = {
     {1, 1e-42, 3e-43},      {1, 1e-44, 1.2e-44},      {1, 1e-46, 3e-46},      {1, 7e-319, 2e-318},
     {1e30, 1e-288, 3e-289}, {1e30, 1e-293, 1.3e-293}, {1e30, 1e-305, -2e-306}};
 
-TEST_P(OwnSupports, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
+TEST_P(CustomSupports, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
   // As floats the components keep a few bits or none, as scaled doubles too: the rounded ones point
   // elsewhere.
   for (const Direction& tiny : kTinyComponents) {
@@ -267,14 +267,15 @@ TEST(SupportDirections, WhatIsSurelyReachedIsReachedInExactArithmetic) {
           c = random() % 3 == 0 ? 0 : size * unit(random) * (random() % 4 == 0 ? 1e-20 : 1);
         const Coordinates point = {p[0], p[1], p[2]};
         const Rational exact = test::exact_dot(direction, point) * scale;
-        ASSERT_TRUE(Rational(surely_reached(set, 1, point)) <= exact) << "seed 21, " << i << ", along " << by;
-        ASSERT_TRUE(Rational(surely_reached(set, 0, point)) <= -exact)
+        ASSERT_TRUE(Rational(projection_lower_bound(set, 1, point)) <= exact)
+            << "seed 21, " << i << ", along " << by;
+        ASSERT_TRUE(Rational(projection_lower_bound(set, 0, point)) <= -exact)
             << "seed 21, " << i << ", along " << by;
       }
     }
   }
 }
-TEST_P(OwnSupports, DoublesBeyondTheLimitAreDropped) {
+TEST_P(CustomSupports, DoublesBeyondTheLimitAreDropped) {
   TestCloud<double> cloud{"limit", {1e100, 0, 0, 0, -1.01e100, 0, 1, 2, 3, 0, 0, 1e200}};
   for (int i = 0; i < 50; ++i)
     cloud.xyz.insert(cloud.xyz.end(), {0.99e100, 1, 1});
@@ -283,7 +284,7 @@ TEST_P(OwnSupports, DoublesBeyondTheLimitAreDropped) {
   EXPECT_EQ(run(GetParam(), cloud.view(), set_of({{1, 1, 1}})).dropped, 3U);
 }
 
-TEST_P(OwnSupports, DoublesHardlyBeyondTheLimitAreDroppedAlsoNearTheCentre) {
+TEST_P(CustomSupports, DoublesHardlyBeyondTheLimitAreDroppedAlsoNearTheCentre) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       SCOPED_TRACE(testing::Message() << "axis " << axis << ", sign " << sign);
@@ -295,7 +296,7 @@ TEST_P(OwnSupports, DoublesHardlyBeyondTheLimitAreDroppedAlsoNearTheCentre) {
   }
 }
 
-TEST_P(OwnSupports, OfDoublesAreRightWhereProductsVanish) {
+TEST_P(CustomSupports, OfDoublesAreRightWhereProductsVanish) {
   for (const double scale : {1e-300, 1e-310, 1e-322, 1e-160, 1e95}) {
     SCOPED_TRACE(testing::Message() << "scale " << scale);
     TestCloud<double> cloud = test::gaussian<double>(1500, 3);
@@ -305,13 +306,13 @@ TEST_P(OwnSupports, OfDoublesAreRightWhereProductsVanish) {
   }
 }
 
-TEST_P(OwnSupports, AreFoundUnlessTheyCannotReachWhatIsKnown) {
+TEST_P(CustomSupports, AreFoundUnlessTheyCannotReachWhatIsKnown) {
   const TestCloud<float> cloud = test::gaussian<float>(20'000, 11, 3, 1e3);
   const SupportDirections set = set_of(test::random_directions(13, 8));
   test::expect_found_unless_beyond(GetParam(), cloud.view(), set);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryUsableSet, OwnSupports, testing::ValuesIn(usable_isas()),
+INSTANTIATE_TEST_SUITE_P(EveryUsableSet, CustomSupports, testing::ValuesIn(usable_isas()),
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 
 }  // namespace

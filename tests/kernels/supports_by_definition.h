@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The judge of chunk_supports(): every point, exactly.
+// A reference for chunk_supports(), which compares every point exactly.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 namespace pcl_bv::test {
 
 inline ChunkSupports run(Isa isa, const PointView& points, const SupportDirections& set,
-                         const ReachedSupports& reached = nothing_reached()) {
+                         const SupportBounds& bounds = no_support_bounds()) {
   ChunkSupports supports;
-  chunk_supports(isa, points, set, reached, supports);
+  chunk_supports(isa, points, set, bounds, supports);
   return supports;
 }
 
@@ -25,9 +25,9 @@ inline ChunkSupports by_definition(const PointView& points, const SupportDirecti
       ++out.dropped;
       continue;
     }
-    for (std::size_t end = 0; end < 2 * set.count; ++end) {
-      SupportPoint& best = out.ends[end];
-      const int order = best.found ? compare_along(set.end_direction(end), p, best.point) : 1;
+    for (std::size_t support = 0; support < 2 * set.count; ++support) {
+      SupportPoint& best = out.supports[support];
+      const int order = best.found ? compare_along(set.support_direction(support), p, best.point) : 1;
       if (order > 0 || (order == 0 && points.index(i) < best.index)) best = {true, p, points.index(i)};
     }
   }
@@ -36,24 +36,25 @@ inline ChunkSupports by_definition(const PointView& points, const SupportDirecti
 
 inline void expect_same(const ChunkSupports& a, const ChunkSupports& b, std::size_t directions) {
   EXPECT_EQ(a.dropped, b.dropped);
-  for (std::size_t end = 0; end < 2 * directions; ++end) {
-    SCOPED_TRACE("end " + std::to_string(end));
-    ASSERT_EQ(a.ends[end].found, b.ends[end].found);
-    EXPECT_EQ(a.ends[end].index, b.ends[end].index);
+  for (std::size_t support = 0; support < 2 * directions; ++support) {
+    SCOPED_TRACE("support " + std::to_string(support));
+    ASSERT_EQ(a.supports[support].found, b.supports[support].found);
+    EXPECT_EQ(a.supports[support].index, b.supports[support].index);
   }
 }
 
-/// What the support points are known to reach leaves them to be found; a little more, and none is.
+/// Expects that all supports are found if their own projections are the known bounds, and none if the bounds
+/// are larger by 1.
 inline void expect_found_unless_beyond(Isa isa, const PointView& points, const SupportDirections& set) {
   const ChunkSupports all = run(isa, points, set);
-  ReachedSupports same = nothing_reached(), beyond = same;
-  for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    same[end] = surely_reached(set, end, all.ends[end].point);
-    beyond[end] = same[end] + 1;
+  SupportBounds same = no_support_bounds(), beyond = same;
+  for (std::size_t support = 0; support < 2 * set.count; ++support) {
+    same[support] = projection_lower_bound(set, support, all.supports[support].point);
+    beyond[support] = same[support] + 1;
   }
   expect_same(run(isa, points, set, same), all, set.count);
-  for (const SupportPoint& end : run(isa, points, set, beyond).ends)
-    EXPECT_FALSE(end.found);
+  for (const SupportPoint& support : run(isa, points, set, beyond).supports)
+    EXPECT_FALSE(support.found);
 }
 
 }  // namespace pcl_bv::test

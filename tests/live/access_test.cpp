@@ -27,10 +27,10 @@ TEST(LiveAccess, ReadsHostsAndPorts) {
 TEST(LiveAccess, KnowsItselfByAddressesAndItsOwnNames) {
   const Address server{"robot.lan", 8765};
   for (const char* ours : {"localhost:8765", "127.0.0.1", "[::1]:8765", "192.168.1.7:8765", "robot.lan:8765"})
-    EXPECT_TRUE(is_our_host(ours, server)) << ours;
+    EXPECT_TRUE(is_server_host(ours, server)) << ours;
   for (const char* other :
        {"", "evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example", "[::1", ":8765"})
-    EXPECT_FALSE(is_our_host(other, server)) << other;
+    EXPECT_FALSE(is_server_host(other, server)) << other;
 }
 
 TEST(LiveAccess, LetsInOurPageThisMachinesAndFoxgloves) {
@@ -44,7 +44,7 @@ TEST(LiveAccess, LetsInOurPageThisMachinesAndFoxgloves) {
     EXPECT_FALSE(may_connect(origin, "192.168.1.7:8765")) << origin;
   using namespace std::string_view_literals;
   EXPECT_FALSE(may_connect("http://127.0.0.1\0.evil.example"sv, "localhost"));
-  EXPECT_FALSE(is_our_host("127.0.0.1\0.evil.example"sv, {}));
+  EXPECT_FALSE(is_server_host("127.0.0.1\0.evil.example"sv, {}));
 }
 
 }  // namespace

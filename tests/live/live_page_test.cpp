@@ -43,9 +43,9 @@ class Streaming {
     config.track.enabled = true;
     pipeline_.set_config(config);
     sink_ = make_sink(parse_sink("ws:" + address));
-    const std::string shows = sink_->take_remarks().at(0);
+    const std::string shows = sink_->take_warnings().at(0);
     port = shows.substr(shows.rfind(':') + 1, shows.find('/', shows.rfind(':')) - shows.rfind(':') - 1);
-    sink_->offer(remote_settings(pipeline_));
+    sink_->offer_settings(remote_settings(pipeline_));
     thread_ = std::thread([this] { run(); });
   }
   ~Streaming() {

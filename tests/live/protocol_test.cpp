@@ -50,7 +50,7 @@ TEST(LiveProtocol, AnythingElseIsSaidToBeUnknown) {
         std::string(R"({"op":"getParameters","parameterNames":[1]})"),
         std::string(R"({"op":"setParameters","parameters":[{"value":1}]})"),
         std::string(R"({"op":"setParameters","parameters":{"name":"x"}})"), deep})
-    EXPECT_TRUE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 60);
+    EXPECT_TRUE(std::holds_alternative<InvalidRequest>(parse_request(text))) << text.substr(0, 60);
 }
 
 TEST(LiveProtocol, ValuesThatAreNestedWithoutEndAreRefused) {
@@ -59,8 +59,8 @@ TEST(LiveProtocol, ValuesThatAreNestedWithoutEndAreRefused) {
         R"({"op":"setParameters","parameters":[{"name":"x","value":)" + std::string(depth, '[');
     for (const std::string& text : {open, open + std::string(depth, ']') + "}]}"}) {
       const Request request = parse_request(text);
-      ASSERT_TRUE(std::holds_alternative<Unknown>(request));
-      EXPECT_THAT(std::get<Unknown>(request).why, testing::HasSubstr("nested more than 64 deep"));
+      ASSERT_TRUE(std::holds_alternative<InvalidRequest>(request));
+      EXPECT_THAT(std::get<InvalidRequest>(request).why, testing::HasSubstr("nested more than 64 deep"));
     }
   }
 }
@@ -80,10 +80,10 @@ TEST(LiveProtocol, ARequestNamesSoManyThingsAndNoMore) {
         R"({"op":"unsubscribe","subscriptionIds":)" + list(count, "1") + "}"};
   };
   for (const std::string& text : requests(kMaxNames))
-    EXPECT_FALSE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 40);
+    EXPECT_FALSE(std::holds_alternative<InvalidRequest>(parse_request(text))) << text.substr(0, 40);
   for (const std::string& text : requests(kMaxNames + 1))
-    EXPECT_TRUE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 40);
-  EXPECT_TRUE(std::holds_alternative<Unknown>(
+    EXPECT_TRUE(std::holds_alternative<InvalidRequest>(parse_request(text))) << text.substr(0, 40);
+  EXPECT_TRUE(std::holds_alternative<InvalidRequest>(
       parse_request(R"({"op":"getParameters","id":")" + std::string(kMaxIdLength + 1, 'x') + "\"}")));
 }
 
@@ -91,11 +91,11 @@ TEST(LiveProtocol, AnAnswerIsShortWhateverWasAsked) {
   const std::string answer = status(Level::error, std::string(100'000, 'x'));
   EXPECT_LT(answer.size(), kMaxStatusLength + 100);
   const Request unknown = parse_request(R"({"op":")" + std::string(10'000, 'x') + "\"}");
-  EXPECT_LT(std::get<Unknown>(unknown).why.size(), 100U);
+  EXPECT_LT(std::get<InvalidRequest>(unknown).why.size(), 100U);
 }
 
 TEST(LiveProtocol, AMessagesHeadHasItsNumbersLittleEndian) {
-  const MessageHead head = message_head(0x01020304, 0x1112131415161718);
+  const MessageHeader head = message_header(0x01020304, 0x1112131415161718);
   EXPECT_THAT(head, ElementsAre(1, 4, 3, 2, 1, 0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11));
   EXPECT_EQ(time_message(5), std::string("\2\5\0\0\0\0\0\0\0", 9));
 }

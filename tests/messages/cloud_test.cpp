@@ -67,7 +67,7 @@ void expect_points(const PointView& view, std::size_t count) {
 
 TEST(CloudMessage, IsViewedWhereItLies) {
   const Made made = cloud_of(5, 2);
-  const auto view = points_in_place(made.cloud);
+  const auto view = view_points(made.cloud);
   ASSERT_TRUE(view);
   EXPECT_EQ(view->data, made.bytes.data());
   EXPECT_EQ(view->readable, 16U);
@@ -79,7 +79,7 @@ TEST(CloudMessage, IsViewedWhereItLies) {
 
 TEST(CloudMessage, WithPaddedRowsIsCopied) {
   const Made made = cloud_of(3, 4, 5);
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   expect_points(raw_cloud_of(made.cloud).xyz(), 12);
 }
 
@@ -89,7 +89,7 @@ TEST(CloudMessage, InTheOtherByteOrderIsCopied) {
     std::reverse(made.bytes.begin() + static_cast<std::ptrdiff_t>(at),
                  made.bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4);
   made.cloud.is_bigendian = true;
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   const RawCloud raw = raw_cloud_of(made.cloud);
   expect_points(raw.xyz(), 4);
   float intensity;
@@ -111,7 +111,7 @@ void expect_type(std::uint8_t datatype, T value, ScalarType becomes, bool swap) 
   made.cloud.fields = {
       {"z", 16, PointField::INT16, 1}, {"x", 1, datatype, 1}, {"y", 9, PointField::FLOAT32, 1}};
   made.cloud.data = {made.bytes.data(), made.bytes.size()};
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   const RawCloud raw = raw_cloud_of(made.cloud);
   ASSERT_EQ(raw.xyz().count, 1U) << int{datatype};
   EXPECT_EQ(raw.xyz().scalar, becomes) << int{datatype};
@@ -143,7 +143,7 @@ TEST(CloudMessage, OfDoublesIsViewedWhereItLies) {
   made.cloud.point_step = 29;
   made.cloud.fields = {{"x", 5, 8, 1}, {"y", 13, 8, 0}, {"z", 21, 8, 1}};
   made.cloud.data = {made.bytes.data(), made.bytes.size()};
-  const auto view = points_in_place(made.cloud);
+  const auto view = view_points(made.cloud);
   ASSERT_TRUE(view);
   EXPECT_EQ(load_point(*view, 1).z, 0.5);
 }
@@ -157,7 +157,7 @@ std::string error_of(const std::function<void(Made&)>& spoil) {
       if (copy) {
         raw_cloud_of(made.cloud);
       } else {
-        points_in_place(made.cloud);
+        view_points(made.cloud);
       }
     } catch (const MessageError& error) {
       said[copy] = error.what();
@@ -169,9 +169,9 @@ std::string error_of(const std::function<void(Made&)>& spoil) {
 
 TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
   EXPECT_EQ(error_of([](Made& m) { m.cloud.data.size -= 1; }),
-            "the cloud announces 4 x 2 points of 16 bytes, but has 127 bytes");
+            "the cloud should have 4 x 2 points of 16 bytes, but has only 127 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.width = m.cloud.height = m.cloud.row_step = 0xFFFFFFFF; }),
-            "the cloud announces 4294967295 x 4294967295 points of 16 bytes, but has 128 bytes");
+            "the cloud should have 4294967295 x 4294967295 points of 16 bytes, but has only 128 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.point_step = 0; }), "the cloud has 4 x 2 points of 0 bytes");
   EXPECT_EQ(error_of([](Made& m) {
               m.cloud.row_step = 63;
@@ -183,7 +183,7 @@ TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields.erase(m.cloud.fields.begin() + 1); }),
             "the cloud has no field y, its fields are 'x, z, intensity'");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[2].offset = 13; }),
-            "the cloud has a field 'z' that reaches beyond the point_step of 16");
+            "the cloud has a field 'z' that exceeds the point_step of 16 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[0].datatype = 9; }),
             "the cloud has a field 'x' that is of datatype 9, not 1 to 8");
 }
@@ -191,7 +191,7 @@ TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
 TEST(CloudMessage, WithFieldsLongerThanTwoRecordsIsCopiedWithoutTheRest) {
   Made made = cloud_of(4);
   made.cloud.fields.insert(made.cloud.fields.end(), 5, {"a", 0, PointField::UINT8, 16});
-  EXPECT_TRUE(points_in_place(made.cloud));
+  EXPECT_TRUE(view_points(made.cloud));
   const RawCloud raw = raw_cloud_of(made.cloud);
   EXPECT_EQ(raw.point_step, 32U);
   expect_points(raw.xyz(), 4);
@@ -204,7 +204,7 @@ TEST(CloudMessage, WhoseDataAreJustItsPointsHasNoPaddingWhateverItsRowStep) {
   for (const std::uint32_t row_step : {0U, 2U, 63U, 65U, 128U, 0xFFFFFFFFU}) {
     Made made = cloud_of(4, 2);
     made.cloud.row_step = row_step;
-    const auto view = points_in_place(made.cloud);
+    const auto view = view_points(made.cloud);
     ASSERT_TRUE(view) << row_step;
     expect_points(*view, 8);
     const RawCloud raw = raw_cloud_of(made.cloud);
@@ -220,7 +220,7 @@ TEST(CloudMessage, OfOneRowIgnoresItsRowStep) {
     Made made = cloud_of(5);
     made.cloud.height = height;
     made.cloud.row_step = 7;
-    expect_points(*points_in_place(made.cloud), 5);
+    expect_points(*view_points(made.cloud), 5);
     expect_points(raw_cloud_of(made.cloud).xyz(), 5);
   }
 }
@@ -230,40 +230,40 @@ TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
   const auto note_of = [](msg::PointField field) {
     Made made = cloud_of(4, 2);
     made.cloud.fields[3] = std::move(field);
-    expect_points(*points_in_place(made.cloud), 8);
+    expect_points(*view_points(made.cloud), 8);
     const RawCloud raw = raw_cloud_of(made.cloud);
     expect_points(raw.xyz(), 8);
     EXPECT_EQ(raw.fields.size(), 3U);
-    EXPECT_EQ(raw.note, unread_fields(made.cloud));
+    EXPECT_EQ(raw.note, skipped_fields_note(made.cloud));
     return raw.note;
   };
   EXPECT_EQ(note_of({"new", 12, 9, 1}), "field 'new' is left out: it is of datatype 9, not 1 to 8");
   EXPECT_EQ(note_of({"none", 12, 0, 1}), "field 'none' is left out: it is of datatype 0, not 1 to 8");
   EXPECT_EQ(note_of({"ring", 14, PointField::FLOAT32, 1}),
-            "field 'ring' is left out: it reaches beyond the point_step of 16");
+            "field 'ring' is left out: it exceeds the point_step of 16 bytes");
   EXPECT_EQ(note_of({"far", 0xFFFFFFFF, PointField::UINT8, 0xFFFFFFFF}),
-            "field 'far' is left out: it reaches beyond the point_step of 16");
+            "field 'far' is left out: it exceeds the point_step of 16 bytes");
   EXPECT_EQ(note_of({"x", 12, PointField::FLOAT32, 1}), "field 'x' is left out: it occurs twice");
-  EXPECT_EQ(unread_fields(cloud_of(2).cloud), "");
+  EXPECT_EQ(skipped_fields_note(cloud_of(2).cloud), "");
 }
 
 TEST(CloudMessage, MayCountItsCoordinatesAsItLikes) {
   Made made = cloud_of(4);
   made.cloud.fields[0].count = 4;
   made.cloud.fields[2].count = 0;
-  expect_points(*points_in_place(made.cloud), 4);
+  expect_points(*view_points(made.cloud), 4);
   expect_points(raw_cloud_of(made.cloud).xyz(), 4);
 }
 
 TEST(CloudMessage, HasItsCoordinatesInUpperCaseWhereThereAreNoOthers) {
   Made made = cloud_of(4);
   made.cloud.fields = {{"X", 0, 7, 1}, {"Y", 4, 7, 1}, {"Z", 8, 7, 1}, {"intensity", 12, 7, 1}};
-  expect_points(*points_in_place(made.cloud), 4);
+  expect_points(*view_points(made.cloud), 4);
   const RawCloud raw = raw_cloud_of(made.cloud);
   expect_points(raw.xyz(), 4);
   EXPECT_EQ(raw.fields[1].name, "y");
   made.cloud.fields.push_back({"x", 12, 7, 1});  // that one counts
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   EXPECT_EQ(load_point(raw_cloud_of(made.cloud).xyz(), 1).x, 101);
 }
 
@@ -271,8 +271,8 @@ TEST(CloudMessage, OfNoPointsIsEmpty) {
   Made made = cloud_of(4);
   made.cloud.width = 0;
   made.cloud.data = {};
-  ASSERT_TRUE(points_in_place(made.cloud));
-  EXPECT_TRUE(points_in_place(made.cloud)->empty());
+  ASSERT_TRUE(view_points(made.cloud));
+  EXPECT_TRUE(view_points(made.cloud)->empty());
   EXPECT_EQ(raw_cloud_of(made.cloud).size(), 0U);
   EXPECT_EQ(raw_cloud_of(made.cloud).fields.size(), 4U);
 }
@@ -286,9 +286,9 @@ TEST(CloudMessage, OfNoPointsNeedsNoFieldsNorARecord) {
         cloud.height = height;
         cloud.point_step = step;
         if (fields) cloud.fields = {{"x", 0, 7, 1}, {"y", 40, 99, 1}};
-        ASSERT_TRUE(points_in_place(cloud));
-        EXPECT_TRUE(points_in_place(cloud)->empty());
-        EXPECT_EQ(unread_fields(cloud), "");
+        ASSERT_TRUE(view_points(cloud));
+        EXPECT_TRUE(view_points(cloud)->empty());
+        EXPECT_EQ(skipped_fields_note(cloud), "");
         const RawCloud raw = raw_cloud_of(cloud);
         EXPECT_EQ(raw.size(), 0U);
         EXPECT_TRUE(raw.xyz().empty());
@@ -311,20 +311,20 @@ TEST(CloudMessage, KeepsItsOtherFields) {
 
 TEST(IntensityInPlace, IsTheFieldOfThatNameWhereItLies) {
   Made made = cloud_of(5, 2);
-  const auto intensity = intensity_in_place(made.cloud);
+  const auto intensity = view_intensity(made.cloud);
   ASSERT_TRUE(intensity.has_value());
   for (std::size_t i = 0; i < 10; ++i)
     EXPECT_EQ(intensity->at(i), 100 + static_cast<float>(i));
   made.cloud.fields[3] = {"reflectivity", 12, 2, 1};  // UINT8
-  EXPECT_EQ(intensity_in_place(made.cloud)->size, 1U);
-  EXPECT_EQ(intensity_in_place(made.cloud)->at(0), 0);  // the last byte of 100.F is not the first
+  EXPECT_EQ(view_intensity(made.cloud)->size, 1U);
+  EXPECT_EQ(view_intensity(made.cloud)->at(0), 0);  // the last byte of 100.F is not the first
 }
 
 TEST(IntensityInPlace, IsNoneWhereItCannotBeReadThere) {
   const auto without = [](auto change) {
     Made made = cloud_of(5, 2);
     change(made.cloud);
-    return !intensity_in_place(made.cloud).has_value();
+    return !view_intensity(made.cloud).has_value();
   };
   EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields.pop_back(); }));
   EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields[3].offset = 13; }));

@@ -142,7 +142,7 @@ TEST(Messages, WithMoreThanTheirFieldsAreOfAnotherVersion) {
   EXPECT_EQ(error_of<msg::Header>(bytes), "no error");  // padding
   bytes.resize(bytes.size() + 1);
   EXPECT_EQ(error_of<msg::Header>(bytes),
-            "the message goes on for 8 bytes after its last field: another version of its type");
+            "8 extra bytes after the last field: the message has another version of its type");
 }
 
 TEST(Messages, OfAnotherEncapsulationAreRefused) {

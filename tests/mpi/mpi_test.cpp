@@ -51,8 +51,8 @@ class Mpi : public Tiled {
     return run(arguments, surroundings);
   }
 
-  /// Kills this rank once it has worked a while: it would for a minute and more. The other ranks have ten seconds
-  /// instead of one to say that they end: on a busy machine they take longer than one.
+  /// Kills this rank once it has worked a while: it would for a minute and more. The other ranks have ten
+  /// seconds instead of one to say that they end: on a busy machine they take longer than one.
   Result ranks_of_which_one_is_killed(int rank, std::vector<std::string> arguments) const {
     setenv("OMPI_MCA_odls_base_sigkill_timeout", "10", 1);
     Surroundings surroundings;
@@ -111,7 +111,7 @@ TEST_F(Mpi, FindsTheSmallestSphereInFewRounds) {
   const std::string whole = binary("whole.pcd", gaussian(100'000, 4));
   const Result result = ranks(2, {"--together", "--timings", "--volume", "sphere", whole});
   ASSERT_EQ(result.status, 0) << result.err;
-  const std::size_t end = result.err.find(" rounds");
+  const std::size_t end = result.err.find(" query rounds");
   ASSERT_NE(end, std::string::npos) << result.err;
   const int rounds = std::stoi(result.err.substr(result.err.rfind(' ', end - 1) + 1));
   EXPECT_GE(rounds, 1);
@@ -136,7 +136,7 @@ TEST_F(Mpi, LeavesOutAnInputThatFailsOnOneRankAndNamesItOnce) {
   }
   const Result nothing = ranks(2, {"--together", "--format", "jsonl", at("nowhere.pcd")});
   EXPECT_EQ(nothing.status, 1);
-  EXPECT_EQ(nothing.json()["error"], "none of the inputs could be read");
+  EXPECT_EQ(nothing.json()["error"], "no input could be read");
 }
 
 TEST_F(Mpi, DealsOutInputsAndWritesResultsInTheirOrder) {

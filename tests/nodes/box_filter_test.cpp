@@ -3,7 +3,7 @@
 
 // Boxes of a track over time.
 
-#include "streaming/tracking/box_filter.h"
+#include "pipeline/track/box_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ double yaw_of(const Obb& box) {
   return std::atan2(box.axes()(1, 0), box.axes()(0, 0)) / degree;
 }
 
-BoxSighting going(double degrees, double speed) {
+BoxState going(double degrees, double speed) {
   return {Pose::Identity(), speed * turn(degrees).col(0), true};
 }
 
@@ -58,12 +58,12 @@ TEST(BoxFilter, TheFrontComesToBeWhereTheObjectGoesAndStaysThereWhenItStands) {
     BoxFilter filter;
     Obb box;
     for (int i = 0; i < 10; ++i)
-      box = filter.face(upright_box(0, 4, 2), going(heading, 5));
+      box = filter.align_axes(upright_box(0, 4, 2), going(heading, 5));
     EXPECT_NEAR(std::abs(std::remainder(yaw_of(box) - heading, 360)), 0, 1e-9) << heading;
     const int along = std::abs(heading) == 90 ? 1 : 0;
     EXPECT_EQ(box.half_extents()[along], 2) << heading;
     for (int i = 0; i < 20; ++i)
-      box = filter.face(upright_box(0, 4, 2), {});
+      box = filter.align_axes(upright_box(0, 4, 2), {});
     EXPECT_NEAR(std::abs(std::remainder(yaw_of(box) - heading, 360)), 0, 1e-9) << heading;
   }
 }
@@ -72,20 +72,20 @@ TEST(BoxFilter, OneFrameOfAWrongVelocityDoesNotTurnTheFront) {
   BoxFilter filter;
   Obb box;
   for (int i = 0; i < 10; ++i)
-    filter.face(upright_box(0, 4, 2), going(0, 5));
+    filter.align_axes(upright_box(0, 4, 2), going(0, 5));
   for (int i = 0; i < 2; ++i) {
-    box = filter.face(upright_box(0, 4, 2), going(180, 5));
+    box = filter.align_axes(upright_box(0, 4, 2), going(180, 5));
     EXPECT_NEAR(yaw_of(box), 0, 1e-9);
   }
 }
 
 TEST(BoxFilter, TheFrontStaysWhereItIsWhileTheSensorTurns) {
   BoxFilter filter;
-  Obb box = filter.face(upright_box(30, 3, 3), {});
+  Obb box = filter.align_axes(upright_box(30, 3, 3), {});
   for (int i = 1; i < 60; ++i) {  // 10 degrees a frame; a square, which the fit names anew in each
-    BoxSighting sighting;
-    sighting.sensor.linear() = turn(10 * i);
-    box = filter.face(upright_box(30 - 10 * i + 90 * (i % 4), 3, 3), sighting);
+    BoxState state;
+    state.sensor.linear() = turn(10 * i);
+    box = filter.align_axes(upright_box(30 - 10 * i + 90 * (i % 4), 3, 3), state);
     ASSERT_NEAR(std::remainder(yaw_of(box) + 10 * i - 30, 360), 0, 1e-9) << i;
   }
 }
@@ -97,7 +97,8 @@ TEST(BoxFilter, ASmoothTurnIsTheMeanOfAnglesModulo90) {
   for (int i = 0; i < 100; ++i) {
     const std::vector<float> xyz = block(43, random);
     const double noise = 12 * (static_cast<double>(random()) / 4294967296.0 - 0.5) + (i % 3 == 0 ? 90 : 0);
-    const Obb box = filter.steady(filter.face(upright_box(43 + noise, 4, 4), {}), view(xyz), {}, true, false);
+    const Obb box =
+        filter.smoothed(filter.align_axes(upright_box(43 + noise, 4, 4), {}), view(xyz), {}, true, false);
     if (i < 20) continue;
     worst = std::max(worst, std::abs(std::remainder(yaw_of(box) - 43, 90)));
     raw = std::max(raw, std::abs(std::remainder(noise, 90)));
@@ -113,7 +114,8 @@ TEST(BoxFilter, ASmoothBoxKeepsItsFrontWhereFitsAreWrongForAFewFrames) {
   for (int i = 0; i < 60; ++i) {
     const std::vector<float> xyz = block(10, random);
     const double wrong = i < 30 ? 0 : i < 33 ? 40 : i < 36 ? 80 : 0;
-    const Obb box = filter.steady(filter.face(upright_box(10 + wrong, 4, 2), {}), view(xyz), {}, true, false);
+    const Obb box =
+        filter.smoothed(filter.align_axes(upright_box(10 + wrong, 4, 2), {}), view(xyz), {}, true, false);
     EXPECT_NEAR(yaw_of(box), 10, 15) << i;
   }
 }
@@ -125,11 +127,11 @@ TEST(BoxFilter, EveryPointIsInsideHoweverTheBoxIsSteadied) {
     for (int i = 0; i < 20; ++i) {
       const double yaw = 9.0 * i + 5 * static_cast<double>(random() % 7);
       const std::vector<float> xyz = block(yaw, random, 1 + static_cast<double>(random() % 5));
-      BoxSighting sighting;
-      sighting.moving = random() % 2 == 0;
-      sighting.sensor.linear() = turn(3 * i);
-      const Obb box = filter.steady(filter.face(upright_box(yaw + 7, 4, 2), sighting), view(xyz), sighting,
-                                    seed % 2 == 0, seed % 3 != 0);
+      BoxState state;
+      state.moving = random() % 2 == 0;
+      state.sensor.linear() = turn(3 * i);
+      const Obb box = filter.smoothed(filter.align_axes(upright_box(yaw + 7, 4, 2), state), view(xyz), state,
+                                      seed % 2 == 0, seed % 3 != 0);
       for (std::size_t p = 0; p < xyz.size(); p += 3)
         ASSERT_TRUE(box.contains({xyz[p], xyz[p + 1], xyz[p + 2]})) << "seed " << seed << " frame " << i;
     }
@@ -147,10 +149,10 @@ TEST(BoxFilter, WhatHasBeenSeenStaysAwayFromTheSensor) {
   }();
   Obb box;
   for (int i = 0; i < 10; ++i)
-    box = filter.steady(upright_box(0, 4, 2), view(whole), {}, false, true);
+    box = filter.smoothed(upright_box(0, 4, 2), view(whole), {}, false, true);
   const double length = 2 * box.half_extents().x(), near = box.center().x() - length / 2;
   EXPECT_NEAR(length, 4, 0.1);
-  box = filter.steady(upright_box(0, 2, 2), view(part), {}, false, true);
+  box = filter.smoothed(upright_box(0, 2, 2), view(part), {}, false, true);
   EXPECT_NEAR(2 * box.half_extents().x(), length, 1e-9);
   EXPECT_NEAR(box.center().x() - box.half_extents().x(), near, 1e-9);
 }
@@ -161,7 +163,7 @@ TEST(BoxFilter, AFrameInWhichTwoObjectsAreOneDoesNotStay) {
   Obb box;
   for (int i = 0; i < 12; ++i) {
     const std::vector<float> xyz = block(0, random, i == 10 ? 14 : 4);
-    box = filter.steady(upright_box(0, 4, 2), view(xyz), {}, false, true);
+    box = filter.smoothed(upright_box(0, 4, 2), view(xyz), {}, false, true);
   }
   EXPECT_LT(2 * box.half_extents().x(), 4.2);
 }
@@ -169,16 +171,16 @@ TEST(BoxFilter, AFrameInWhichTwoObjectsAreOneDoesNotStay) {
 TEST(BoxFilter, EmptyAndLyingBoxesStayAsTheyAre) {
   BoxFilter filter;
   const std::vector<float> none;
-  EXPECT_TRUE(filter.steady(filter.face(Obb(), {}), view(none), {}, true, true).empty());
+  EXPECT_TRUE(filter.smoothed(filter.align_axes(Obb(), {}), view(none), {}, true, true).empty());
   const Obb box = upright_box(20, 4, 2);
-  EXPECT_EQ(filter.steady(box, view(none), {}, true, true), box);
+  EXPECT_EQ(filter.smoothed(box, view(none), {}, true, true), box);
   const Eigen::Matrix3d lying = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const Obb slant({1, 2, 3}, lying, {3, 2, 1});
   std::mt19937 random(6);
   const std::vector<float> some = block(0, random);
   BoxFilter of_any_axes(false);
-  EXPECT_EQ(of_any_axes.steady(slant, view(some), {}, true, true), slant);
-  EXPECT_EQ(of_any_axes.steady(box, view(some), {}, true, true), box) << "upright by chance";
+  EXPECT_EQ(of_any_axes.smoothed(slant, view(some), {}, true, true), slant);
+  EXPECT_EQ(of_any_axes.smoothed(box, view(some), {}, true, true), box) << "upright by chance";
 }
 
 // Points of a block of this size, and of its nearer half.
@@ -211,7 +213,7 @@ TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
         for (int frame = 0; frame < 8; ++frame) {
           const std::vector<float> xyz = half_block(lift, size, frame < 7);
           fit_obb(view(xyz), {method, up}, fitted);
-          box = filter.steady(filter.face(fitted, {}), view(xyz), {}, true, true);
+          box = filter.smoothed(filter.align_axes(fitted, {}), view(xyz), {}, true, true);
         }
         EXPECT_NE(box, fitted) << "the filter left it as it was";
         EXPECT_LE((box.axis(2) - up.normalized()).norm(), 1e-15);
@@ -223,14 +225,14 @@ TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
 TEST(BoxFilter, AMergedClusterChangesNeitherSizesNorTurn) {
   std::mt19937 random(7);
   BoxFilter filter;
-  const auto steadied = [&](double degrees, double length, const BoxSighting& sighting) {
+  const auto steadied = [&](double degrees, double length, const BoxState& state) {
     const std::vector<float> xyz = block(degrees, random, length);
-    return filter.steady(filter.face(upright_box(degrees, length, 2), sighting), view(xyz), sighting, true,
-                         true);
+    return filter.smoothed(filter.align_axes(upright_box(degrees, length, 2), state), view(xyz), state, true,
+                           true);
   };
   for (int i = 0; i < 10; ++i)
     steadied(0, 4, {});
-  BoxSighting merged;
+  BoxState merged;
   merged.merged = true;
   for (int i = 0; i < 20; ++i) {
     const Obb box = steadied(30, 9, merged);
@@ -245,10 +247,10 @@ TEST(BoxFilter, ASeparatedObjectLearnsItsSizesAnew) {
   BoxFilter filter;
   Obb box;
   for (int i = 0; i < 12; ++i) {
-    BoxSighting sighting;
-    sighting.separated = i == 8;
+    BoxState state;
+    state.separated = i == 8;
     const std::vector<float> xyz = block(0, random, i < 6 ? 9 : 4);
-    box = filter.steady(upright_box(0, 4, 2), view(xyz), sighting, false, true);
+    box = filter.smoothed(upright_box(0, 4, 2), view(xyz), state, false, true);
     EXPECT_EQ(2 * box.half_extents().x() > 8, i < 8) << i;
   }
 }

@@ -26,7 +26,7 @@ TEST(ClusterPipeline, TakesPclCloudsAsTheyAre) {
   ClusterPipeline<pcl::PointXYZI> pipeline;
   FrameResult result, expected;
   pipeline.process(cloud, result);
-  FramePipeline().process(frame_of(frames[0], 0), expected);
+  FramePipeline().process(third_orientation(frames[0], 0), expected);
   expect_equal(result, expected);
   EXPECT_EQ(result.header.stamp_ns, 1'234'567'000);
   EXPECT_EQ(result.header.frame_id, "velodyne");

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {
@@ -79,10 +79,13 @@ TEST(StreamConfig, AToleranceThatGrowsReadsBackAndGoesAlone) {
   config.pipeline.cluster.min_points = 5;
   EXPECT_EQ(
       config.pipeline.validate(),
-      (std::vector<std::string>{"cluster.min_points: 5 is not 1 where the tolerance grows with the range"}));
+      (std::vector<std::string>{
+          "cluster.min_points: 5 is not allowed: must be 1 if cluster.tolerance_per_metre is above 0"}));
   config.pipeline.cluster = {0.0, std::size_t{1}, 100, 1, 0.01};
-  EXPECT_EQ(config.pipeline.validate(),
-            (std::vector<std::string>{"cluster.tolerance: 0 does not grow: all points are one object"}));
+  EXPECT_EQ(
+      config.pipeline.validate(),
+      (std::vector<std::string>{
+          "cluster.tolerance: 0 is not allowed: must be above 0 if cluster.tolerance_per_metre is above 0"}));
 }
 
 TEST(StreamConfig, AClassFieldReadsBackAndNeedsClusters) {
@@ -95,13 +98,14 @@ TEST(StreamConfig, AClassFieldReadsBackAndNeedsClusters) {
   }
   PipelineConfig config;
   config.cluster.class_field = FieldName{""};
-  EXPECT_EQ(config.validate(), std::vector<std::string>{"cluster.class_field: a field without a name"});
+  EXPECT_EQ(config.validate(),
+            std::vector<std::string>{"cluster.class_field: the name of the field is empty"});
   config.cluster = {0.0, std::size_t{1}};
   config.cluster.class_field = FieldName{"label"};
   EXPECT_EQ(
       config.validate(),
       (std::vector<std::string>{
-          "cluster.class_field: means nothing where cluster.tolerance is 0: all points are one object"}));
+          "cluster.class_field: needs a cluster.tolerance above 0: with 0, all points are one object"}));
 }
 
 TEST(StreamConfig, ClassesReadBackAsTheyArePrinted) {
@@ -125,18 +129,19 @@ TEST(StreamConfig, ClassesReadBackAsTheyArePrinted) {
 
 TEST(StreamConfig, AClassThatIsNotAllowedIsNamedWithItsLine) {
   const std::pair<const char*, const char*> cases[] = {
-      {"- {drop: true}", "line 4: cluster.classes: a class without its value"},
+      {"- {drop: true}", "line 4: cluster.classes: a class lacks the key 'value'"},
       {"- {value: car}", "line 4: cluster.classes: value: 'car' is not a whole number"},
       {"- value: 1\n    colour: red", "line 5: cluster.classes: unknown key 'colour' of a class"},
-      {"- {value: 1, value: 2}", "line 4: cluster.classes: value: is there twice"},
+      {"- {value: 1, value: 2}", "line 4: cluster.classes: value: is given twice"},
       {"- {value: 1}\n  - {value: 2, tolerance: wide}",
        "line 5: cluster.classes: tolerance: 'wide' is not a number"},
       {"- 4", "line 4: cluster.classes: '4' is not a class, {value: 4, tolerance: 0.5}"},
       {"- {value: 1, volumes: aabb}", "cluster.classes: volumes: 'aabb' is not a list of methods"},
-      {"- {value: 1}\n  - {value: 1}", "cluster.classes: class 1 is there twice"},
+      {"- {value: 1}\n  - {value: 1}", "cluster.classes: class 1 is given twice"},
       {"- {value: 1, tolerance: 0}", "cluster.classes: class 1: tolerance: 0 is not above 0"},
       {"- {value: 1, tolerance: 1e-50}",
-       "class 1: tolerance: 1e-50 is too small: it is 0 as float32, which points are; use at least 1.4e-45"},
+       "class 1: tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use at least "
+       "1.4e-45"},
       {"- {value: 1, max_size: 0}", "class 1: max_size: 0 is not a whole number of at least 1"},
       {"- {value: 1, max_size: 5}", "class 1: max_size, 5, is below min_size, 10"},
       {"- {value: 1, volumes: [box]}", "class 1: volumes: 'box' is no method; known are aabb"},
@@ -147,9 +152,9 @@ TEST(StreamConfig, AClassThatIsNotAllowedIsNamedWithItsLine) {
     EXPECT_THAT(error, HasSubstr(expected)) << rows;
   }
   EXPECT_EQ(error_of("cluster: {classes: [{value: 1}]}"),
-            "robot.yaml: line 1: cluster.classes: means nothing without cluster.class_field");
+            "robot.yaml: line 1: cluster.classes: needs cluster.class_field");
   EXPECT_EQ(error_of("cluster: {class_field: label, classes: {value: 1}}"),
-            "robot.yaml: line 1: cluster.classes: what is there is not a list of classes");
+            "robot.yaml: line 1: cluster.classes: the value is not a list of classes");
 }
 
 TEST(StreamConfig, FilesOfAnyNameReadBackAsTheyArePrinted) {
@@ -192,7 +197,7 @@ TEST(StreamConfig, AnUnknownKeyIsNamedWithItsLine) {
             "robot.yaml: line 4: unknown key 'filter.rangemax'");
   EXPECT_EQ(error_of("\ncolour: red\n"), "robot.yaml: line 2: unknown key 'colour'");
   EXPECT_EQ(error_of("extra:\n  nested: 1\n"),
-            "robot.yaml: line 1: unknown key 'extra', or one that holds no others");
+            "robot.yaml: line 1: unknown key 'extra', or a key without nested keys");
 }
 
 TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
@@ -201,9 +206,9 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"filter: {range_min: .nan}", "filter.range_min: nan is not at least 0"},
       {"filter: {range_min: .inf}", "filter.range_min: inf is not at least 0 and finite"},
       {"filter: {range_min: 5, range_max: 4}", "filter.range_max: 4 is below filter.range_min, 5"},
-      {"filter: {own_box_min: [0, 0, 0]}", "filter.own_box_min: comes without the other corner"},
+      {"filter: {own_box_min: [0, 0, 0]}", "filter.own_box_min: is set without the other corner"},
       {"filter: {own_box_min: [0, 0, 2], own_box_max: [1, 1, 1]}", "filter.own_box_max: is below"},
-      {"filter: {own_box_min: [0, 0]}", "filter.own_box_min: has not three numbers"},
+      {"filter: {own_box_min: [0, 0]}", "filter.own_box_min: does not have three numbers"},
       {"filter: {range_min: far}", "filter.range_min: 'far' is not a number (m)"},
       {"ground:\n  method: zone", "line 2: ground.method: 'zone' is not one of none, plane, zones"},
       {"ground: {up: w}", "ground.up: "},
@@ -229,15 +234,15 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"runner: {policy: lossy}",
        "runner.policy: 'lossy' is not one of auto, drop_oldest, drop_newest, block"},
       {"runner: {max_age_ms: -2}", "runner.max_age_ms: -2 is not at least 0"},
-      {"threads: 1\nthreads: 2", "line 2: threads: is there twice"},
-      {"cluster: {min_size: 2}\ncluster: {max_size: 9}", "line 2: cluster: is there twice"},
+      {"threads: 1\nthreads: 2", "line 2: threads: is given twice"},
+      {"cluster: {min_size: 2}\ncluster: {max_size: 9}", "line 2: cluster: is given twice"},
       {"cluster.tolerance: 0.3", "line 1: unknown key 'cluster.tolerance'"},
       {"threads: {}", "line 1: unknown key 'threads'"},
-      {"threads: 1\n---\nbogus: 1", "line 3: a second document"},
+      {"threads: 1\n---\nbogus: 1", "line 3: a second YAML document begins"},
       {"volumes: [obb, obb-min]", "volumes: 'obb-min' is named twice"},
       {"cluster: {tolerance: 1e-50}",
-       "cluster.tolerance: 1e-50 is too small: it is 0 as float32, which points are; use 0, or at least "
-       "1.4e-45"},
+       "cluster.tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use 0, or at "
+       "least 1.4e-45"},
       {"track: {gate: 101}", "track.gate: 101 is not above 0 and at most 100"},
   };
   for (const auto& [yaml, expected] : cases) {
@@ -269,7 +274,7 @@ TEST(Settings, EachHasAKeyOfItsOwnAndWhatToSayOfIt) {
   const StreamConfig defaults;
   visit_stream(defaults, [&](const Setting& setting, const auto& value) {
     EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
-    EXPECT_FALSE(setting.about.empty()) << setting.key;
+    EXPECT_FALSE(setting.help.empty()) << setting.key;
     EXPECT_TRUE(setting.option.empty() || options.insert(setting.option).second) << setting.option;
     EXPECT_EQ(problem_of(setting, value), "") << setting.key;
     auto read = value;

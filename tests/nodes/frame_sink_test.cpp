@@ -98,7 +98,7 @@ TEST_F(FrameSinks, NameFilesByTheRunnersNumberWhateverTheSourceCounts) {
 TEST_F(FrameSinks, AnIndexIsWholeAfterEachFrame) {
   Found found;
   make_sink(parse_sink("vtp:" + path_.string()))->close();
-  EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + std::string(pvd_end));
+  EXPECT_EQ(read("frames.pvd"), std::string(kPvdBegin) + std::string(kPvdEnd));
   const auto sink = make_sink(parse_sink("vtp:" + path_.string() + ",points"));
   std::string entries;
   for (int i = 0; i < 12; ++i) {
@@ -107,7 +107,7 @@ TEST_F(FrameSinks, AnIndexIsWholeAfterEachFrame) {
     sink->write(found.frame, found.result);
     const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i) + ".vtp";
     entries += pvd_entry({0.5 * i, "frame" + name}) + pvd_entry({0.5 * i, "points" + name, 1});
-    EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + entries + std::string(pvd_end));
+    EXPECT_EQ(read("frames.pvd"), std::string(kPvdBegin) + entries + std::string(kPvdEnd));
   }
   EXPECT_THAT(read("points000003.vtp"), HasSubstr("0 0 4294967294 4294967295"));
   EXPECT_THAT(read("points000003.vtp"), HasSubstr("NumberOfPoints=\"4\" NumberOfVerts=\"1\""));
@@ -124,7 +124,8 @@ TEST_F(FrameSinks, LinesAreWholeAfterEachFrameAndSayWhatIsLost) {
   EXPECT_THAT(read("a.csv"),
               testing::EndsWith("\n3,0,17,0,2,aabb,1.25,2,3,0.5,0,0,,,,,,0,3,-2,0,1.25,2,3,0.5,,,,\n"));
   csv->write_lost(found.frame, "dropped, it seems");
-  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,,,,,,,,,,,,\n"));
+  EXPECT_THAT(read("a.csv"),
+              testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,,,,,,,,,,,,\n"));
   const std::string heading = read("a.csv").substr(0, read("a.csv").find('\n'));
   EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 5 + 12 + 7 + 4);
   jsonl->write(found.frame, found.result);
@@ -161,10 +162,10 @@ TEST_F(FrameSinks, PicturesAreFilesOfTheirFrames) {
 }
 
 TEST(ParseSink, NamesAllKindsInItsErrors) {
-  EXPECT_EQ(parse_sink("vtp:a,points").place, "a");
+  EXPECT_EQ(parse_sink("vtp:a,points").target, "a");
   EXPECT_TRUE(parse_sink("vtp:a,points").points);
-  EXPECT_EQ(parse_sink("csv:a,points").place, "a,points");
-  EXPECT_EQ(parse_sink("jsonl:a:b").place, "a:b");
+  EXPECT_EQ(parse_sink("csv:a,points").target, "a,points");
+  EXPECT_EQ(parse_sink("jsonl:a:b").target, "a:b");
   for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "vtp:-", "image:-", "xml:a", "json:a", ":a"}) {
     try {
       parse_sink(bad);
@@ -211,7 +212,7 @@ TEST(SinkGroup, NoSinkHarmsAnotherOrTheStream) {
   EXPECT_TRUE(group.failed());
   EXPECT_TRUE(group.alive());
   EXPECT_EQ(said, (std::vector<std::string>{"bad: one is bad", "bad: an exception that is no std::exception",
-                                            "bad: no space", "bad: lacks 6 frames"}));
+                                            "bad: no space", "bad: 6 frames were not written"}));
 }
 
 TEST(SinkGroup, IsDeadWithItsLastSinkAndQuietAboutAReaderWhoLeft) {

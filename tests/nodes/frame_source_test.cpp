@@ -9,7 +9,7 @@
 
 #include "folder.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kPatience{20'000};
 
 bool next(FrameSource& source, Frame& frame) {
   const Next next = source.next(frame, kPatience);
-  EXPECT_NE(next, Next::nothing);
+  EXPECT_NE(next, Next::timeout);
   return next == Next::frame;
 }
 
@@ -87,12 +87,12 @@ class NamedFrames : public Folder {
             "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
             "POINTS 1\nDATA ascii\n1 2 3\n");
     ReplayOptions options;
-    options.from_name = true;
+    options.own_stamps = true;
     const auto source = open_source(path_.string(), options);
     Read read;
     for (Frame frame; next(*source, frame);)
       read.stamps.push_back(frame.header.stamp_ns);
-    read.remarks = source->take_remarks();
+    read.remarks = source->take_warnings();
     return read;
   }
   void expect_steps(const std::vector<std::string>& names, const std::vector<std::int64_t>& steps) {
@@ -131,8 +131,7 @@ TEST_F(NamedFrames, WithShortDecimalsComeInTheOrderOfTheirTimes) {
   const Read read = read_names({"12.0", "12.25", "12.5", "12.75", "13.0"});
   EXPECT_EQ(read.stamps, (std::vector<std::int64_t>{12'000'000'000, 12'250'000'000, 12'500'000'000,
                                                     12'750'000'000, 13'000'000'000}));
-  EXPECT_THAT(read.remarks,
-              testing::ElementsAre(testing::HasSubstr("in the order of the times in their names")));
+  EXPECT_THAT(read.remarks, testing::ElementsAre(testing::HasSubstr("sorted by the times in their names")));
 }
 
 TEST_F(NamedFrames, SayThatTheirTimesDoNotAscend) {
@@ -242,12 +241,12 @@ TEST(SynthSource, GivesTheFramesOfTheSequence) {
   EXPECT_FALSE(next(*source, frame));
 }
 
-TEST(SynthSource, GivesTheRoadWithVergesAsManyBeamsSeeItAndItsPoses) {
-  const auto source = open_source("synth:verges-sequence-16:2:7");
+TEST(SynthSource, GivesTheRuralRoadOfSoManyBeamsAndItsPoses) {
+  const auto source = open_source("synth:rural-road-sequence-16:2:7");
   for (std::size_t i = 0; i < 2; ++i) {
     Frame frame;
     ASSERT_TRUE(next(*source, frame));
-    const VergesFrame made = make_verges_frame({7, 16}, i);
+    const RuralRoadFrame made = make_rural_road_frame({7, 16}, i);
     ASSERT_EQ(frame.points.count, made.cloud.size());
     EXPECT_EQ(frame.header.frame_id, "verges");
     for (std::size_t point = 0; point < made.cloud.size(); point += 1000)
@@ -256,15 +255,15 @@ TEST(SynthSource, GivesTheRoadWithVergesAsManyBeamsSeeItAndItsPoses) {
     for (Eigen::Index k = 0; k < 12; ++k)
       EXPECT_EQ((*frame.pose)(k / 4, k % 4), made.pose[static_cast<std::size_t>(k)]);
   }
-  EXPECT_THROW(open_source("synth:verges-sequence-17"), std::invalid_argument);
+  EXPECT_THROW(open_source("synth:rural-road-sequence-17"), std::invalid_argument);
 }
 
-TEST_F(FolderSource, GivesPosesInPlaceOfTheVergesOwn) {
+TEST_F(FolderSource, GivesPosesInsteadOfThoseOfTheRuralRoad) {
   write("poses.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n");
   ReplayOptions options;
   options.poses = path_ / "poses.txt";
   Frame frame;
-  ASSERT_TRUE(next(*open_source("synth:verges-sequence-16:1", options), frame));
+  ASSERT_TRUE(next(*open_source("synth:rural-road-sequence-16:1", options), frame));
   ASSERT_TRUE(frame.pose);
   EXPECT_EQ(frame.pose->translation(), Eigen::Vector3d(5, 6, 7));
 }
@@ -299,7 +298,7 @@ TEST(FunctionSource, ASilentOneIsNotWaitedFor) {
   Frame frame;
   ASSERT_TRUE(next(*source, frame));
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::nothing);
+    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::timeout);
   shared->begun.get_future().wait();
   source.reset();
   shared->speak.set_value();
@@ -330,7 +329,7 @@ TEST(SourceKinds, AreListedForUsers) {
             "A folder of clouds, one file\nor a recording (.mcap, .bag, .db3 or its folder)\nor packets of a "
             "Velodyne (.pcap, .pcapng)\nor dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)\nor "
             "synth:street-sequence[:FRAMES[:SEED]]\n"
-            "or synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]");
+            "or synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]");
 }
 
 }  // namespace

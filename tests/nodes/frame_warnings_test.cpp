@@ -43,12 +43,12 @@ TEST(FrameWarnings, SearchAnotherUpDirectionOnceUnderAConfiguration) {
   const std::vector<float> upright = street(1)[0], turned = upside_down();
   const auto config = plane();
   FrameWarnings first;
-  EXPECT_THAT(first.take(frame_of(turned, 0), little_ground(turned, config)),
+  EXPECT_THAT(first.take(third_orientation(turned, 0), little_ground(turned, config)),
               ElementsAre(HasSubstr("use ground.up -z")));
   FrameWarnings warnings;
-  EXPECT_THAT(warnings.take(frame_of(upright, 0), little_ground(upright, config)), IsEmpty());
-  EXPECT_THAT(warnings.take(frame_of(turned, 1), little_ground(turned, config)), IsEmpty());
-  EXPECT_THAT(warnings.take(frame_of(turned, 2), little_ground(turned, plane())),
+  EXPECT_THAT(warnings.take(third_orientation(upright, 0), little_ground(upright, config)), IsEmpty());
+  EXPECT_THAT(warnings.take(third_orientation(turned, 1), little_ground(turned, config)), IsEmpty());
+  EXPECT_THAT(warnings.take(third_orientation(turned, 2), little_ground(turned, plane())),
               ElementsAre(HasSubstr("use ground.up -z")));
 }
 
@@ -56,12 +56,12 @@ TEST(StreamHealth, SaysThatFramesWereLostBesideAWarning) {
   const std::vector<float> turned = upside_down();
   const auto config = plane();
   StreamHealth health;
-  health.heeds(frame_of(turned, 0), little_ground(turned, config));
+  health.record_frame(third_orientation(turned, 0), little_ground(turned, config));
   msg::DiagnosticArray array;
-  health.fill(frame_of(turned, 0), array);
+  health.fill(third_orientation(turned, 0), array);
   EXPECT_THAT(array.status.at(0).message, HasSubstr("use ground.up -z"));
-  health.lost();
-  health.fill(frame_of(turned, 1), array);
+  health.count_lost();
+  health.fill(third_orientation(turned, 1), array);
   EXPECT_THAT(array.status.at(0).message, testing::StartsWith("frames were lost; "));
   EXPECT_THAT(array.status.at(0).message, HasSubstr("use ground.up -z"));
 }

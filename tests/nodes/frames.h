@@ -9,9 +9,9 @@
 #include <cstring>
 #include <vector>
 
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {
@@ -25,7 +25,7 @@ inline std::vector<std::vector<float>> street(std::size_t frames, std::size_t po
   return all;
 }
 
-inline Frame frame_of(const std::vector<float>& xyz, std::size_t number) {
+inline Frame third_orientation(const std::vector<float>& xyz, std::size_t number) {
   Frame frame;
   frame.header = {number, static_cast<std::int64_t>(number) * 100'000'000, "lidar"};
   frame.points = PointView::of(xyz.data(), 12, xyz.size() / 3);

@@ -11,7 +11,7 @@
 
 #include "frames.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/nodes/tracker.h"
+#include "pipeline/track/tracker.h"
 
 namespace pcl_bv {
 namespace {
@@ -100,7 +100,7 @@ std::map<std::uint32_t, Seen> last_boxes(const char* method, bool smooth, std::s
   std::map<std::uint32_t, Seen> last;
   for (std::size_t f = 0; f < frames; ++f) {
     const std::vector<float> xyz = scene(static_cast<double>(f));
-    pipeline.process(frame_of(xyz, f), result);
+    pipeline.process(third_orientation(xyz, f), result);
     for (std::size_t c = 0; c < result.clusters.size(); ++c)
       if (result.tracks[c])
         last[result.tracks[c]->id] = {2 * std::get<Obb>(result.volume(c, 0)).half_extents(), f};

@@ -3,7 +3,7 @@
 
 // Frames from the messages of a middleware, which here is a list.
 
-#include "pcl_bv/nodes/message_source.h"
+#include "stream/sources/message_source.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include "folder.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv {
 namespace {
@@ -30,7 +30,7 @@ class List final : public MessageReceiver {
     message = {bytes->data(), bytes->size(), bytes, 77};
     return true;
   }
-  std::vector<std::string> take_remarks() override { return {"3 lost on the way"}; }
+  std::vector<std::string> take_warnings() override { return {"3 lost on the way"}; }
 
  private:
   std::deque<Bytes> messages_;
@@ -41,7 +41,8 @@ Bytes cloud_at(std::int32_t seconds, const std::vector<float>& xyz) {
   cloud.header.stamp.sec = seconds;
   cloud.header.frame_id = "lidar";
   for (const char* name : {"x", "y", "z"})
-    cloud.fields.push_back({name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
+    cloud.fields.push_back(
+        {name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
   cloud.point_step = 12;
   cloud.width = static_cast<std::uint32_t>(xyz.size() / 3);
   cloud.row_step = 12 * cloud.width;
@@ -51,12 +52,12 @@ Bytes cloud_at(std::int32_t seconds, const std::vector<float>& xyz) {
   return bytes;
 }
 
-std::unique_ptr<FrameSource> source_of(std::deque<Bytes> messages, const ReplayOptions& options = {}) {
+std::unique_ptr<FrameSource> vector_source(std::deque<Bytes> messages, const ReplayOptions& options = {}) {
   return make_message_source(std::make_unique<List>(std::move(messages)), "dds:/points", options);
 }
 
 TEST(MessageSource, GivesTheCloudWhereItLies) {
-  const auto source = source_of({cloud_at(5, {1, 2, 3, 4, 5, 6})});
+  const auto source = vector_source({cloud_at(5, {1, 2, 3, 4, 5, 6})});
   Frame frame;
   ASSERT_EQ(source->next(frame, 0ms), Next::frame);
   EXPECT_EQ(frame.header.stamp_ns, 5'000'000'000);
@@ -65,14 +66,15 @@ TEST(MessageSource, GivesTheCloudWhereItLies) {
   ASSERT_EQ(frame.points.count, 2U);
   const auto* const bytes = static_cast<const Bytes*>(frame.owner.get());
   EXPECT_GE(static_cast<const void*>(frame.points.data), static_cast<const void*>(bytes->data()));
-  EXPECT_LT(static_cast<const void*>(frame.points.data), static_cast<const void*>(bytes->data() + bytes->size()));
+  EXPECT_LT(static_cast<const void*>(frame.points.data),
+            static_cast<const void*>(bytes->data() + bytes->size()));
   EXPECT_NE(frame.taken, std::chrono::steady_clock::time_point());
-  EXPECT_EQ(source->next(frame, 0ms), Next::nothing);
-  EXPECT_THAT(source->take_remarks(), testing::ElementsAre("3 lost on the way"));
+  EXPECT_EQ(source->next(frame, 0ms), Next::timeout);
+  EXPECT_THAT(source->take_warnings(), testing::ElementsAre("3 lost on the way"));
 }
 
 TEST(MessageSource, HasTheTimeOfSendingWhereTheStampIsZero) {
-  const auto source = source_of({cloud_at(0, {1, 2, 3})});
+  const auto source = vector_source({cloud_at(0, {1, 2, 3})});
   Frame frame;
   ASSERT_EQ(source->next(frame, 0ms), Next::frame);
   EXPECT_EQ(frame.header.stamp_ns, 77);
@@ -81,7 +83,7 @@ TEST(MessageSource, HasTheTimeOfSendingWhereTheStampIsZero) {
 TEST(MessageSource, GoesOnAfterWhatIsNoCloud) {
   Bytes cut = cloud_at(1, {1, 2, 3});
   cut.resize(cut.size() - 6);
-  const auto source = source_of({cut, {}, cloud_at(2, {1, 2, 3})});
+  const auto source = vector_source({cut, {}, cloud_at(2, {1, 2, 3})});
   Frame frame;
   for (std::uint64_t number = 0; number < 2; ++number) {
     try {
@@ -106,13 +108,14 @@ TEST_F(MessageSourceWithPoses, TakesThemByTimeOnly) {
     options.poses = path_ / name;
     return options;
   };
-  const auto source = source_of({cloud_at(5, {1, 2, 3})}, with_poses("tum", "4.9 0 0 0 0 0 0 1\n5.1 2 0 0 0 0 0 1\n"));
+  const auto source =
+      vector_source({cloud_at(5, {1, 2, 3})}, with_poses("tum", "4.9 0 0 0 0 0 0 1\n5.1 2 0 0 0 0 0 1\n"));
   Frame frame;
   ASSERT_EQ(source->next(frame, 0ms), Next::frame);
   ASSERT_TRUE(frame.pose);
   EXPECT_DOUBLE_EQ(frame.pose->translation().x(), 1);
   EXPECT_EQ(frame.header.frame_id, "roof");
-  EXPECT_THROW(source_of({}, with_poses("kitti", "1 0 0 0 0 1 0 0 0 0 1 0\n")), IoError);
+  EXPECT_THROW(vector_source({}, with_poses("kitti", "1 0 0 0 0 1 0 0 0 0 1 0\n")), IoError);
   EXPECT_THROW(make_message_source(nullptr, "none"), std::invalid_argument);
 }
 
@@ -121,7 +124,8 @@ TEST(Middlewares, SayWhatIsNotInstalled) {
     middleware("carrier_pigeon");
     FAIL() << "loaded";
   } catch (const IoError& error) {
-    EXPECT_STREQ(error.what(), "pcl_bv_carrier_pigeon.so is not installed: it is of the component `carrier_pigeon`");
+    EXPECT_STREQ(error.what(),
+                 "pcl_bv_carrier_pigeon.so is not installed; it belongs to the component `carrier_pigeon`");
   }
 }
 

@@ -14,53 +14,56 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<std::string> without_effect(const std::string& yaml) {
-  return parse_stream_config(yaml, "").pipeline.without_effect();
+std::vector<std::string> ineffective_settings(const std::string& yaml) {
+  return parse_stream_config(yaml, "").pipeline.ineffective_settings();
 }
 
 TEST(WithoutEffect, AreNoSettingsOfTheDefaultsAndOfPresets) {
-  EXPECT_THAT(without_effect(""), IsEmpty());
-  EXPECT_THAT(whole_cloud_config().without_effect(), IsEmpty());
+  EXPECT_THAT(ineffective_settings(""), IsEmpty());
+  EXPECT_THAT(whole_cloud_config().ineffective_settings(), IsEmpty());
   for (const char* preset : {"road", "indoor", "table"}) {
     PipelineConfig config;
     apply_preset(preset, config);
-    EXPECT_THAT(config.without_effect(), IsEmpty()) << preset;
+    EXPECT_THAT(config.ineffective_settings(), IsEmpty()) << preset;
   }
 }
 
 TEST(WithoutEffect, AreSmoothAndGrowWithoutTracksOrUprightBoxes) {
-  EXPECT_THAT(without_effect("track: {smooth: true, grow: true}"),
+  EXPECT_THAT(ineffective_settings("track: {smooth: true, grow: true}"),
               ElementsAre("track.smooth: has no effect without track.enabled",
                           "track.grow: has no effect without track.enabled"));
   for (const char* volumes : {"obb", "obb-pca", "obb-dito14", "aabb", "dop26, sphere"})
-    EXPECT_THAT(without_effect(std::string("volumes: [") + volumes + "]\ntrack: {enabled: true, grow: true}"),
-                ElementsAre("track.grow: has no effect without an upright box, obb-yaw or obb-lshape"));
+    EXPECT_THAT(
+        ineffective_settings(std::string("volumes: [") + volumes + "]\ntrack: {enabled: true, grow: true}"),
+        ElementsAre("track.grow: has no effect without an upright box, obb-yaw or obb-lshape"));
   for (const char* volumes : {"", "obb-yaw", "aabb, obb-lshape"})
-    EXPECT_THAT(without_effect(std::string("volumes: [") + volumes +
-                               "]\ntrack: {enabled: true, smooth: true, grow: true}"),
+    EXPECT_THAT(ineffective_settings(std::string("volumes: [") + volumes +
+                                     "]\ntrack: {enabled: true, smooth: true, grow: true}"),
                 IsEmpty());
 }
 
 TEST(WithoutEffect, AreTheGrowthOfNoSphereAndTheRuleForNothingOversized) {
   EXPECT_THAT(
-      without_effect("{growth: sequential, volumes: [sphere, aabb]}"),
+      ineffective_settings("{growth: sequential, volumes: [sphere, aabb]}"),
       ElementsAre("growth: has no effect without a sphere that grows, sphere-ritter or sphere-epos*"));
-  EXPECT_THAT(without_effect("{growth: sequential, volumes: [sphere-epos26]}"), IsEmpty());
-  EXPECT_THAT(without_effect("cluster: {oversized: split}"),
+  EXPECT_THAT(ineffective_settings("{growth: sequential, volumes: [sphere-epos26]}"), IsEmpty());
+  EXPECT_THAT(ineffective_settings("cluster: {oversized: split}"),
               ElementsAre("cluster.oversized: has no effect without cluster.max_size"));
-  EXPECT_THAT(without_effect("cluster: {oversized: split, max_size: 500}"), IsEmpty());
+  EXPECT_THAT(ineffective_settings("cluster: {oversized: split, max_size: 500}"), IsEmpty());
 }
 
 TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
-  EXPECT_THAT(without_effect("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),
-              ElementsAre("ground.sensor_height: has no effect without ground.method",
-                          "ground.distance: has no effect without ground.method",
-                          "ground.max_slope_degrees: has no effect without ground.method"));
-  EXPECT_THAT(without_effect("ground: {method: none, sensor: [1, 2, 3]}"),
+  EXPECT_THAT(
+      ineffective_settings("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),
+      ElementsAre("ground.sensor_height: has no effect without ground.method",
+                  "ground.distance: has no effect without ground.method",
+                  "ground.max_slope_degrees: has no effect without ground.method"));
+  EXPECT_THAT(ineffective_settings("ground: {method: none, sensor: [1, 2, 3]}"),
               ElementsAre("ground.sensor: has no effect without ground.method zones"));
-  EXPECT_THAT(without_effect("ground: {method: plane, sensor: [1, 2, 3], sensor_height: 1}"),
+  EXPECT_THAT(ineffective_settings("ground: {method: plane, sensor: [1, 2, 3], sensor_height: 1}"),
               ElementsAre("ground.sensor: has no effect without ground.method zones"));
-  EXPECT_THAT(without_effect("ground: {method: zones, sensor: [1, 2, 3], sensor_height: 1}"), IsEmpty());
+  EXPECT_THAT(ineffective_settings("ground: {method: zones, sensor: [1, 2, 3], sensor_height: 1}"),
+              IsEmpty());
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::vector<Frame> frames_of(FrameSource& source) {
 
 TEST_F(PacketSource, GivesAFrameForEachRevolution) {
   ReplayOptions options;
-  options.from_name = true;
+  options.own_stamps = true;
   options.loops = 2;
   const std::vector<Frame> frames = frames_of(*open_source(record(), options));
   ASSERT_EQ(frames.size(), 6U);
@@ -72,7 +72,7 @@ TEST_F(PacketSource, SaysWhereTheCaptureIsCut) {
   write("a.pcap", bytes);
   const auto source = open_source(file);
   EXPECT_EQ(frames_of(*source).size(), 3U);
-  EXPECT_THAT(source->take_remarks(),
+  EXPECT_THAT(source->take_warnings(),
               testing::ElementsAre(testing::StartsWith("the file ends within a packet, at byte ")));
 }
 

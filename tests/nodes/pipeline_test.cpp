@@ -34,7 +34,7 @@ TEST(Pipeline, EachPointOfAClusterIsInsideItsVolumes) {
   FrameResult result;
   const auto frames = street(2);
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const Frame frame = frame_of(frames[f], f);
+    const Frame frame = third_orientation(frames[f], f);
     pipeline.process(frame, result);
     ASSERT_GT(result.clusters.size(), 5U);
     for (std::size_t c = 0; c < result.clusters.size(); ++c) {
@@ -53,7 +53,7 @@ TEST(Pipeline, CountsEachPointOnce) {
   std::vector<float> xyz = street(1)[0];
   xyz[0] = std::numeric_limits<float>::quiet_NaN();
   xyz[7] = std::numeric_limits<float>::infinity();
-  pipeline.process(frame_of(xyz, 0), result);
+  pipeline.process(third_orientation(xyz, 0), result);
   const Counts& c = result.counts;
   EXPECT_EQ(c.nonfinite, 2U);
   EXPECT_GT(c.range, 100U);
@@ -68,14 +68,14 @@ TEST(Pipeline, CountsNoiseOnce) {
   FramePipeline pipeline(config);
   FrameResult result;
   const std::vector<float> xyz = street(1)[0];
-  pipeline.process(frame_of(xyz, 0), result);
+  pipeline.process(third_orientation(xyz, 0), result);
   const Counts& c = result.counts;
   EXPECT_GT(c.noise, 100U);
   EXPECT_EQ(c.nonfinite + c.range + c.ground + c.small + c.large + c.noise + result.clusters.indices.size(),
             result.points);
   config.cluster.tolerance = 0;  // all points are one
   pipeline.set_config(config);
-  pipeline.process(frame_of(xyz, 1), result);
+  pipeline.process(third_orientation(xyz, 1), result);
   EXPECT_EQ(result.counts.noise, 0U);
 }
 
@@ -90,7 +90,7 @@ struct Rows {
     }
   }
   Frame frame() const {
-    Frame made = frame_of(xyz, 0);
+    Frame made = third_orientation(xyz, 0);
     made.classes = std::make_shared<const std::vector<std::int64_t>>(classes);
     return made;
   }
@@ -120,7 +120,7 @@ TEST(Pipeline, ClassesHaveSettingsOfTheirOwn) {
   EXPECT_EQ(result.clusters.cluster_size(0), 10U);
   for (std::size_t i = 1; i < 11; ++i)
     EXPECT_EQ(result.class_of[i], 2);
-  EXPECT_EQ(result.counts.of_class, 10U);
+  EXPECT_EQ(result.counts.dropped_class, 10U);
 }
 
 TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
@@ -137,7 +137,7 @@ TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
     pipeline.process(rows.frame(), result);
   }
   std::vector<std::string> found;
-  for (const ClusterEntry& entry : entries_of(result)) {
+  for (const ClusterEntry& entry : cluster_entries(result)) {
     std::string line = std::to_string(entry.class_value.value()) + ":";
     for (const VolumeEntry& volume : entry.volumes) {
       EXPECT_FALSE(empty(volume.volume)) << volume.method;
@@ -149,7 +149,7 @@ TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
   EXPECT_EQ(found,
             (std::vector<std::string>{"1: aabb obb-min", "2: obb-min sphere-exact", "3: aabb obb-min"}));
   for (std::size_t m = 0; m < 3; ++m)
-    EXPECT_EQ(result.has(1, m), !empty(result.volume(1, m)));
+    EXPECT_EQ(result.is_requested(1, m), !empty(result.volume(1, m)));
 }
 
 TEST(Pipeline, VolumesOfAClassAreThoseOfTheClassAlone) {
@@ -176,8 +176,8 @@ TEST(Pipeline, WithoutAPointGivesAnEmptyResultWithTheHeader) {
        {std::vector<float>{}, {nan, 0, 0, 0, nan, 0}, {0, 0, 0, 0, 0, 0}, {3, 4, 0}}) {
     FramePipeline pipeline(all_shapes());
     FrameResult result;
-    pipeline.process(frame_of(street(1)[0], 0), result);
-    pipeline.process(frame_of(xyz, 5), result);
+    pipeline.process(third_orientation(street(1)[0], 0), result);
+    pipeline.process(third_orientation(xyz, 5), result);
     EXPECT_EQ(result.header.seq, 5U);
     EXPECT_EQ(result.header.frame_id, "lidar");
     EXPECT_EQ(result.clusters.size(), 0U);
@@ -198,7 +198,7 @@ TEST(Pipeline, GivesTheSameForEveryExecutionAndASecondTime) {
       FramePipeline pipeline(config);
       for (std::size_t f = 0; f < frames.size(); ++f) {
         FrameResult result;
-        pipeline.process(frame_of(frames[f], f), result);
+        pipeline.process(third_orientation(frames[f], f), result);
         if (expected.size() <= f) expected.push_back(result);
         expect_equal(result, expected[f]);
       }
@@ -210,7 +210,7 @@ TEST(Pipeline, AllocatesNothingOnTheSecondPass) {
   const auto frames = street(6);
   std::vector<Frame> sequence;
   for (std::size_t f = 0; f < frames.size(); ++f)
-    sequence.push_back(frame_of(frames[f], f));
+    sequence.push_back(third_orientation(frames[f], f));
   PipelineConfig config = all_shapes();
   config.volumes.emplace_back("obb-pca");
   FramePipeline pipeline(config);
@@ -231,7 +231,7 @@ TEST(Pipeline, RoomMadeBeforeChangesNoBit) {
   FrameResult a, b;
   reserved.reserve(frames[0].size() / 3, a);
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const Frame frame = frame_of(frames[f], f);
+    const Frame frame = third_orientation(frames[f], f);
     reserved.process(frame, a);
     plain.process(frame, b);
     expect_equal(a, b);
@@ -248,7 +248,7 @@ std::size_t page_faults_of(const std::function<void()>& work) {
 
 TEST(Pipeline, TheFirstFrameAfterRoomWasMadeTouchesAThirdOfTheFreshMemory) {
   const std::vector<float> xyz = street(1, 120'000)[0];
-  const Frame frame = frame_of(xyz, 0);
+  const Frame frame = third_orientation(xyz, 0);
   FramePipeline reserved(all_shapes()), plain(all_shapes());
   FrameResult a, b;
   reserved.reserve(xyz.size() / 3, a);
@@ -279,7 +279,7 @@ TEST(Pipeline, DropsTheOwnVehicle) {
   FramePipeline pipeline(config);
   FrameResult result;
   const std::vector<float> xyz = {0, 0, 0, 1, 1, 1, 1.5F, 0, 0, 0, 9, 0, 0, 11, 0};
-  pipeline.process(frame_of(xyz, 0), result);
+  pipeline.process(third_orientation(xyz, 0), result);
   EXPECT_EQ(result.counts.range, 3U);
   EXPECT_EQ(result.clusters.indices, (std::vector<std::int32_t>{2, 3}));
 }
@@ -291,7 +291,7 @@ TEST(Pipeline, ANewConfigurationCountsFromTheNextFrame) {
   PipelineConfig config = pipeline.config();
   config.volumes = {"dop14"};
   pipeline.set_config(config);
-  pipeline.process(frame_of(frames[0], 0), result);
+  pipeline.process(third_orientation(frames[0], 0), result);
   ASSERT_EQ(result.methods.size(), 1U);
   EXPECT_EQ(result.methods[0]->name, "dop14");
   config.cluster.tolerance = -1;
@@ -317,11 +317,11 @@ TEST(Pipeline, UprightBoxesStandAgainstGravityWhateverItsLength) {
   config.volumes = {"obb-yaw", "obb-lshape"};
   FramePipeline pipeline(config);
   FrameResult result;
-  const Frame frame = frame_of(xyz, 0);
+  const Frame frame = third_orientation(xyz, 0);
   pipeline.process(frame, result);
   ASSERT_EQ(result.clusters.size(), 1U);
   MethodOptions options;
-  options.up = up_direction(config.ground.up);
+  options.up = normalized_up(config.ground.up);
   for (std::size_t m = 0; m < 2; ++m) {
     AnyVolume expected;
     result.methods[m]->fit(frame.points, expected, {}, options);
@@ -339,7 +339,7 @@ TEST(Pipeline, TracksDoNotDependOnTheVolumesAskedFor) {
     FramePipeline pipeline(config);
     FrameResult result;
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      pipeline.process(frame_of(frames[f], f), result);
+      pipeline.process(third_orientation(frames[f], f), result);
       if (expected.size() <= f) expected.push_back(result.tracks);
       EXPECT_EQ(result.tracks, expected[f]);
     }
@@ -363,7 +363,7 @@ std::vector<FrameResult> ball_with_stamps(const std::vector<std::int64_t>& stamp
       for (const float c : {10 + 0.5F * static_cast<float>(i) + 0.1F * static_cast<float>(k % 5),
                             0.1F * static_cast<float>(k / 5), 0.F})
         xyz.push_back(c);
-    Frame frame = frame_of(xyz, i);
+    Frame frame = third_orientation(xyz, i);
     frame.header.stamp_ns = stamps[i];
     if (recorded) frame.recorded_ns = 7'000'000'000 + static_cast<std::int64_t>(i) * 100'000'000;
     pipeline.process(frame, results.emplace_back());
@@ -392,14 +392,14 @@ TEST(Pipeline, TracksUseTheTimesOfRecordingWhereStampsDoNotAdvance) {
     EXPECT_EQ(speed_of(results.back()), speed);
     EXPECT_TRUE(std::any_of(results.begin(), results.end(),
                             [](const FrameResult& one) { return one.track_time == TrackTime::recorded; }));
-    EXPECT_EQ(track_remark(results.front()), "");
+    EXPECT_EQ(track_warning(results.front()), "");
   }
-  EXPECT_EQ(track_remark(ball_with_stamps(stamps(good), true).back()), "");
-  EXPECT_EQ(track_remark(ball_with_stamps(stamps(equal), true).back()),
+  EXPECT_EQ(track_warning(ball_with_stamps(stamps(good), true).back()), "");
+  EXPECT_EQ(track_warning(ball_with_stamps(stamps(equal), true).back()),
             "frame stamps do not advance: tracking uses the recording times");
   const FrameResult lost = ball_with_stamps(stamps(equal), false).back();
   EXPECT_EQ(speed_of(lost), 0);
-  EXPECT_EQ(track_remark(lost), "frame stamps do not advance: tracking gets no velocity from this frame");
+  EXPECT_EQ(track_warning(lost), "frame stamps do not advance: tracks are expected at their last positions");
   // A clock that was set back costs one step, as before.
   EXPECT_EQ(ball_with_stamps(stamps(set_back), false).back().track_time, TrackTime::stamps);
 }
@@ -421,7 +421,7 @@ TEST(Pipeline, BoxesOfATrackDoNotFlip) {
                  {static_cast<float>(5 + std::cos(a) * u - std::sin(a) * v),
                   static_cast<float>(std::sin(a) * u + std::cos(a) * v), 0.1F * static_cast<float>(i % 5)});
     }
-    pipeline.process(frame_of(xyz, static_cast<std::size_t>(f)), result);
+    pipeline.process(third_orientation(xyz, static_cast<std::size_t>(f)), result);
     ASSERT_EQ(result.clusters.size(), 1U);
     const Eigen::Matrix3d axes = std::get<Obb>(result.volume(0, 0)).axes();
     if (f > 0) {
@@ -438,7 +438,7 @@ TEST(Pipeline, ItsConfigurationMayChangeWhileAFrameIsInWork) {
   two.volumes = {"sphere", "aabb"};
   two.cluster.min_size = 40;
   const std::vector<std::vector<float>> clouds = street(1);
-  const Frame frame = frame_of(clouds[0], 0);
+  const Frame frame = third_orientation(clouds[0], 0);
   std::vector<FrameResult> expected(2);
   FramePipeline(one).process(frame, expected[0]);
   FramePipeline(two).process(frame, expected[1]);

@@ -14,9 +14,9 @@ namespace {
 
 class Poses : public Folder {
  protected:
-  std::vector<std::optional<Pose>> of_frames(const std::string& poses, bool from_name = false) {
+  std::vector<std::optional<Pose>> of_frames(const std::string& poses, bool own_stamps = false) {
     write("poses.txt", poses);
-    ReplayOptions options{10, from_name};
+    ReplayOptions options{10, own_stamps};
     options.poses = path_ / "poses.txt";
     const auto source = open_source(path_, options);
     std::vector<std::optional<Pose>> all;
@@ -91,10 +91,10 @@ TEST_F(Poses, ThatCannotBeUsedAreNamedWithTheirLine) {
            {"# nothing\n", "no poses"},
            {kitti, "1 poses of 2 frames"},
            {kitti + kitti + kitti, "3 poses of 2 frames"},
-           {"1 2 3\n", "line 1: not 12"},
-           {"1 2 3 4 5 6 7 eight\n", "line 1: not 12"},
-           {kitti + tum, "line 2: not 12"},
-           {"1 0 0 0 0 1 0 0 0 0 nan 0\n", "line 1: not 12"},
+           {"1 2 3\n", "line 1: must have 12"},
+           {"1 2 3 4 5 6 7 eight\n", "line 1: must have 12"},
+           {kitti + tum, "line 2: must have 12"},
+           {"1 0 0 0 0 1 0 0 0 0 nan 0\n", "line 1: must have 12"},
            {"1 0 0 0 0 1 0 0 0 0 -1 0\n", "line 1: not a rotation"},
            {"2 0 0 0 0 1 0 0 0 0 1 0\n", "line 1: not a rotation"},
            {"1 2 3 4 0 0 0 0\n", "line 1: not a rotation"},

@@ -14,8 +14,9 @@
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/recording/mcap_writer.h"
+#include "stream/sources/recorded_clouds.h"
+#include "stream/sources/sources.h"
 
 namespace pcl_bv {
 namespace {
@@ -74,7 +75,7 @@ class RecordedSource : public Folder {
 
 ReplayOptions as_recorded() {
   ReplayOptions options;
-  options.from_name = true;
+  options.own_stamps = true;
   return options;
 }
 
@@ -99,7 +100,7 @@ TEST_F(RecordedSource, GivesCloudsWithTheirOwnTimesAndFrames) {
     EXPECT_EQ(load_point(frames[i].points, i).y, static_cast<double>(i));
     EXPECT_EQ(frames[i].file, file());
   }
-  EXPECT_THAT(source->take_remarks(), testing::IsEmpty());
+  EXPECT_THAT(source->take_warnings(), testing::IsEmpty());
 }
 
 TEST_F(RecordedSource, GivesTheTimesOfTheRateWhereTheyAreAskedFor) {
@@ -122,7 +123,7 @@ TEST_F(RecordedSource, WithoutAStampTakesWhenItWasRecorded) {
 
 TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
   record({"/front", "/rear"});
-  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; say which with --topic");
+  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; choose one with --topic");
   ReplayOptions options = as_recorded();
   options.topic = "/rear";
   EXPECT_EQ(frames_of(*open_source(file(), options)).size(), 3U);
@@ -186,18 +187,18 @@ TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {
   });
   const auto source = open_source(file(), as_recorded());
   Frame frame;
-  const std::chrono::milliseconds patience(1000);
-  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  const std::chrono::milliseconds timeout(1000);
+  EXPECT_EQ(source->next(frame, timeout), Next::frame);
   try {
-    source->next(frame, patience);
+    source->next(frame, timeout);
     FAIL();
   } catch (const FrameError& error) {
-    EXPECT_EQ(error.reason, "the cloud announces 99 x 1 points of 14 bytes, but has 28 bytes");
+    EXPECT_EQ(error.reason, "the cloud should have 99 x 1 points of 14 bytes, but has only 28 bytes");
     EXPECT_EQ(error.frame.header.seq, 1U);
   }
-  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  EXPECT_EQ(source->next(frame, timeout), Next::frame);
   EXPECT_EQ(frame.points.count, 3U);
-  EXPECT_EQ(source->next(frame, patience), Next::end);
+  EXPECT_EQ(source->next(frame, timeout), Next::end);
 }
 
 TEST_F(RecordedSource, ReadsClasses) {
@@ -229,9 +230,9 @@ TEST_F(RecordedSource, SaysWhatIsDamaged) {
   write("a.mcap", bytes);
   const auto source = open_source(file(), as_recorded());
   EXPECT_EQ(frames_of(*source).size(), 5U);
-  EXPECT_THAT(source->take_remarks(),
-              testing::ElementsAre("without an index (it is cut): all of it was looked through"));
-  EXPECT_TRUE(source->take_remarks().empty());
+  EXPECT_THAT(source->take_warnings(),
+              testing::ElementsAre("no usable index (the file is truncated): the whole file was scanned"));
+  EXPECT_TRUE(source->take_warnings().empty());
 }
 
 TEST_F(RecordedSource, CloudsThatWerePassedOverAreNotReadAgain) {
@@ -255,7 +256,7 @@ TEST_F(RecordedSource, ANoteIsThatOfTheFirstCloudThatHasItInWhateverOrderTheyAre
     std::vector<std::size_t> with_note;
     for (const std::size_t number : order) {
       EXPECT_EQ(clouds.load(number).note.empty(), number == 0);
-      if (!clouds.unsaid(number).empty()) with_note.push_back(number);
+      if (!clouds.new_note(number).empty()) with_note.push_back(number);
     }
     EXPECT_THAT(with_note, testing::UnorderedElementsAre(1, 4));
   }
@@ -274,17 +275,17 @@ TEST_F(RecordedSource, RemarksAreTakenOnce) {
   try {
     for (; read < 20; ++read) {
       clouds.load(read);
-      for (const std::string& remark : clouds.take_remarks())
+      for (const std::string& remark : clouds.take_warnings())
         remarks.push_back(remark);
     }
   } catch (const IoError&) {
-    for (const std::string& remark : clouds.take_remarks())
+    for (const std::string& remark : clouds.take_warnings())
       remarks.push_back(remark);
   }
   EXPECT_LT(read, 20U);
   EXPECT_FALSE(remarks.empty());
-  EXPECT_EQ(clouds.remarks(), remarks);
-  EXPECT_THAT(clouds.take_remarks(), testing::IsEmpty());
+  EXPECT_EQ(clouds.warnings(), remarks);
+  EXPECT_THAT(clouds.take_warnings(), testing::IsEmpty());
 }
 
 std::string error_of(const std::function<void()>& what) {
@@ -300,13 +301,23 @@ TEST_F(RecordedSource, AReaderOfCloudsSaysWhatReadsRecordings) {
   record({"/points"}, 1);
   EXPECT_EQ(error_of([&] { read_cloud(file()); }),
             "is a recording, not a cloud: read it with open_recording() or RecordedClouds");
-  EXPECT_EQ(error_of([&] { refuse_false_recording(file()); }), "");
+  EXPECT_EQ(error_of([&] { check_recording_content(file()); }), "");
   write("false.mcap", "no recording");
-  EXPECT_THAT(error_of([&] { refuse_false_recording(path_ / "false.mcap"); }),
+  EXPECT_THAT(error_of([&] { check_recording_content(path_ / "false.mcap"); }),
               testing::StartsWith("is no recording that can be read: it does not begin as MCAP"));
   write("empty.bag", "");
-  EXPECT_THAT(error_of([&] { refuse_false_recording(path_ / "empty.bag"); }), testing::HasSubstr("empty"));
-  EXPECT_EQ(error_of([&] { refuse_false_recording(path_ / "gone.pcd"); }), "");
+  EXPECT_THAT(error_of([&] { check_recording_content(path_ / "empty.bag"); }), testing::HasSubstr("empty"));
+  EXPECT_EQ(error_of([&] { check_recording_content(path_ / "gone.pcd"); }), "");
+}
+
+// An index may say fewer clouds than there are: poses are asked for beyond their end.
+TEST_F(RecordedSource, ACloudBeyondTheNumberedPosesHasNone) {
+  const std::filesystem::path poses = path_ / "poses.txt";
+  std::ofstream(poses) << "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 5 0 1 0 0 0 0 1 0\n";
+  const Poses two(poses, 2);
+  EXPECT_TRUE(two.at(1, 0).has_value());
+  EXPECT_FALSE(two.at(2, 0).has_value());
+  EXPECT_FALSE(two.at(std::size_t{1} << 60U, 0).has_value());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/remote_settings.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {
@@ -92,11 +92,11 @@ TEST(SettingValues, OfCountsAreRefusedWithTheirRange) {
   StreamConfig config;
   visit_stream(config, [&](const Setting& setting, auto& field) {
     if constexpr (is_count<std::decay_t<decltype(field)>>) {
-      const std::string key(setting.key), least = to_text(static_cast<std::size_t>(setting.range.least));
+      const std::string key(setting.key), least = to_text(static_cast<std::size_t>(setting.range.min));
       for (const char* value :
            {"0", "-1", "nan", "inf", "1e-300", "1e300", "0.5", "99999999999999999999999"}) {
         SCOPED_TRACE(key + " = " + value);
-        if (std::string(value) == "0" && setting.range.least == 0) continue;
+        if (std::string(value) == "0" && setting.range.min == 0) continue;
         const std::string range = " is not a whole number of at least " + least;
         EXPECT_THAT(file_problem(key, value), HasSubstr(range));
         if (key.rfind("runner.", 0) != 0) {
@@ -108,15 +108,13 @@ TEST(SettingValues, OfCountsAreRefusedWithTheirRange) {
 }
 
 TEST(SettingValues, AToleranceThatIsZeroAsAFloatIsRefusedLikeOthers) {
-  EXPECT_EQ(
-      file_problem("cluster.tolerance", "1e-300"),
-      "f: line 1: cluster.tolerance: 1e-300 is too small: it is 0 as float32, which points are; use 0, or at "
-      "least 1.4e-45");
+  EXPECT_EQ(file_problem("cluster.tolerance", "1e-300"),
+            "f: line 1: cluster.tolerance: 1e-300 is too small: it becomes 0 as float32, the type of points; "
+            "use 0, or at least 1.4e-45");
   EXPECT_THAT(file_problem("cluster.tolerance_per_metre", "1e-300"), HasSubstr("1e-300 is too small"));
-  EXPECT_THAT(
-      file_problem("cluster.classes", "[{value: 1, tolerance: 1e-300}]"),
-      HasSubstr(
-          "tolerance: 1e-300 is too small: it is 0 as float32, which points are; use at least 1.4e-45"));
+  EXPECT_THAT(file_problem("cluster.classes", "[{value: 1, tolerance: 1e-300}]"),
+              HasSubstr("tolerance: 1e-300 is too small: it becomes 0 as float32, the type of points; use at "
+                        "least 1.4e-45"));
   EXPECT_EQ(file_problem("cluster.tolerance", "1.4e-45"), "");
 }
 

@@ -9,7 +9,7 @@
 
 #include "frames.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "topics/scene.h"
+#include "stream/topics/scene.h"
 
 namespace pcl_bv {
 namespace {
@@ -23,7 +23,7 @@ struct Street {
     pipeline.set_config(config);
   }
   void process(std::size_t number) {
-    frame = frame_of(xyz[number], number);
+    frame = third_orientation(xyz[number], number);
     pipeline.process(frame, result);
   }
   std::vector<std::vector<float>> xyz;
@@ -66,7 +66,7 @@ TEST(Topics, HaveAMarkerForEachVolumeAndDeleteWhatEnds) {
   std::set<std::pair<std::string, std::int32_t>> alive;
   for (std::size_t number = 0; number < 4; ++number) {
     street.process(number);
-    fill_markers(street.frame, street.result, drawn(street.result), 300'000'000, shown, array);
+    fill_markers(street.frame, street.result, viewer_shapes(street.result), 300'000'000, shown, array);
     std::size_t added = 0;
     for (const msg::Marker& marker : array.markers) {
       const std::pair key(marker.ns, marker.id);
@@ -92,7 +92,7 @@ TEST(Topics, HaveAnEntityForEachObjectAndDeleteWhatEnds) {
   std::set<std::string> alive;
   for (std::size_t number = 0; number < 4; ++number) {
     street.process(number);
-    fill_scene(street.frame, street.result, drawn(street.result), 300'000'000, shown, scene);
+    fill_scene(street.frame, street.result, viewer_shapes(street.result), 300'000'000, shown, scene);
     for (const msg::SceneEntityDeletion& deletion : scene.deletions)
       EXPECT_EQ(alive.erase(deletion.id), 1U);
     for (const msg::SceneEntity& entity : scene.entities) {
@@ -129,8 +129,9 @@ TEST(Topics, HaveUprightBoxesWhoseThirdAxisIsUp) {
       msg::MarkerArray markers;
       msg::SceneUpdate scene;
       fill_detections(street.frame, street.result, detections);
-      fill_markers(street.frame, street.result, drawn(street.result), 300'000'000, of_markers, markers);
-      fill_scene(street.frame, street.result, drawn(street.result), 300'000'000, of_scene, scene);
+      fill_markers(street.frame, street.result, viewer_shapes(street.result), 300'000'000, of_markers,
+                   markers);
+      fill_scene(street.frame, street.result, viewer_shapes(street.result), 300'000'000, of_scene, scene);
       ASSERT_GT(detections.detections.size(), 5U);
       for (const msg::Detection3D& detection : detections.detections)
         EXPECT_LE((third_axis(detection.bbox.center) - up.normalized()).norm(), 1e-15);
@@ -186,13 +187,13 @@ TEST(Topics, HoldTheIntensityOfPointsWhereItIsKnown) {
 TEST(DrawnVolumes, AreWhereTheVolumesAre) {
   const Eigen::Matrix3d axes = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.3).normalized().toRotationMatrix();
   const Cylinder cylinder({1, 2, 3}, axes.col(0), 0.5, 2);
-  const DrawnVolume shown = drawn(AnyVolume(cylinder));
-  EXPECT_EQ(shown.kind, DrawnVolume::Kind::cylinder);
+  const VolumeShape shown = viewer_shape(AnyVolume(cylinder));
+  EXPECT_EQ(shown.kind, VolumeShape::Kind::cylinder);
   const Eigen::Quaterniond turn(shown.orientation[3], shown.orientation[0], shown.orientation[1],
                                 shown.orientation[2]);
   EXPECT_LT((turn * Eigen::Vector3d::UnitZ() - cylinder.axis()).norm(), 1e-12);
   EXPECT_EQ(shown.size, (std::array<double, 3>{1, 1, 4}));
-  EXPECT_TRUE(drawn(AnyVolume(Sphere())).ends.empty());
+  EXPECT_TRUE(viewer_shape(AnyVolume(Sphere())).line_points.empty());
 }
 
 // As roscpp's messages are: time with nsec, a type for each field.
@@ -224,7 +225,7 @@ TEST(Topics, FillTypesWithRos1Times) {
   street.process(3);
   ShownObjects shown;
   RosMarkerArray array;
-  fill_markers(street.frame, street.result, drawn(street.result), 1'500'000'000, shown, array);
+  fill_markers(street.frame, street.result, viewer_shapes(street.result), 1'500'000'000, shown, array);
   ASSERT_FALSE(array.markers.empty());
   EXPECT_EQ(array.markers[0].header.stamp.nsec, 300'000'000U);
   EXPECT_EQ(array.markers[0].lifetime.sec, 1U);
@@ -235,7 +236,7 @@ TEST(Topics, ACylinderIsTurnedToItsAxisAlsoStraightDown) {
        {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
         Eigen::Vector3d(1e-9, 2e-9, -1), Eigen::Vector3d(3, -4, -12)}) {
     const Cylinder cylinder({1, 2, 3}, axis.normalized(), 0.5, 2);
-    const auto [x, y, z, w] = drawn(AnyVolume(cylinder)).orientation;
+    const auto [x, y, z, w] = viewer_shape(AnyVolume(cylinder)).orientation;
     EXPECT_LT((Eigen::Quaterniond(w, x, y, z) * Eigen::Vector3d::UnitZ() - cylinder.axis()).norm(), 1e-15)
         << axis.transpose();
   }

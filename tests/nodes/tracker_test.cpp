@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/nodes/tracker.h"
+#include "pipeline/track/tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/street.h"
-#include "streaming/box_grid.h"
+#include "pipeline/track/box_grid.h"
 
 namespace pcl_bv {
 namespace {
@@ -296,7 +296,7 @@ TEST(Tracking, OfTheStreetKeepsOneIdPerObject) {
       StreetOptions options;
       options.seed = seed;
       const StreetFrame street = make_street_frame(options, i);
-      std::map<std::uint32_t, StreetObjectKind> kinds;
+      std::map<std::uint32_t, SynthObjectKind> kinds;
       for (const StreetObject& object : street.objects)
         kinds[object.id] = object.kind;
       Frame frame;
@@ -307,7 +307,7 @@ TEST(Tracking, OfTheStreetKeepsOneIdPerObject) {
       for (std::size_t c = 0; c < result.clusters.size(); ++c) {
         const std::uint32_t object = object_of(result, c, street.cloud);
         const auto kind = kinds.find(object);
-        if (kind == kinds.end() || kind->second > StreetObjectKind::pole) continue;
+        if (kind == kinds.end() || kind->second > SynthObjectKind::pole) continue;
         if (!result.tracks[c] || !seen.insert(object).second) continue;  // its largest part counts
         ++ids[object][result.tracks[c]->id];
       }

@@ -10,11 +10,11 @@
 #include <numeric>
 #include <random>
 
-#include "streaming/tracked_volumes.h"
-#include "streaming/tracking/assignment.h"
-#include "streaming/tracking/ego_motion.h"
-#include "streaming/tracking/motion_filter.h"
-#include "streaming/tracking/track.h"
+#include "pipeline/track/assignment.h"
+#include "pipeline/track/ego_motion.h"
+#include "pipeline/track/motion_filter.h"
+#include "pipeline/track/track.h"
+#include "pipeline/tracked_volumes.h"
 
 namespace pcl_bv {
 namespace {
@@ -54,8 +54,8 @@ TEST(MotionFilter, ManySmallStepsAreOneLarge) {
   one.predict(0.1, 0.9);
   for (int i = 0; i < 100; ++i)
     many.predict(0.001, 0.9);
-  EXPECT_NEAR(many.place, one.place, 1e-12);
-  EXPECT_NEAR(many.place_variance, one.place_variance, 1e-12);
+  EXPECT_NEAR(many.position, one.position, 1e-12);
+  EXPECT_NEAR(many.position_variance, one.position_variance, 1e-12);
   EXPECT_NEAR(many.covariance, one.covariance, 1e-12);
   EXPECT_NEAR(many.velocity_variance, one.velocity_variance, 1e-12);
 }
@@ -68,8 +68,8 @@ TEST(MotionFilter, CovarianceStaysPositiveDefiniteHoweverStampsJitter) {
       const double steps[] = {0, 1e-9, 0.001, 0.1, 1}, variances[] = {1e-6, 0.01, 100};
       axis.predict(steps[random() % 5], 0.9);
       axis.correct(uniform(random, -1, 1), variances[random() % 3]);
-      ASSERT_GT(axis.place_variance, 0) << run << ' ' << i;
-      ASSERT_GT(axis.place_variance * axis.velocity_variance, axis.covariance * axis.covariance)
+      ASSERT_GT(axis.position_variance, 0) << run << ' ' << i;
+      ASSERT_GT(axis.position_variance * axis.velocity_variance, axis.covariance * axis.covariance)
           << run << ' ' << i;
     }
   }
@@ -92,11 +92,11 @@ TEST(MotionFilter, ACovarianceIsThatOfWhatItEstimates) {
     for (int i = 0; i < 15; ++i) {
       place += 0.1 * velocity;
       axis.predict(0.1, 0);
-      axis.correct(place + 0.1 * normal() - axis.place, 0.01);
+      axis.correct(place + 0.1 * normal() - axis.position, 0.01);
     }
     Eigen::Matrix2d covariance;
-    covariance << axis.place_variance, axis.covariance, axis.covariance, axis.velocity_variance;
-    const Eigen::Vector2d error(axis.place - place, axis.velocity - velocity);
+    covariance << axis.position_variance, axis.covariance, axis.covariance, axis.velocity_variance;
+    const Eigen::Vector2d error(axis.position - place, axis.velocity - velocity);
     sum += error.dot(covariance.inverse() * error);
   }
   EXPECT_NEAR(sum / runs, 2, 0.15);

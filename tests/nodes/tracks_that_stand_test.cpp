@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "pcl_bv/nodes/tracker.h"
-#include "streaming/tracking/motion_judge.h"
+#include "pipeline/track/motion_classifier.h"
+#include "pipeline/track/tracker.h"
 
 namespace pcl_bv {
 namespace {
@@ -21,23 +21,23 @@ constexpr double kFrame = 0.1;  // seconds
 // Ends with the answer to `frames` sightings, the box of each made by centre_and_half(i).
 template <typename Make>
 bool moves(int frames, Make&& centre_and_half) {
-  MotionJudge judge;
+  MotionClassifier classifier;
   for (int i = 0; i < frames; ++i) {
     const std::array<Eigen::Vector3d, 2> box = centre_and_half(i);
-    judge.add(box[0], box[1], Eigen::Matrix3d::Identity(), i == 0 ? 0 : kFrame);
+    classifier.add(box[0], box[1], Eigen::Matrix3d::Identity(), i == 0 ? 0 : kFrame);
   }
-  return judge.moving();
+  return classifier.moving();
 }
 
 const Eigen::Vector3d kPerson(0.25, 0.25, 0.9);
 
-TEST(MotionJudge, AWalkerMovesWithinHalfASecond) {
+TEST(MotionClassifier, AWalkerMovesWithinHalfASecond) {
   const auto walk = [](int i) { return std::array<Eigen::Vector3d, 2>{{{1.2 * kFrame * i, 3, 0}, kPerson}}; };
   EXPECT_FALSE(moves(2, walk));
   EXPECT_TRUE(moves(5, walk));
 }
 
-TEST(MotionJudge, PartsThatComeIntoViewDoNotMove) {
+TEST(MotionClassifier, PartsThatComeIntoViewDoNotMove) {
   // One face stays at 0, the other one goes at 2 m/s: the centre goes at 1 m/s.
   EXPECT_FALSE(moves(20, [](int i) {
     const double length = 1 + 2 * kFrame * i;
@@ -45,7 +45,7 @@ TEST(MotionJudge, PartsThatComeIntoViewDoNotMove) {
   }));
 }
 
-TEST(MotionJudge, PartsThatTakeTurnsDoNotMove) {
+TEST(MotionClassifier, PartsThatTakeTurnsDoNotMove) {
   for (int period = 2; period < 5; ++period) {
     for (int frames = 5; frames < 25; ++frames) {
       EXPECT_FALSE(
@@ -58,7 +58,7 @@ TEST(MotionJudge, PartsThatTakeTurnsDoNotMove) {
   }
 }
 
-TEST(MotionJudge, WhatHasStoppedStandsWithinASecond) {
+TEST(MotionClassifier, WhatHasStoppedStandsWithinASecond) {
   const auto stop = [](int i) {
     return std::array<Eigen::Vector3d, 2>{{{5 * kFrame * std::min(i, 10), 3, 0}, kPerson}};
   };
@@ -66,11 +66,11 @@ TEST(MotionJudge, WhatHasStoppedStandsWithinASecond) {
   EXPECT_FALSE(moves(18, stop));
 }
 
-TEST(MotionJudge, StampsWithoutTimeBetweenThemSayNothing) {
-  MotionJudge judge;
+TEST(MotionClassifier, StampsWithoutTimeBetweenThemSayNothing) {
+  MotionClassifier classifier;
   for (int i = 0; i < 50; ++i) {
-    judge.add({0.2 * i, 0, 0}, kPerson, Eigen::Matrix3d::Identity(), 0);
-    EXPECT_FALSE(judge.moving());
+    classifier.add({0.2 * i, 0, 0}, kPerson, Eigen::Matrix3d::Identity(), 0);
+    EXPECT_FALSE(classifier.moving());
   }
 }
 

@@ -11,10 +11,10 @@
 #include "frames.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/messages/types.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/topics.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/trees/region_mask.h"
 
@@ -47,7 +47,7 @@ TEST(WholeCloud, FromASourceHasTheBitsOfTheSameInMemory) {
     PipelineConfig config = whole_cloud_config();
     config.filter.range_min = range_min;
     config.volumes = {"aabb", "dop26", "sphere", "obb-pca", "obb-min"};
-    const FrameResult held = result_of(config, frame_of(xyz, 0).points);
+    const FrameResult held = result_of(config, third_orientation(xyz, 0).points);
     const FrameResult asked = result_of(config, source.view());
     EXPECT_EQ(held.volumes, asked.volumes) << range_min;
     EXPECT_EQ(held.counts.nonfinite, (xyz.size() + 999) / 1000);
@@ -66,7 +66,7 @@ TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
     PipelineConfig config = whole_cloud_config();
     config.filter.range_min = 4;
     config.filter.range_max = 30;
-    const PointView cloud = frame_of(*xyz, 0).points;
+    const PointView cloud = third_orientation(*xyz, 0).points;
     const FrameResult result = result_of(config, cloud);
     EXPECT_EQ(result.filtered != nullptr, xyz == &street_xyz);
     ASSERT_EQ(result.clusters.size(), 1U);
@@ -85,7 +85,7 @@ TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
 
 TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
   const std::vector<float> xyz = street_with_bad_points();
-  const PointView cloud = frame_of(xyz, 0).points;
+  const PointView cloud = third_orientation(xyz, 0).points;
   const AnyVolume box = Aabb({-5, -5, -2}, {5, 5, 2}), ball = Sphere({8, 0, 0}, 3);
   const Region grown_box{box, 0.5}, grown_ball{ball, 0.5};
   const RegionMask mask({grown_box, grown_ball});
@@ -108,7 +108,7 @@ TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
       EXPECT_EQ(left, keep ? within : valid - within);
       const std::vector<std::uint32_t> labels = labels_of(with(cloud), result);
       for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] == label_none) continue;
+        if (labels[i] == kLabelNone) continue;
         ASSERT_EQ(inside[i] != 0, keep) << i;
       }
     }
@@ -117,7 +117,7 @@ TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
 
 TEST(WholeCloud, ASliceIsToldApartByTheNumbersOfItsCloud) {
   const std::vector<float> xyz = street(1, 64'000)[0];
-  const PointView cloud = frame_of(xyz, 0).points;
+  const PointView cloud = third_orientation(xyz, 0).points;
   const PointView slice = cloud.slice(20'000, cloud.count - 20'000);
   PipelineConfig config = whole_cloud_config();
   config.cluster.tolerance = 0.5;
@@ -182,7 +182,7 @@ TEST(WholeCloud, PointsAtTheEndOfTheFloatsAreTrackedLikeOthers) {
   FramePipeline pipeline(config);
   FrameResult result;
   for (std::size_t f = 0; f < 5; ++f)
-    pipeline.process(frame_of(xyz, f), result);
+    pipeline.process(third_orientation(xyz, f), result);
   EXPECT_EQ(result.tracks.size(), result.clusters.size());
 }
 
@@ -211,7 +211,7 @@ TEST(WholeCloud, HeedsTheSizesThatAreAllowed) {
     PipelineConfig config = whole_cloud_config();
     config.cluster.min_size = least;
     config.cluster.max_size = most;
-    return result_of(config, frame_of(xyz, 0).points);
+    return result_of(config, third_orientation(xyz, 0).points);
   };
   EXPECT_EQ(sized(3, 3).clusters.size(), 1U);
   const FrameResult small = sized(4, 9), large = sized(0, 2);
@@ -225,7 +225,7 @@ TEST(WholeCloud, HeedsTheSizesThatAreAllowed) {
 TEST(WholeCloud, WithoutAValidPointIsOneEmptyObject) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const std::vector<float>& xyz : {std::vector<float>{}, {nan, 0, 0}}) {
-    const PointView cloud = frame_of(xyz, 0).points;
+    const PointView cloud = third_orientation(xyz, 0).points;
     const FrameResult result = result_of(whole_cloud_config(), cloud);
     ASSERT_EQ(result.clusters.size(), 1U);
     EXPECT_EQ(result.points_of(0, cloud).count, 0U);
@@ -240,15 +240,15 @@ TEST(GroundPlace, ZonesStandAboutTheSensorWhereverItIs) {
     moved[i] += i % 3 == 0 ? 64.0F : 0.0F;  // but for rounding the same street
   PipelineConfig config = whole_cloud_config();
   config.ground.method = GroundMethod::zones;
-  const std::size_t ground = result_of(config, frame_of(xyz, 0).points).counts.ground;
+  const std::size_t ground = result_of(config, third_orientation(xyz, 0).points).counts.ground;
   config.ground.sensor = Eigen::Vector3d(64, 0, 0);
-  const std::size_t found = result_of(config, frame_of(moved, 0).points).counts.ground;
+  const std::size_t found = result_of(config, third_orientation(moved, 0).points).counts.ground;
   config.ground.sensor.reset();
-  const FrameResult without = result_of(config, frame_of(moved, 0).points);
+  const FrameResult without = result_of(config, third_orientation(moved, 0).points);
   EXPECT_LT(std::abs(static_cast<double>(found) - static_cast<double>(ground)),
             0.001 * static_cast<double>(ground));
-  EXPECT_FALSE(without.sensor.around);
-  EXPECT_NEAR(without.sensor.at.x(), 64, 5);
+  EXPECT_FALSE(without.sensor.confirmed);
+  EXPECT_NEAR(without.sensor.position.x(), 64, 5);
   EXPECT_LT(std::abs(static_cast<double>(without.counts.ground) - static_cast<double>(ground)),
             0.01 * static_cast<double>(ground));
 }
@@ -259,15 +259,15 @@ TEST(StreamHealth, SaysTheFirstWarningOfTheSettingsInForce) {
     moved[i] += 100;
   PipelineConfig config = whole_cloud_config();
   config.ground.method = GroundMethod::zones;
-  const Frame frame = frame_of(moved, 0);
+  const Frame frame = third_orientation(moved, 0);
   StreamHealth health;
-  EXPECT_TRUE(health.heeds(frame, result_of(config, frame.points)));
+  EXPECT_TRUE(health.record_frame(frame, result_of(config, frame.points)));
   msg::DiagnosticArray array;
   health.fill(frame, array);
   EXPECT_EQ(array.status.front().level, msg::DiagnosticStatus::WARN);
-  EXPECT_THAT(array.status.front().message, testing::HasSubstr("do not lie around a sensor in the origin"));
+  EXPECT_THAT(array.status.front().message, testing::HasSubstr("do not lie around the origin"));
   config.ground.sensor = Eigen::Vector3d(100, 0, 0);
-  health.heeds(frame, result_of(config, frame.points));
+  health.record_frame(frame, result_of(config, frame.points));
   health.fill(frame, array);
   EXPECT_EQ(array.status.front().message, "running");
 }
@@ -279,17 +279,17 @@ TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
   result.config = config;
   result.points = 120;
   result.counts.range = 20;
-  EXPECT_THAT(ground_remark(result), testing::HasSubstr("no ground found (up is z): try ground.up"));
+  EXPECT_THAT(ground_warning(result), testing::HasSubstr("no ground found (up is z): try ground.up"));
   result.counts.ground = 100;
-  EXPECT_THAT(ground_remark(result), testing::HasSubstr("all points are taken for ground"));
+  EXPECT_THAT(ground_warning(result), testing::HasSubstr("all points were classified as ground"));
   result.counts.ground = 99;
-  EXPECT_EQ(ground_remark(result), "");
+  EXPECT_EQ(ground_warning(result), "");
   result.counts.ground = 0;
   result.counts.range = 21;  // of 99 points
-  EXPECT_EQ(ground_remark(result), "");
+  EXPECT_EQ(ground_warning(result), "");
   result.counts.range = 20;
   config->ground.method = GroundMethod::none;
-  EXPECT_EQ(ground_remark(result), "");
+  EXPECT_EQ(ground_warning(result), "");
 }
 
 }  // namespace

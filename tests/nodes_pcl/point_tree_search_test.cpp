@@ -12,7 +12,7 @@
 #include "clouds.h"
 #include "flush_to_zero.h"
 #include "neighbours.h"
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 
 struct RadarPoint {  // that PCL has never seen
   float doppler;

@@ -106,7 +106,7 @@ TEST(Expansion, RoundsSumsOfProductsOutwardToTheNextDouble) {
     ASSERT_EQ(sum.up(), test::least_double_above(exact));
     ASSERT_EQ(sum.down(), test::greatest_double_below(exact));
     ASSERT_EQ(sum.sign(), (exact > 0) - (exact < 0));
-    ASSERT_TRUE(sum.certain());
+    ASSERT_TRUE(sum.is_lossless());
   }
 }
 
@@ -144,15 +144,15 @@ TEST(Expansion, HoldsAnyNumberOfTermsOfWhichFewAreLeft) {
 TEST(Expansion, IsUncertainAndAStepWiderWhereAProductMayBeLost) {
   Expansion sum;
   sum.add(1).add_product(0x1.8p-537, 0x1.8p-537);
-  EXPECT_FALSE(sum.certain());
+  EXPECT_FALSE(sum.is_lossless());
   EXPECT_GT(sum.up(), 1);
   EXPECT_LE(sum.down(), 1);
-  EXPECT_TRUE(Expansion().add_product(1, 0x1p-1074).certain()) << "times 1 nothing is lost";
+  EXPECT_TRUE(Expansion().add_product(1, 0x1p-1074).is_lossless()) << "times 1 nothing is lost";
 }
 
 TEST(Expansion, IsNoStepWiderWhereWhatAProductLostCannotMatter) {
   const Expansion sum = Expansion().add(1).add(0x1p-60).add_product(0x1.8p-537, 0x1.8p-537);
-  EXPECT_FALSE(sum.certain());
+  EXPECT_FALSE(sum.is_lossless());
   EXPECT_EQ(sum.up(), next_up(1));
   EXPECT_EQ(sum.down(), 1);
 }

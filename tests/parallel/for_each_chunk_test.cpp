@@ -43,7 +43,7 @@ TEST(ForEachRun, HandsOutEachItemOnceInRunsOfTheStatedLength) {
   for (const ParallelPolicy& policy : policies()) {
     for (const std::size_t items : {0, 1, 7, 8, 9, 801}) {
       std::vector<std::atomic<int>> calls(items);
-      for_each_run(policy, items, 8, [&](std::size_t begin, std::size_t end) {
+      for_each_range(policy, items, 8, [&](std::size_t begin, std::size_t end) {
         EXPECT_EQ(end - begin, std::min<std::size_t>(8, items - begin));
         for (std::size_t i = begin; i < end; ++i)
           ++calls.at(i);
@@ -110,14 +110,14 @@ TEST(ForEachChunk, ServesManyCallersAtATime) {
   EXPECT_EQ(calls, 8 * 200 * 5);
 }
 
-TEST(AwakeThreads, DoCallsThatFollowOneAnother) {
+TEST(SpinningThreads, DoCallsThatFollowOneAnother) {
   for (const ParallelPolicy& policy : policies()) {
-    const AwakeThreads awake(policy);
-    const AwakeThreads twice(policy);
+    const SpinningThreads awake(policy);
+    const SpinningThreads twice(policy);
     for (std::size_t call = 0; call < 200; ++call) {
       std::vector<std::size_t> squares(5);
       for_each_chunk(policy, squares.size(), [&](std::size_t i) {
-        const AwakeThreads inside(policy);
+        const SpinningThreads inside(policy);
         squares[i] = i * call;
       });
       EXPECT_EQ(squares, (std::vector<std::size_t>{0, call, 2 * call, 3 * call, 4 * call}));
@@ -125,13 +125,14 @@ TEST(AwakeThreads, DoCallsThatFollowOneAnother) {
   }
 }
 
-TEST(AwakeThreads, WorkForWhoeverCallsAndSleepAfterwards) {
+TEST(SpinningThreads, WorkForWhoeverCallsAndSleepAfterwards) {
   std::atomic<std::size_t> calls{0};
   const auto work = [&] {
     for (int i = 0; i < 50; ++i) {
-      const AwakeThreads awake(Threads{4});
+      const SpinningThreads awake(Threads{4});
       for_each_chunk(Threads{3}, 6, [&](std::size_t) { ++calls; });
-      if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));  // longer than they stay awake
+      if (i % 10 == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(3));  // longer than they stay awake
     }
   };
   {

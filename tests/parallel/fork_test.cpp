@@ -55,23 +55,23 @@ TEST(Fork, WhileOtherThreadsWorkTheChildStillWorksWithThreads) {
 
 TEST(Fork, WhileThreadsAreAwakeTheChildHasItsOwnOnes) {
   EXPECT_TRUE(test::passes_in_child([] {
-    const AwakeThreads awake(Threads{3});
+    const SpinningThreads awake(Threads{3});
     test::meet(3, nothing);
     EXPECT_TRUE(test::passes_in_child([] {
       test::meet(4, nothing);
-      const AwakeThreads own(Threads{2});
+      const SpinningThreads own(Threads{2});
       test::meet(2, nothing);
     }));
     test::meet(3, nothing);
   }));
-  const AwakeThreads awake(Threads{3});
+  const SpinningThreads awake(Threads{3});
   test::meet(3, nothing);  // threads that are still being started may hold locks of AddressSanitizer
   if (const pid_t child = ::fork(); child != 0) {
     EXPECT_TRUE(test::ends_well(child));
   } else {
     ::alarm(30);
     test::meet(3, nothing);
-    awake.~AwakeThreads();  // of a pool that is its parent's
+    awake.~SpinningThreads();  // of a pool that is its parent's
     test::meet(3, nothing);
     ::_exit(0);
   }

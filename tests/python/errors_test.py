@@ -174,8 +174,8 @@ class Errors(unittest.TestCase):
     def test_others_of_another_class_are_named(self):
         ball = pcl_bv.Sphere([0, 0, 0], 1)
         for call in (ball.merge, ball.overlaps, pcl_bv.Partial(POINTS).merge):
-            self.refused(TypeError, ["other: a", "is wanted, not 3"], call, 3)
-            self.refused(TypeError, ["other: a", "is wanted, not Aabb"], call, pcl_bv.Aabb([0, 0, 0], [1, 1, 1]))
+            self.refused(TypeError, ["other: expected a", "got 3"], call, 3)
+            self.refused(TypeError, ["other: expected a", "got Aabb"], call, pcl_bv.Aabb([0, 0, 0], [1, 1, 1]))
 
     def test_files_that_cannot_be_read_are_named(self):
         self.refused(FileNotFoundError, ["/no/such.pcd"], pcl_bv.read, "/no/such.pcd")

@@ -37,7 +37,7 @@ class Warnings(unittest.TestCase):
             right = len(pcl_bv.ground(street).ground)
             pcl_bv.Pipeline().process(street)
         aside = street + [100, 0, 0]
-        with self.assertWarnsRegex(UserWarning, "do not lie around a sensor in the origin.* use sensor"):
+        with self.assertWarnsRegex(UserWarning, "do not lie around the origin.* use sensor"):
             found = len(pcl_bv.ground(aside).ground)
         self.assertLess(abs(found - right), 30)
         with self.assertWarnsRegex(UserWarning, "few points lie around sensor"):

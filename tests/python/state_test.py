@@ -104,7 +104,7 @@ class States(unittest.TestCase):
         try:
             made.__setstate__(state)
         except ValueError as error:
-            self.assertIn("a state that is none of", str(error))
+            self.assertIn("invalid pickled state", str(error))
             self.assertNotIn("Unable to cast", str(error))
             return False
         use(made)

@@ -77,7 +77,7 @@ TEST_F(Bag, GivesWhatRossOwnReaderGives) {
     ASSERT_EQ(found.size(), 120U);
     for (std::size_t i = 0; i < found.size(); ++i)
       EXPECT_EQ(found[i], expected[i]) << compression << ", message " << i;
-    EXPECT_THAT(reader->remarks(), testing::IsEmpty());
+    EXPECT_THAT(reader->warning_lines(), testing::IsEmpty());
     ASSERT_EQ(reader->topics().size(), 2U);
     EXPECT_EQ(reader->topics()[0].messages + reader->topics()[1].messages, 120U);
     EXPECT_EQ(reader->topics()[0].encoding, "ros1");
@@ -114,7 +114,7 @@ TEST_F(Bag, ThatWasNotClosedOrIsCutHasEveryWholeChunk) {
     ASSERT_GE(found.size(), before) << size;
     for (const auto& message : found)
       EXPECT_NE(std::find(expected.begin(), expected.end(), message), expected.end());
-    EXPECT_FALSE(reader->remarks().empty());
+    EXPECT_FALSE(reader->warning_lines().empty());
     before = found.size();
   }
   EXPECT_EQ(before, 120U);
@@ -133,8 +133,8 @@ TEST_F(Bag, ADamagedChunkCostsThatChunk) {
     const std::size_t found = all_of(*reader).size();
     EXPECT_LT(found, all);
     EXPECT_GT(found, all / 2);
-    ASSERT_EQ(reader->remarks().size(), 1U);
-    EXPECT_THAT(reader->remarks()[0], testing::StartsWith("passed over the chunk at byte "));
+    ASSERT_EQ(reader->warning_lines().size(), 1U);
+    EXPECT_THAT(reader->warning_lines()[0], testing::StartsWith("skipped the chunk at byte "));
   }
 }
 
@@ -154,7 +154,7 @@ TEST_F(Bag, GoesOnBehindDamageBetweenChunks) {
   EXPECT_LT(found.size(), expected.size());
   for (const auto& message : found)
     EXPECT_NE(std::find(expected.begin(), expected.end(), message), expected.end());
-  EXPECT_THAT(reader->remarks(), testing::Contains(testing::StartsWith("skipped damaged bytes ")));
+  EXPECT_THAT(reader->warning_lines(), testing::Contains(testing::StartsWith("skipped damaged bytes ")));
 }
 
 // Where the records of this kind have this field, whose bytes come after its name.
@@ -178,7 +178,7 @@ TEST_F(Bag, OneChunkIsReadOnceHoweverOftenTheIndexNamesIt) {
   put("b.bag", bytes);
   const auto reader = open_recording(at("b.bag"));
   EXPECT_EQ(found_in(*reader), expected);
-  EXPECT_THAT(reader->remarks(), testing::Contains(testing::HasSubstr("it is not whole")));
+  EXPECT_THAT(reader->warning_lines(), testing::Contains(testing::HasSubstr("the index is incomplete")));
 }
 
 // The first chunk says that it holds the second one, too.
@@ -202,9 +202,9 @@ TEST_F(Bag, AChunkWithinAnotherIsReadOnce) {
   const nlohmann::json found = found_in(*reader);
   EXPECT_LT(found.size(), expected.size());
   EXPECT_GT(found.size(), expected.size() / 2);
-  EXPECT_THAT(reader->remarks(),
-              testing::ElementsAre("passed over the chunk at byte " + std::to_string(first) +
-                                   ": it reaches into the next one"));
+  EXPECT_THAT(reader->warning_lines(),
+              testing::ElementsAre("skipped the chunk at byte " + std::to_string(first) +
+                                   ": the chunk overlaps the next one"));
 }
 
 TEST_F(Bag, DamagedAnywhereIsReadOrRefused) {

@@ -36,7 +36,7 @@ class DamagedCapture : public RecordingFiles {
       points[sweep.sensor] += sweep.points.size();
       newest_ns_ = std::max(newest_ns_, sweep.stamp_ns);
     }
-    remarks_ = reader.remarks();
+    warnings_ = reader.warning_lines();
     return points;
   }
   // Captured in 2023, as other times are no problem.
@@ -55,7 +55,7 @@ class DamagedCapture : public RecordingFiles {
     file.replace(at, 4, pcl_bv::bytes_of(value + more, 4));
   }
 
-  std::vector<std::string> remarks_;
+  std::vector<std::string> warnings_;
   std::int64_t newest_ns_ = 0;
 };
 
@@ -63,7 +63,7 @@ TEST_F(DamagedCapture, AFirstHeaderCostsItsPacket) {
   std::string file = recent_pcap(packets_of(0x22, 60));
   file.replace(kPcapHeader, kPacketHeader, std::string(kPacketHeader, '\xFE'));
   EXPECT_EQ(points_of(file)[0], 59 * kPoints);
-  EXPECT_THAT(remarks_,
+  EXPECT_THAT(warnings_,
               testing::ElementsAre("skipped damaged bytes 24 to " + std::to_string(header(file, 60, 1) - 1)));
 }
 
@@ -77,7 +77,7 @@ TEST_F(DamagedCapture, ALengthThatIsALittleTooLargeCostsItsPacket) {
         add(file, at + 8, more);
         if (both) add(file, at + 12, more);
         EXPECT_GE(points_of(file)[0], 59 * kPoints);
-        EXPECT_EQ(remarks_.size(), 1U);
+        EXPECT_EQ(warnings_.size(), 1U);
       }
     }
   }
@@ -111,7 +111,7 @@ TEST_F(DamagedCapture, TimesMayJumpByDays) {
   for (std::size_t i = 30; i < 60; ++i)
     add(file, header(file, 60, i), 1'000'000);
   EXPECT_EQ(points_of(file)[0], 60 * kPoints);
-  EXPECT_THAT(remarks_, testing::IsEmpty());
+  EXPECT_THAT(warnings_, testing::IsEmpty());
 }
 
 // Each of the headers could begin a packet whose successor lies 1 MiB farther, which was read each time.
@@ -149,7 +149,8 @@ TEST_F(DamagedCapture, APacketGoesToASensorOfItsModel) {
     EXPECT_EQ(points.size(), 2U);
     EXPECT_EQ(points[0], payloads.size() / 2 * kPoints);
     EXPECT_EQ(points[1], payloads.size() / 2 * kPoints);
-    EXPECT_THAT(remarks_, testing::ElementsAre(testing::StartsWith("packets of 2 sensors (0.0.0.0:2368): ")));
+    EXPECT_THAT(warnings_,
+                testing::ElementsAre(testing::StartsWith("packets of 2 sensors (0.0.0.0:2368): ")));
   }
 }
 
@@ -159,7 +160,7 @@ TEST_F(DamagedCapture, TheSendersPortDoesNotMatter) {
   for (std::size_t i = 0; i < 150; ++i)
     file.replace(header(file, 150, i) + kPacketHeader + 14 + 20, 2, pcl_bv::bytes_of(40'000 + i, 2, true));
   EXPECT_EQ(points_of(file), (std::map<std::size_t, std::size_t>{{0, 150 * kPoints}}));
-  EXPECT_THAT(remarks_, testing::IsEmpty());
+  EXPECT_THAT(warnings_, testing::IsEmpty());
 }
 
 TEST_F(DamagedCapture, ManySensorsAreNamedInOneLine) {
@@ -168,7 +169,7 @@ TEST_F(DamagedCapture, ManySensorsAreNamedInOneLine) {
     file.replace(header(file, 100, i) + kPacketHeader + 14 + 12, 4,
                  "\x0A" + std::string(2, '\1') + static_cast<char>(i + 1));
   EXPECT_EQ(points_of(file).size(), 100U);
-  EXPECT_THAT(remarks_,
+  EXPECT_THAT(warnings_,
               testing::ElementsAre(
                   "packets of 100 sensors (10.1.1.1:2368, 10.1.1.2:2368, 10.1.1.3:2368, 10.1.1.4:2368, "
                   "10.1.1.5:2368 and 95 others): each frame is a revolution of one of them, "
@@ -186,7 +187,7 @@ TEST_F(DamagedCapture, AChosenAddressIsTheOnlyOneNamed) {
     file.replace(header(file, 300, i) + kPacketHeader + 14 + 12, 4, "\x0A\1\1\1");
   EXPECT_EQ(points_of(file, "0.0.0.0:2368").size(), 2U);
   EXPECT_THAT(
-      remarks_,
+      warnings_,
       testing::ElementsAre("packets of 2 sensors (0.0.0.0:2368): each frame is a revolution of one of them"));
 }
 

@@ -43,7 +43,7 @@ TEST_F(DamagedRecording, ASummaryWithAChunkOfNoBytesIsNotUsed) {
     put("a.mcap", made.chunk({1, 2}, true).index(8, bytes).closed(true, true, nullptr));
     const auto reader = open_recording(at("a.mcap"));
     EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2}));
-    EXPECT_THAT(reader->remarks(), ElementsAre(StartsWith("without an index (")));
+    EXPECT_THAT(reader->warning_lines(), ElementsAre(StartsWith("no usable index (")));
   }
 }
 
@@ -54,7 +54,7 @@ TEST_F(DamagedRecording, ASummaryWithOverlappingChunksIsNotUsed) {
   put("a.mcap", made.closed(true, true, nullptr));
   const auto reader = open_recording(at("a.mcap"));
   EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3}));
-  EXPECT_THAT(reader->remarks(), ElementsAre(StartsWith("without an index (two chunks overlap)")));
+  EXPECT_THAT(reader->warning_lines(), ElementsAre(StartsWith("no usable index (two chunks overlap)")));
 }
 
 TEST_F(DamagedRecording, AChunkOfAnUnknownCompressionIsNamed) {
@@ -63,7 +63,7 @@ TEST_F(DamagedRecording, AChunkOfAnUnknownCompressionIsNamed) {
   put("a.mcap", made.without_summary());
   const auto reader = open_recording(at("a.mcap"));
   EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 3}));
-  EXPECT_THAT(reader->remarks(), testing::Contains(HasSubstr("its compression is 'brotli'")));
+  EXPECT_THAT(reader->warning_lines(), testing::Contains(HasSubstr("its compression is 'brotli'")));
 }
 
 // Of a later version of the format.
@@ -73,7 +73,7 @@ TEST_F(DamagedRecording, RecordsOfReservedOpcodesAreSkipped) {
   put("a.mcap", made.described().loose(1).junk(later).loose(2).without_summary());
   const auto reader = open_recording(at("a.mcap"));
   EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2}));
-  EXPECT_EQ(reader->remarks().size(), 1U);  // only that it has no index
+  EXPECT_EQ(reader->warning_lines().size(), 1U);  // only that it has no index
 }
 
 TEST_F(DamagedRecording, WarningsAreLimitedAndDamageIsReadOnce) {
@@ -87,9 +87,9 @@ TEST_F(DamagedRecording, WarningsAreLimitedAndDamageIsReadOnce) {
   const auto reader = open_recording(at("a.mcap"));
   EXPECT_EQ(times_of(*reader).size(), 2000U);
   EXPECT_LT(bytes_read() - before, 50 * bytes.size());
-  ASSERT_EQ(reader->remarks().size(), 11U);
-  EXPECT_THAT(reader->remarks()[1], testing::MatchesRegex("skipped damaged bytes [0-9]+ to [0-9]+"));
-  EXPECT_EQ(reader->remarks()[10], "further warnings are not listed: 1991 so far");
+  ASSERT_EQ(reader->warning_lines().size(), 11U);
+  EXPECT_THAT(reader->warning_lines()[1], testing::MatchesRegex("skipped damaged bytes [0-9]+ to [0-9]+"));
+  EXPECT_EQ(reader->warning_lines()[10], "further warnings are not listed: 1991 so far");
 }
 
 // They opened the folder in itself until the stack ended.

@@ -49,7 +49,7 @@ TEST_F(Mcap, GivesWhatWasWrittenInTheOrderOfTheTimes) {
     const std::vector<Sent> sent = record("a.mcap", compression);
     const auto reader = open_recording(at("a.mcap"));
     EXPECT_EQ(all_of(*reader), sent);
-    EXPECT_THAT(reader->remarks(), testing::IsEmpty());
+    EXPECT_THAT(reader->warning_lines(), testing::IsEmpty());
     ASSERT_EQ(reader->topics().size(), 3U);
     EXPECT_EQ(reader->topics()[0].name, "/points");
     EXPECT_EQ(reader->topics()[0].type, "std_msgs/msg/Header");
@@ -94,7 +94,7 @@ TEST_F(Mcap, OfARecorderThatWasKilledHasEveryWholeChunk) {
       ASSERT_LE(found.size(), sent.size());
       ASSERT_GE(found.size(), before) << size;
       ASSERT_TRUE(std::equal(found.begin(), found.end(), sent.begin())) << size;
-      EXPECT_FALSE(reader->remarks().empty()) << size;
+      EXPECT_FALSE(reader->warning_lines().empty()) << size;
       before = found.size();
     }
     EXPECT_EQ(before, sent.size());
@@ -123,7 +123,7 @@ TEST_F(Mcap, ADamagedChunkCostsThatChunk) {
       EXPECT_GT(found.size(), sent.size() * 3 / 4);
       EXPECT_TRUE(std::includes(sent.begin(), sent.end(), found.begin(), found.end(),
                                 [](const Sent& a, const Sent& b) { return a.log_time < b.log_time; }));
-      EXPECT_THAT(reader->remarks(),
+      EXPECT_THAT(reader->warning_lines(),
                   testing::Contains(testing::HasSubstr(" at byte " + std::to_string(second))));
     }
   }
@@ -194,7 +194,7 @@ TEST_F(Mcap, HasItsMessagesOutsideOfChunksToo) {
     put("a.mcap", made.closed(true, true, said));
     const auto reader = open_recording(at("a.mcap"));
     EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7}));
-    EXPECT_THAT(reader->remarks(), testing::IsEmpty());
+    EXPECT_THAT(reader->warning_lines(), testing::IsEmpty());
     EXPECT_EQ(reader->topics()[0].messages, 0U);  // seven, not six: who wants to know must count
   }
 }
@@ -226,7 +226,7 @@ TEST_F(Mcap, GoesOnBehindDamageBetweenChunks) {
     put("a.mcap", made.without_summary());
     const auto reader = open_recording(at("a.mcap"));
     EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3, 4})) << junk;
-    EXPECT_THAT(reader->remarks(), testing::Contains(testing::StartsWith("skipped damaged bytes ")));
+    EXPECT_THAT(reader->warning_lines(), testing::Contains(testing::StartsWith("skipped damaged bytes ")));
   }
 }
 
@@ -240,7 +240,7 @@ TEST_F(Mcap, AChunkWithADamagedRecordHasTheMessagesBeforeIt) {
     put("a.mcap", bytes);
     const auto reader = open_recording(at("a.mcap"));
     EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 4})) << indexed;
-    EXPECT_FALSE(reader->remarks().empty());
+    EXPECT_FALSE(reader->warning_lines().empty());
   }
 }
 

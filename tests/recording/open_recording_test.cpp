@@ -23,7 +23,7 @@ std::string error_of(const std::filesystem::path& file) {
 
 TEST(OpenRecording, SaysWhatIsNoRecording) {
   EXPECT_EQ(error_of("/no/such/file"), "no such file or folder");
-  EXPECT_THAT(error_of("/dev/null"), testing::StartsWith("no recording that is known: "));
+  EXPECT_THAT(error_of("/dev/null"), testing::StartsWith("unknown recording format; known are: "));
   EXPECT_FALSE(is_recording("/no/such/file"));
   EXPECT_FALSE(is_recording("/"));
 }
@@ -33,7 +33,7 @@ class OpenRecordingFiles : public RecordingFiles {};
 TEST_F(OpenRecordingFiles, DoesNotWaitForAPipe) {
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
   EXPECT_FALSE(is_recording(at("pipe")));
-  EXPECT_THAT(error_of(at("pipe")), testing::StartsWith("no recording that is known"));
+  EXPECT_THAT(error_of(at("pipe")), testing::StartsWith("unknown recording format"));
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST_F(Rosbag2, MessagesThatAreCompressedAreUnpacked) {
         std::to_string(sent[1].log_time) + "\"");
   const auto reader = open_recording(at("a.db3"));
   EXPECT_EQ(all_of(*reader), (std::vector<Sent>{sent[0], sent[2]}));
-  EXPECT_THAT(reader->remarks(), testing::ElementsAre(testing::StartsWith("zstd: ")));
+  EXPECT_THAT(reader->warning_lines(), testing::ElementsAre(testing::StartsWith("zstd: ")));
 }
 
 TEST_F(Rosbag2, AFolderOfMcapFilesIsOneRecording) {
@@ -167,30 +167,30 @@ TEST_F(Rosbag2, ReadsTheFilesThatAreThereWhateverItsMetadataSays) {
       "rosbag2_bagfile_information: {relative_file_paths: [bag_0.db3, bag_1.db3, bag_2.db3]}\n");
   const auto reader = open_recording(at("bag"));
   EXPECT_EQ(all_of(*reader), sent);
-  EXPECT_THAT(reader->remarks(),
-              testing::ElementsAre("passed over bag_0.db3: no such file or folder",
-                                   testing::StartsWith("passed over bag_2.db3: is no database of SQLite")));
+  EXPECT_THAT(reader->warning_lines(),
+              testing::ElementsAre("skipped bag_0.db3: no such file or folder",
+                                   testing::StartsWith("skipped bag_2.db3: is no database of SQLite")));
   shell("rm bag/bag_2.db3");
   for (const char* cut :
        {"rosbag2_bagfile_information: {relative_file_paths: [", "rosbag2_bagfile_information:\n"}) {
     put("bag/metadata.yaml", cut);
     const auto again = open_recording(at("bag"));
     EXPECT_EQ(all_of(*again), sent);
-    EXPECT_THAT(again->remarks(),
+    EXPECT_THAT(again->warning_lines(),
                 testing::ElementsAre(testing::EndsWith(": all files of the folder are read")));
   }
   put("bag/metadata.yaml",
       "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3, bag_1.db3, old/bag_1.db3]}\n");
   const auto repeated = open_recording(at("bag"));
   EXPECT_EQ(all_of(*repeated), sent);
-  EXPECT_THAT(repeated->remarks(),
+  EXPECT_THAT(repeated->warning_lines(),
               testing::ElementsAre("metadata.yaml names bag_1.db3 3 times: it is read once"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3]}\n");
   make("bag/bag_7.db3", 3, 5000);
   const auto named = open_recording(at("bag"));
   EXPECT_EQ(all_of(*named), sent);
-  EXPECT_THAT(named->remarks(),
-              testing::ElementsAre("metadata.yaml does not name bag_7.db3: it is not read"));
+  EXPECT_THAT(named->warning_lines(),
+              testing::ElementsAre("bag_7.db3 is not in metadata.yaml and is not read"));
 }
 
 // A page of 4 KiB after the other is overwritten, as by a bad sector: the first one with the header and the
@@ -215,8 +215,8 @@ TEST_F(Rosbag2, ADamagedPageCostsTheMessagesOnIt) {
       EXPECT_TRUE(std::includes(sent.begin(), sent.end(), found.begin(), found.end(),
                                 [](const Sent& a, const Sent& b) { return a.log_time < b.log_time; }));
       if (found == sent) continue;
-      ASSERT_EQ(reader->remarks().size(), 1U);
-      EXPECT_THAT(reader->remarks()[0], testing::HasSubstr("messages on damaged pages are passed over"));
+      ASSERT_EQ(reader->warning_lines().size(), 1U);
+      EXPECT_THAT(reader->warning_lines()[0], testing::HasSubstr("those on damaged pages are lost"));
     } catch (const IoError&) {  // only without the list of topics
     }
   }
@@ -304,13 +304,13 @@ TEST_F(Rosbag2, SaysWhatIsWrongWithAFolder) {
     }
     return std::string("none");
   };
-  EXPECT_THAT(error(), testing::StartsWith("no recording that is known"));
+  EXPECT_THAT(error(), testing::StartsWith("unknown recording format"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [gone.db3]}\n");
   EXPECT_EQ(error(), "gone.db3: no such file or folder");
   put("bag/metadata.yaml", "rosbag2_bagfile_information: b: c\n");
   EXPECT_THAT(error(), testing::StartsWith("metadata.yaml: "));
   put("bag/metadata.yaml", "colours: [red]\n");  // of another kind
-  EXPECT_THAT(error(), testing::StartsWith("no recording that is known"));
+  EXPECT_THAT(error(), testing::StartsWith("unknown recording format"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: []}\n");
   EXPECT_EQ(error(), "metadata.yaml names no files");
 }

@@ -173,8 +173,8 @@ TEST_F(Velodyne, OfSeveralSensorsGivesTheTurnsOfEach) {
       EXPECT_EQ(sweeps[0], 3U) << apart << same_address;
       EXPECT_EQ(sweeps[1], 4U) << apart << same_address;
       EXPECT_EQ(points, 2 * one.size() * 12 * 32);
-      ASSERT_EQ(reader.remarks().size(), 1U);
-      EXPECT_THAT(reader.remarks()[0], testing::StartsWith("packets of 2 sensors (192.168.1.201:2368"));
+      ASSERT_EQ(reader.warning_lines().size(), 1U);
+      EXPECT_THAT(reader.warning_lines()[0], testing::StartsWith("packets of 2 sensors (192.168.1.201:2368"));
     }
   }
 }
@@ -192,7 +192,7 @@ TEST_F(Velodyne, OneOfSeveralSensorsIsChosenByItsAddress) {
   for (VelodyneSweep sweep; reader.next(sweep);)
     ++sweeps;
   EXPECT_EQ(sweeps, 3U);
-  EXPECT_THAT(reader.remarks(), testing::IsEmpty());
+  EXPECT_THAT(reader.warning_lines(), testing::IsEmpty());
   try {
     VelodyneReader(at("a.pcap"), "192.168.1.203:2368");
     FAIL();
@@ -231,7 +231,8 @@ TEST_F(Velodyne, GoesOnBehindADamagedPacket) {
       points += sweep.points.size();
     EXPECT_EQ(sweeps, 3U) << blocks;
     EXPECT_GE(points, (payloads.size() - 3) * 12 * 32) << blocks;
-    EXPECT_THAT(reader.remarks(), testing::Contains(testing::StartsWith("skipped damaged bytes "))) << blocks;
+    EXPECT_THAT(reader.warning_lines(), testing::Contains(testing::StartsWith("skipped damaged bytes ")))
+        << blocks;
   }
 }
 

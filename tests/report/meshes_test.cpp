@@ -182,8 +182,8 @@ TEST(MeshFormat, IsThatOfTheExtension) {
 }
 
 TEST(Pvd, ListsTheFramesWithTheirTimes) {
-  EXPECT_EQ(std::string(pvd_begin) + pvd_entry({0, "a_0.vtp"}) + pvd_entry({0.1, "b & \"c\" <d>.vtp", 1}) +
-                pvd_entry({1e-9, "\xc3\xa4.vtp"}) + std::string(pvd_end),
+  EXPECT_EQ(std::string(kPvdBegin) + pvd_entry({0, "a_0.vtp"}) + pvd_entry({0.1, "b & \"c\" <d>.vtp", 1}) +
+                pvd_entry({1e-9, "\xc3\xa4.vtp"}) + std::string(kPvdEnd),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
             "  <Collection>\n"

@@ -87,7 +87,7 @@ TEST(PartialFile, IsRefusedIfAnyByteIsWrongOrMissing) {
 }
 
 // With a right check sum: what a fuzzer found, and its like.
-TEST(PartialFile, IsRefusedIfItsHeadingHasNumbersThatAreNone) {
+TEST(PartialFile, IsRefusedIfItsHeaderHasInvalidNumbers) {
   const std::vector<float> xyz = points(100);
   const std::string good = partial_file_content(share(xyz, 0, 100));
   const std::string number = "\"cloud_points\":100";
@@ -103,7 +103,7 @@ TEST(PartialFile, IsRefusedIfItsHeadingHasNumbersThatAreNone) {
       parse_partial_file(content);
       ADD_FAILURE() << bad;
     } catch (const IoError& error) {
-      EXPECT_STREQ(error.what(), "its heading has no whole number where it should") << bad;
+      EXPECT_STREQ(error.what(), "invalid header: a non-negative integer is expected") << bad;
     }
   }
 }

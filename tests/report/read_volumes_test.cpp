@@ -98,7 +98,7 @@ TEST_F(ReadVolumes, ThatCannotBeReadAmongOthersAreRefusedByName) {
   EXPECT_THAT(error_of(R"([{"shape":"sphere","center":[0,null,0],"radius":1}])"),
               HasSubstr("center: a number"));
   EXPECT_THAT(error_of(R"([{"shape":"sphere","center":[0,0,0],"radius":-1}])"),
-              HasSubstr("no point is inside"));
+              HasSubstr("the volume is empty"));
   EXPECT_THAT(error_of(R"([{"shape":"sphere","failed":"flat"}])"), HasSubstr("its fit failed"));
 }
 

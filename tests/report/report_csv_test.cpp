@@ -34,7 +34,7 @@ std::string line_of(const std::string& method, const AnyVolume& volume) {
 }
 
 TEST(Csv, ColumnsAreTheDocumentedOnes) {
-  EXPECT_EQ(csv_columns, columns);
+  EXPECT_EQ(kCsvColumns, columns);
   EXPECT_EQ(report_csv_heading(), "file," + columns + ",length,width,height,yaw\n");
   EXPECT_EQ(frames_csv_heading(),
             "seq,stamp_ns,track," + columns + ",vx,vy,vz,x,y,z,yaw,length,width,height,box_yaw\n");

@@ -160,7 +160,7 @@ TEST(ReportJson, ComesInPiecesThatTogetherAreTheTextAsTheOtherFormatsDo) {
   const auto expect_pieces = [&](const std::string& all, auto* write) {
     std::string joined;
     std::size_t pieces = 0;
-    write(report, source_of(report.clusters), [&](std::string& piece) {
+    write(report, vector_source(report.clusters), [&](std::string& piece) {
       EXPECT_LT(piece.size(), std::size_t{1} << 21);
       ++pieces;
       joined += std::exchange(piece, {});

@@ -137,8 +137,8 @@ TEST(ClassClusters, RefuseAClassWithSettingsTwiceAndAPointWithout) {
     }
     return "";
   };
-  EXPECT_EQ(message({1, 1, 1, 1}, {1}, {{1, {1}}, {1, {2}}}), "class 1 has settings twice");
-  EXPECT_EQ(message({1, 1, 1}, {1}, {}), "point 3 has no class: there are 3");
+  EXPECT_EQ(message({1, 1, 1, 1}, {1}, {{1, {1}}, {1, {2}}}), "class 1 has two entries in the settings");
+  EXPECT_EQ(message({1, 1, 1}, {1}, {}), "point 3 has no class: there are classes for 3 points");
   EXPECT_EQ(message({1, 1, 1, 1}, {-1}, {{1, {1}}}),
             "cluster tolerance is -1, must be finite and greater than 0");
 }

@@ -141,7 +141,7 @@ TEST(ClustersByRange, AGrowthThatIsNoneOrGoesWithDbscanIsRefused) {
   EXPECT_EQ(message(-1, 1), "cluster tolerance_per_metre is -1, must be finite and at least 0");
   EXPECT_EQ(message(std::numeric_limits<float>::infinity(), 1),
             "cluster tolerance_per_metre is inf, must be finite and at least 0");
-  EXPECT_EQ(message(0.01F, 5), "cluster min_points is 5, must be 1 where the tolerance grows with the range");
+  EXPECT_EQ(message(0.01F, 5), "cluster min_points is 5, must be 1 if tolerance_per_metre is above 0");
   EXPECT_EQ(message(0, 5), "");
 }
 

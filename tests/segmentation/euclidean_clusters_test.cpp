@@ -63,7 +63,7 @@ TEST(EuclideanClusters, AreNoneBeforeAnyAreFound) {
 TEST(Counts, AreZeroUntilSomethingIsCounted) {
   const Counts counts;
   for (const std::size_t count : {counts.nonfinite, counts.range, counts.ground, counts.small, counts.large,
-                                  counts.noise, counts.inside, counts.of_class})
+                                  counts.noise, counts.inside, counts.dropped_class})
     EXPECT_EQ(count, 0U);
 }
 

@@ -59,8 +59,8 @@ TEST(Up, IsNothingElse) {
 TEST(Up, IsWrittenWithTheFewestDigitsThatReadBackExactly) {
   for (const char* text :
        {"x", "y", "z", "-x", "-y", "-z", "0,0,2", "0.1,-2,0.001", "1,1,0", "5e-324,0,1e+300"})
-    EXPECT_EQ(up_text(parse_up(text)), text);
-  EXPECT_EQ(up_text({-0.0, -0.0, -1}), "-z");
+    EXPECT_EQ(format_up(parse_up(text)), text);
+  EXPECT_EQ(format_up({-0.0, -0.0, -1}), "-z");
   std::mt19937_64 random(1);
   for (int i = 0; i < 10'000; ++i) {
     Vector3d up;
@@ -69,9 +69,9 @@ TEST(Up, IsWrittenWithTheFewestDigitsThatReadBackExactly) {
       std::memcpy(&c, &bits, sizeof c);
     }
     if (up.allFinite()) {
-      EXPECT_EQ(parse_up(up_text(up)), up);
+      EXPECT_EQ(parse_up(format_up(up)), up);
     } else {
-      EXPECT_THROW(parse_up(up_text(up)), std::invalid_argument) << up_text(up);
+      EXPECT_THROW(parse_up(format_up(up)), std::invalid_argument) << format_up(up);
     }
   }
 }
@@ -79,28 +79,28 @@ TEST(Up, IsWrittenWithTheFewestDigitsThatReadBackExactly) {
 TEST(Up, DirectionIsOfUnitLengthAndExactAlongAnAxis) {
   for (const double length : {5e-324, 1e-300, 0.3, 1.0, 7.0, 1e300, std::numeric_limits<double>::max()}) {
     for (Eigen::Index i = 0; i < 3; ++i) {
-      EXPECT_EQ(up_direction(length * Vector3d::Unit(i)), Vector3d::Unit(i)) << length;
-      const Vector3d down = up_direction(-length * Vector3d::Unit(i));
+      EXPECT_EQ(normalized_up(length * Vector3d::Unit(i)), Vector3d::Unit(i)) << length;
+      const Vector3d down = normalized_up(-length * Vector3d::Unit(i));
       EXPECT_EQ(down, -Vector3d::Unit(i)) << length;
       EXPECT_FALSE(std::signbit(down[(i + 1) % 3]) || std::signbit(down[(i + 2) % 3])) << length;
     }
-    EXPECT_NEAR(up_direction({length, -length, length}).norm(), 1, 1e-15) << length;
+    EXPECT_NEAR(normalized_up({length, -length, length}).norm(), 1, 1e-15) << length;
   }
   std::mt19937 random(2);
   for (int i = 0; i < 1000; ++i) {
-    const Vector3d any = random_direction(random), up = up_direction(any);
+    const Vector3d any = random_direction(random), up = normalized_up(any);
     EXPECT_NEAR(up.norm(), 1, 1e-15);
     EXPECT_NEAR(up.dot(any), any.norm(), 1e-14);
     for (const int power : {-900, -1, 1, 2, 900})
-      EXPECT_EQ(up_direction(std::ldexp(1, power) * any), up) << power;
+      EXPECT_EQ(normalized_up(std::ldexp(1, power) * any), up) << power;
   }
 }
 
 TEST(Up, WithoutADirectionIsRefused) {
   const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(refusal([] { up_direction({0, -0.0, 0}); }), "up is 0,-0,0, must be finite and not 0");
-  EXPECT_THAT(refusal([&] { up_direction({0, inf, 1}); }), HasSubstr("up is 0,inf,1, must be finite"));
-  EXPECT_THAT(refusal([] { up_direction({NAN, 0, 1}); }), HasSubstr("up is nan,0,1, must be finite"));
+  EXPECT_EQ(refusal([] { normalized_up({0, -0.0, 0}); }), "up is 0,-0,0, must be finite and not 0");
+  EXPECT_THAT(refusal([&] { normalized_up({0, inf, 1}); }), HasSubstr("up is 0,inf,1, must be finite"));
+  EXPECT_THAT(refusal([] { normalized_up({NAN, 0, 1}); }), HasSubstr("up is nan,0,1, must be finite"));
 }
 
 TEST(UpFrame, OfAnAxisAreTheAxesAfterIt) {

@@ -49,7 +49,7 @@ LongVector reach_along_axes(const ConvexRegion& region, const PlainBox& box) {
 Long margin(const ConvexRegion& region, const PlainBox& box) {
   const Long size = box.low.cast<Long>().lpNorm<1>() + box.high.cast<Long>().lpNorm<1>() +
                     vector(region.center).cast<Long>().lpNorm<1>() + Long(region.radius);
-  return 0x1p-38L * size + 4 * Long(region.doubt) + 0x1p-480L;
+  return 0x1p-38L * size + 4 * Long(region.surface_error) + 0x1p-480L;
 }
 
 constexpr int kRounds = test::kEmulated ? 1000 : 20'000;
@@ -67,7 +67,7 @@ class Cases {
           round % 3 == 0 ? Eigen::Matrix3d::Identity().eval() : random_.isometry(1).linear().eval();
       for (int i = 0; i < 3; ++i)
         region.axes[static_cast<std::size_t>(i)] = {axes(0, i), axes(1, i), axes(2, i)};
-      if (round % 4 == 0) region.doubt = 1e-11 * size();
+      if (round % 4 == 0) region.surface_error = 1e-11 * size();
       Vector3d half = random_.vector(extent).cwiseAbs();
       if (round % 5 == 0) half[round % 3] = 0;
       if (round % 7 == 0) half.setZero();
@@ -88,13 +88,13 @@ class Cases {
 using RegionAt = std::function<ConvexRegion(Long)>;
 
 void expect_apart_from(const RegionAt& region, const PlainBox& box) {
-  ASSERT_EQ(relation(region(kMore), box), Relation::apart);
-  ASSERT_EQ(relation(region(kLess), box), Relation::crosses);
+  ASSERT_EQ(relation(region(kMore), box), Relation::outside);
+  ASSERT_EQ(relation(region(kLess), box), Relation::crossing);
 }
 
 void expect_held_by(const RegionAt& region, const PlainBox& box) {
-  ASSERT_EQ(relation(region(kMore), box), Relation::holds);
-  ASSERT_EQ(relation(region(kLess), box), Relation::crosses);
+  ASSERT_EQ(relation(region(kMore), box), Relation::inside);
+  ASSERT_EQ(relation(region(kLess), box), Relation::crossing);
 }
 
 TEST(BoxRelation, ToABallIsClearBeyondTheMargin) {
@@ -138,7 +138,7 @@ TEST(BoxRelation, ToPlanesIsClearBeyondTheMargin) {
       expect_apart_from([&](Long t) { return of_limit(along - far - t * least, 1e9); }, box);
       expect_held_by([&](Long t) { return of_limit(along + far + t * least, 1e9); }, box);
       EXPECT_EQ(relation(of_limit(along + far + 2 * least, static_cast<double>(along)), box),
-                Relation::crosses);
+                Relation::crossing);
     }
   });
 }
@@ -185,7 +185,7 @@ TEST(BoxRelation, ToARoundBodyIsClearBeyondTheMargin) {
   Cases cases;
   int apart = 0;
   cases.each([&](ConvexRegion region, const PlainBox& box) {
-    region.shape = RegionShape::body;
+    region.shape = RegionShape::rounded;
     const LongVector at = along_axes(region, box);
     for (std::size_t i = 0; i < 3; ++i) {
       region.weight[i] = std::array{0.0, 1e-3, 1.0, 1.0, 1e3}[static_cast<std::size_t>(cases.uniform(0, 5))];
@@ -207,7 +207,7 @@ TEST(BoxRelation, ToARoundBodyIsClearBeyondTheMargin) {
     for (int i = 0; i < 3; ++i) {
       ConvexRegion cut = holding;
       cut.slab[static_cast<std::size_t>(i)] = static_cast<double>(at[i]);
-      EXPECT_EQ(relation(cut, box), Relation::crosses);
+      EXPECT_EQ(relation(cut, box), Relation::crossing);
     }
   });
   EXPECT_GT(apart, kRounds / 5);
@@ -218,39 +218,39 @@ TEST(BoxRelation, AtTheMarginIsNotClear) {
   const PlainBox box = {{1, 0, 0}, {1, 0, 0}};
   ConvexRegion region;
   region.axes = {Direction{1, 0, 0}, Direction{0, 1, 0}, Direction{0, 0, 1}};
-  for (const RegionShape shape : {RegionShape::ball, RegionShape::body}) {
+  for (const RegionShape shape : {RegionShape::ball, RegionShape::rounded}) {
     region.shape = shape;
     for (const double radius : {1 - 0x3p-38, 1 + 0x3p-38}) {
       region.radius = radius;
-      EXPECT_EQ(relation(region, box), Relation::crosses);
+      EXPECT_EQ(relation(region, box), Relation::crossing);
     }
     region.radius = 1 - 0x1.9p-37;
-    EXPECT_EQ(relation(region, box), Relation::apart);
+    EXPECT_EQ(relation(region, box), Relation::outside);
     region.radius = 1 + 0x1.9p-37;
-    EXPECT_EQ(relation(region, box), Relation::holds);
+    EXPECT_EQ(relation(region, box), Relation::inside);
   }
   region.radius = 0;  // and 2 * 2^-38 here
   for (const double limit : {1 - 0x1p-37, 1 + 0x1p-37}) {
     region.shape = RegionShape::planes;
     region.planes = {{1, 0, 0, limit}};
-    EXPECT_EQ(relation(region, box), Relation::crosses);
+    EXPECT_EQ(relation(region, box), Relation::crossing);
     region.shape = RegionShape::slabs;
     region.slab = {limit, 1, 1};
-    EXPECT_EQ(relation(region, box), Relation::crosses);
+    EXPECT_EQ(relation(region, box), Relation::crossing);
   }
 }
 
 // A flat ellipsoid: z is the margin itself, by 8 * 2^-38 and four doubts.
 TEST(BoxRelation, ToAFlatBodyIsByItsOtherAxesWhereItCannotBeToldAlongOne) {
   ConvexRegion disk;
-  disk.shape = RegionShape::body;
+  disk.shape = RegionShape::rounded;
   disk.axes = {Direction{1, 0, 0}, Direction{0, 1, 0}, Direction{0, 0, 1}};
-  disk.doubt = 0.25;
+  disk.surface_error = 0.25;
   disk.weight[2] = kInfinity;
   const Vector3d at(3 - 0x1p-35, 0, 1 + 0x1p-35);
-  EXPECT_EQ(relation(disk, {at, at}), Relation::apart);
+  EXPECT_EQ(relation(disk, {at, at}), Relation::outside);
   disk.radius = 2.5;
-  EXPECT_EQ(relation(disk, {at, at}), Relation::crosses);
+  EXPECT_EQ(relation(disk, {at, at}), Relation::crossing);
 }
 
 TEST(BoxRelation, ToABoxIsExact) {
@@ -260,20 +260,20 @@ TEST(BoxRelation, ToABoxIsExact) {
     region.low = coordinates(least), region.high = coordinates(most);
     return relation(region, {low, high});
   };
-  EXPECT_EQ(of_sides(low, high), Relation::holds);
-  EXPECT_EQ(of_sides(Vector3d::Constant(-kInfinity), Vector3d::Constant(kInfinity)), Relation::holds);
+  EXPECT_EQ(of_sides(low, high), Relation::inside);
+  EXPECT_EQ(of_sides(Vector3d::Constant(-kInfinity), Vector3d::Constant(kInfinity)), Relation::inside);
   for (int k = 0; k < 3; ++k) {
     const auto moved = [&](const Vector3d& from, double to, double towards) {
       Vector3d side = from;
       side[k] = towards == 0 ? to : std::nextafter(to, towards);
       return side;
     };
-    EXPECT_EQ(of_sides(moved(low, low[k], kInfinity), high), Relation::crosses);
-    EXPECT_EQ(of_sides(low, moved(high, high[k], -kInfinity)), Relation::crosses);
-    EXPECT_EQ(of_sides(moved(low, high[k], 0), moved(high, 100, 0)), Relation::crosses);
-    EXPECT_EQ(of_sides(moved(low, high[k], kInfinity), moved(high, 100, 0)), Relation::apart);
-    EXPECT_EQ(of_sides(moved(low, -100, 0), moved(high, low[k], 0)), Relation::crosses);
-    EXPECT_EQ(of_sides(moved(low, -100, 0), moved(high, low[k], -kInfinity)), Relation::apart);
+    EXPECT_EQ(of_sides(moved(low, low[k], kInfinity), high), Relation::crossing);
+    EXPECT_EQ(of_sides(low, moved(high, high[k], -kInfinity)), Relation::crossing);
+    EXPECT_EQ(of_sides(moved(low, high[k], 0), moved(high, 100, 0)), Relation::crossing);
+    EXPECT_EQ(of_sides(moved(low, high[k], kInfinity), moved(high, 100, 0)), Relation::outside);
+    EXPECT_EQ(of_sides(moved(low, -100, 0), moved(high, low[k], 0)), Relation::crossing);
+    EXPECT_EQ(of_sides(moved(low, -100, 0), moved(high, low[k], -kInfinity)), Relation::outside);
   }
 }
 

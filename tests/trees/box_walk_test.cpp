@@ -32,12 +32,12 @@ struct Bounds {
       group.fill(of_lacking);
     std::mt19937 random(51);
     for (std::size_t level = 0; level < boxes.levels; ++level) {
-      for (std::size_t i = 0; i < boxes.below[level]; ++i) {
+      for (std::size_t i = 0; i < boxes.child_counts[level]; ++i) {
         double& bound = of_group[boxes.first[level] + i / kTreeWidth][i % kTreeWidth];
         bound = random() % 3 == 0 ? kInfinity : static_cast<double>(random() % 1000);
         if (level == 0) continue;
         const auto& below = of_group[boxes.first[level - 1] + i];
-        const std::size_t count = std::min(kTreeWidth, boxes.below[level - 1] - i * kTreeWidth);
+        const std::size_t count = std::min(kTreeWidth, boxes.child_counts[level - 1] - i * kTreeWidth);
         bound = *std::min_element(below.begin(), below.begin() + static_cast<std::ptrdiff_t>(count));
       }
     }
@@ -47,7 +47,7 @@ struct Bounds {
 
   template <typename Limit, typename Visit>
   void visit(const Limit& limit, const Visit& visit) const {
-    descend(
+    visit_nearest_first(
         boxes, [&](std::size_t group) { return of_group.at(group); }, limit, visit);
   }
 };

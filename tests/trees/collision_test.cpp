@@ -9,7 +9,7 @@
 
 #include "any_volumes.h"
 #include "clouds.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {
@@ -133,7 +133,7 @@ TEST(VolumesWithin, AreThoseWhoseDistanceSaysSo) {
       list_within(tree, moving, pose, margin, touched);
       const std::set<std::int32_t> found(touched.begin(), touched.end());
       for (std::size_t v = 0; v < volumes.size(); ++v) {
-        const ConvexBody body = ConvexBody(volumes[v]).moved(pose);
+        const ConvexBody body = ConvexBody(volumes[v]).transformed(pose);
         double least = kInfinity;
         for (std::size_t i = 0; i < cloud.size(); ++i)
           least = std::min(least, distance(body, point_of(cloud, i)));
@@ -167,7 +167,7 @@ TEST(VolumesWithin, OfTwoListsAreThePairsWhoseBodiesSaySo) {
     list_within(volumes, others, pose, margin, pairs);
     for (std::size_t i = 0; i < first.size(); ++i) {
       for (std::size_t j = 0; j < second.size(); ++j) {
-        if (within(ConvexBody(first[i]), ConvexBody(second[j]).moved(pose), margin))
+        if (within(ConvexBody(first[i]), ConvexBody(second[j]).transformed(pose), margin))
           expected.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
       }
     }

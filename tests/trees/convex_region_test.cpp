@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "any_volumes.h"
-#include "grown.h"
+#include "inflated.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -44,10 +44,10 @@ TEST(ConvexRegion, HasABoxAroundTheVolumeLargerByTheMargin) {
         const double most = std::max(tight.min().cwiseAbs().maxCoeff(), tight.max().cwiseAbs().maxCoeff());
         ASSERT_TRUE(is_within(tight, box)) << shape_name(volume);
         if (has_planes(volume)) {
-          ASSERT_TRUE(is_within(box, aabb(grown(tight, 1e-11 * most)))) << shape_name(volume);
+          ASSERT_TRUE(is_within(box, aabb(inflated(tight, 1e-11 * most)))) << shape_name(volume);
         } else {
-          ASSERT_TRUE(is_within(aabb(grown(volume, 0.97 * 0x1p-40 * most)), box)) << shape_name(volume);
-          ASSERT_TRUE(is_within(box, aabb(grown(volume, 1.03 * 0x1p-40 * most)))) << shape_name(volume);
+          ASSERT_TRUE(is_within(aabb(inflated(volume, 0.97 * 0x1p-40 * most)), box)) << shape_name(volume);
+          ASSERT_TRUE(is_within(box, aabb(inflated(volume, 1.03 * 0x1p-40 * most)))) << shape_name(volume);
         }
       }
     }
@@ -81,7 +81,7 @@ TEST(ConvexRegion, OfRoundVolumesSaysWhatTheySay) {
   EXPECT_LT((turn.transpose() * turn - Eigen::Matrix3d::Identity()).norm(), 1e-14);
   for (const ConvexRegion& region : {ball, box, cylinder, flat, point}) {
     EXPECT_EQ(vector(region.center), c);
-    EXPECT_EQ(region.doubt, 0);
+    EXPECT_EQ(region.surface_error, 0);
   }
 }
 
@@ -89,14 +89,14 @@ TEST(ConvexRegion, OfACapsuleIsItsEdgeAndWhatItsEndsAreRoundedBy) {
   for (const double length : {0.0, 0.5, 3.0}) {
     const Vector3d a(1, -2, 3), b(1, -2, 3 + length);
     const ConvexRegion capsule = convex_region(Capsule(a, b, 2));
-    EXPECT_EQ(capsule.shape, RegionShape::body);
+    EXPECT_EQ(capsule.shape, RegionShape::rounded);
     EXPECT_EQ(vector(capsule.center), Vector3d(1, -2, 3 + 0.5 * length));
     EXPECT_EQ(capsule.core, (Weights{0.5 * length, 0, 0}));
     EXPECT_EQ(capsule.axes[0], (length > 0 ? Direction{0, 0, 1} : Direction{1, 0, 0}));
     EXPECT_EQ(capsule.weight, (Weights{1, 1, 1}));
     EXPECT_EQ(capsule.slab, (Weights{kInfinity, kInfinity, kInfinity}));
     EXPECT_EQ(capsule.radius, 2);
-    EXPECT_EQ(capsule.doubt, 0x1p-50 * (12 + length));
+    EXPECT_EQ(capsule.surface_error, 0x1p-50 * (12 + length));
   }
 }
 
@@ -112,13 +112,13 @@ void expect_planes(const ConvexRegion& region, const std::vector<HullPlane>& pla
     EXPECT_LT((normal - planes[i].normal / length).norm(), 1e-15);
     const test::Rational off = test::Rational(found.limit) + dot(normal, exact(vector(region.center))) -
                                test::Rational(planes[i].offset / length);
-    EXPECT_LE(abs(off), test::Rational(0.1 * region.doubt));
+    EXPECT_LE(abs(off), test::Rational(0.1 * region.surface_error));
     greatest = std::max(greatest, std::abs(planes[i].offset) / length);
   }
-  EXPECT_NEAR(region.doubt / (0x1p-45 * (greatest + vector(region.center).lpNorm<1>())), 1, 1e-9);
+  EXPECT_NEAR(region.surface_error / (0x1p-45 * (greatest + vector(region.center).lpNorm<1>())), 1, 1e-9);
 }
 
-TEST(ConvexRegion, OfPlanesHasThemFromTheCentreWithTheirDoubt) {
+TEST(ConvexRegion, OfPlanesHasThemFromTheCentreWithTheirSurfaceError) {
   Random random(3);
   for (const double place : {0.0, 1.0, 1e6}) {
     for (const AnyVolume& volume : volumes_of_every_kind(random, {"", place, 1})) {
@@ -175,7 +175,7 @@ TEST(ConvexRegion, WithoutASideAlongAnAxisEndsWhereOtherPlanesMeet) {
     (open % 2 == 0 ? high : low)[open / 2] *= 2;
     const Aabb box = box_of(convex_region(Hull({low, high}, {}, planes, 3)));
     EXPECT_TRUE(is_within(Aabb(low, high), box)) << open;
-    EXPECT_TRUE(is_within(box, aabb(grown(Aabb(low, high), 1e-11)))) << open;
+    EXPECT_TRUE(is_within(box, aabb(inflated(Aabb(low, high), 1e-11)))) << open;
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is inside a volume by exact arithmetic is inside for each of its member functions, for masks and trees: points
-// just below the surface, of fitted volumes and of moved ones.
+// What is inside a volume by exact arithmetic is inside for each of its member functions, for masks and
+// trees: points just below the surface, of fitted volumes and of moved ones.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "pcl_bv/trees/volume_tree.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "uneven_cloud.h"
 #include "vectors.h"
 
@@ -64,7 +64,8 @@ void expect_inside_of_all(const AnyVolume& volume, const Vector3d& p, const std:
 
 void expect_members_agree(const AnyVolume& volume, const Vector3d& inside, const std::string& name) {
   const Aabb box = aabb(volume);
-  const double rounding = 1e-12 * std::max((box.max() - box.min()).maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double rounding =
+      1e-12 * std::max((box.max() - box.min()).maxCoeff(), box.max().cwiseAbs().maxCoeff());
   for (const Vector3d& corner : mesh(volume).vertices)
     EXPECT_LE(distance(AnyVolume(box), corner), rounding) << name << ": mesh";
   std::mt19937_64 random(7);
@@ -77,7 +78,8 @@ void expect_members_agree(const AnyVolume& volume, const Vector3d& inside, const
     EXPECT_LE(distance(AnyVolume(box), farthest), rounding) << name << ": support";
     EXPECT_LE(distance(volume, farthest), rounding) << name << ": support";
     // Towards the farthest point, where planes that meet at a small angle reach beyond it, and anywhere.
-    for (const Vector3d& to : {Vector3d(inside + 1.5 * (farthest - inside)), Vector3d(inside + 2 * d.cwiseProduct(size))})
+    for (const Vector3d& to :
+         {Vector3d(inside + 1.5 * (farthest - inside)), Vector3d(inside + 2 * d.cwiseProduct(size))})
       expect_inside_of_all(volume, last_inside(volume, inside, to), name);
   }
 }

@@ -37,7 +37,9 @@ Real enters(const std::vector<Slab>& slabs, const FrameRay& ray, Real growth) {
     enter = std::max(enter, (slope > 0 ? low : high) / slope);
     exit = std::min(exit, (slope > 0 ? high : low) / slope);
   }
-  return enter - ray.margin <= exit + ray.margin ? std::max(0.0L, enter - ray.margin) : kFar;
+  return enter - ray.underflow_margin <= exit + ray.underflow_margin
+             ? std::max(0.0L, enter - ray.underflow_margin)
+             : kFar;
 }
 
 Real enters(const Shape& shape, NodeBounds kind, const FrameRay& ray, Real growth) {
@@ -47,7 +49,8 @@ Real enters(const Shape& shape, NodeBounds kind, const FrameRay& ray, Real growt
   const Real half = radius * radius - (q - nearest * u).squaredNorm();
   if (!(radius >= 0 && half >= 0)) return kFar;
   const Real reach = std::sqrt(half / u.squaredNorm());
-  return nearest + reach >= -2 * ray.margin ? std::max(0.0L, nearest - reach - ray.margin) : kFar;
+  return nearest + reach >= -2 * ray.underflow_margin ? std::max(0.0L, nearest - reach - ray.underflow_margin)
+                                                      : kFar;
 }
 
 std::vector<Slab> sides(const BoxGroup& group, std::size_t k) {
@@ -104,13 +107,13 @@ TEST(NodeBounds, DistancesAreThoseToTheShapesLessTheSlack) {
   for (const Tree& tree : trees()) {
     for (int i = 0; i < 18; ++i) {
       const Vector3d p = place_in(random, tree, i);
-      const FramePlace place(tree.boxes, coordinates(p));
-      ASSERT_EQ(place.slack, VolumeBoxes::slack(place.at.cwiseAbs().maxCoeff()));
+      const FramePoint place(tree.boxes, coordinates(p));
+      ASSERT_EQ(place.margin, VolumeBoxes::margin(place.at.cwiseAbs().maxCoeff()));
       for (std::size_t n = 0; n < tree.expected.size(); ++n) {
         const Shape& shape = tree.expected[n];
         const double found = tree.shapes.distance(n, place);
         const Real expected = std::max(
-            0.0L, distance_to(shape, tree.kind, place.at.cast<Real>()) - 2 * static_cast<Real>(place.slack));
+            0.0L, distance_to(shape, tree.kind, place.at.cast<Real>()) - 2 * static_cast<Real>(place.margin));
         if (expected < kFar) {
           const Real rounding = 1e-12L * (1 + std::abs(expected));
           const Real above = tree.kind == NodeBounds::dop14 ? 0 : shape.tolerance;
@@ -120,7 +123,7 @@ TEST(NodeBounds, DistancesAreThoseToTheShapesLessTheSlack) {
           ASSERT_EQ(found, kInfinity);
         }
         const std::uint32_t bits = 0x5a5aU << n % 2;
-        ASSERT_EQ(tree.shapes.may_hold(n / kTreeWidth, bits, place) >> n % kTreeWidth & 1U,
+        ASSERT_EQ(tree.shapes.may_contain(n / kTreeWidth, bits, place) >> n % kTreeWidth & 1U,
                   found == 0 ? bits >> n % kTreeWidth & 1U : 0U);
         apart += found > 0 && found < kInfinity;
         for (const std::uint32_t number : shape.volumes) {
@@ -148,7 +151,7 @@ std::vector<FrameRay> rays_through(Random& random, const Tree& tree) {
     EXPECT_LT(ray.u.cwiseAbs().maxCoeff(), 2);
     for (int k = 0; k < 3; ++k)  // all powers of two: nothing is rounded
       EXPECT_EQ(ray.u[k], std::ldexp(direction[k], std::ilogb(tree.boxes.levels().scale) - ray.exponent));
-    EXPECT_EQ(ray.margin, ray.time(0x1p-1020));
+    EXPECT_EQ(ray.underflow_margin, ray.time(0x1p-1020));
   }
   return rays;
 }
@@ -167,7 +170,7 @@ TEST(NodeBounds, RaysEnterTheShapesGrownByFourTimesTheSlack) {
     for (const FrameRay& ray : rays_through(random, tree)) {
       for (std::size_t n = 0; n < tree.expected.size(); ++n) {
         const Shape& shape = tree.expected[n];
-        const Real slack = ray.from.slack, room = shape.tolerance + 0.02L * slack;
+        const Real slack = ray.from.margin, room = shape.tolerance + 0.02L * slack;
         const double found = tree.shapes.enter(n, ray);
         ASSERT_NO_FATAL_FAILURE(expect_between(found, enters(shape, tree.kind, ray, 4 * slack + room),
                                                enters(shape, tree.kind, ray, 4 * slack - room)))
@@ -185,7 +188,7 @@ TEST(NodeBounds, BoxesAreAsFarAndEnteredAsTheirSidesSay) {
   for (const Tree& tree : trees()) {
     const std::vector<BoxGroup>& groups = tree.boxes.levels().groups;
     for (const FrameRay& ray : rays_through(random, tree)) {
-      const Real slack = ray.from.slack;
+      const Real slack = ray.from.margin;
       for (std::size_t n = 0; n < groups.size() * kTreeWidth; ++n) {
         const std::vector<Slab> box = sides(groups[n / kTreeWidth], n % kTreeWidth);
         Real squares = 0;

@@ -41,7 +41,7 @@ struct Tree {
   std::vector<Shape> expected;  // by number, as those of NodeShapes
 
   Tree(const std::vector<AnyVolume>& of_volumes, NodeBounds of_kind) : volumes(of_volumes), kind(of_kind) {
-    std::vector<PlaceBounds> extents;
+    std::vector<PositionBounds> extents;
     std::transform(volumes.begin(), volumes.end(), std::back_inserter(extents), extent_of);
     boxes.build(extents, Serial{});
     shapes.measure(kind, boxes, volumes, Serial{});
@@ -52,13 +52,13 @@ struct Tree {
     return (place - vector(boxes.levels().origin)).cast<Real>() * boxes.levels().scale;
   }
 
-  Shape shape_of(const AnyVolume& volume, const PlaceBounds& extent) const {
+  Shape shape_of(const AnyVolume& volume, const PositionBounds& extent) const {
     Shape shape;
     if (empty(volume) || !(extent.low.x >= -1e100 && extent.high.x <= 1e100)) return nothing();
     const Real scale = boxes.levels().scale;
     const Aabb box = aabb(volume);
     const SlabBounds<7, double> bounds(volume);
-    const Real room = box.empty() ? kFar : 2 * contained_margin(box);
+    const Real room = box.empty() ? kFar : 2 * contains_margin(box);
     shape.slabs = nothing().slabs;
     for (std::size_t i = 3; i < 7; ++i) {
       Slab& slab = shape.slabs[i - 3];
@@ -69,7 +69,7 @@ struct Tree {
     shape.center = in_frame(0.5 * vector(extent.low) + 0.5 * vector(extent.high));
     Real radius = (vector(extent.high) - vector(extent.low)).cast<Real>().norm() / 2;
     if (const auto* const sphere = std::get_if<Sphere>(&volume)) {
-      radius = Real(sphere->radius()) + contained_margin(box);
+      radius = Real(sphere->radius()) + contains_margin(box);
       shape.center = in_frame(sphere->center());
     }
     shape.radius = radius * scale * (1 + 0x1p-20L) + 0x1p-20L;
@@ -105,17 +105,17 @@ struct Tree {
     return all;
   }
 
-  void expect_shapes(const std::vector<PlaceBounds>& extents) {
+  void expect_shapes(const std::vector<PositionBounds>& extents) {
     const BoxLevels& levels = boxes.levels();
     expected.assign(levels.groups.size() * kTreeWidth, nothing());
     for (std::size_t item = 0; item < volumes.size(); ++item) {
-      const std::uint32_t number = boxes.number(item);
+      const std::uint32_t number = boxes.volume_index(item);
       expected[item] = shape_of(volumes[number], extents[number]);
       expected[item].volumes = {number};
       expected[item].tolerance = 0x1p-21L;
     }
     for (std::size_t level = 1; level < levels.levels; ++level) {
-      for (std::size_t i = 0; i < levels.below[level]; ++i) {
+      for (std::size_t i = 0; i < levels.child_counts[level]; ++i) {
         Shape& shape = expected[levels.first[level] * kTreeWidth + i];
         shape = joined(&expected[(levels.first[level - 1] + i) * kTreeWidth]);
         shape.tolerance = 0x1p-21L * static_cast<Real>(level + 1);

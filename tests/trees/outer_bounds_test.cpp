@@ -10,9 +10,9 @@
 
 #include "any_volumes.h"
 #include "body_distance.h"
-#include "image.h"
+#include "rotatable.h"
 #include "sphere_around.h"
-#include "turnable.h"
+#include "transformed_point.h"
 
 namespace pcl_bv {
 namespace {
@@ -56,15 +56,15 @@ TEST(PlainBox, HoldsTheBoxOfAGroupAndLittleMore) {
   }
 }
 
-TEST(Image, IsWithinItsErrorOfTheExactOne) {
+TEST(TransformedPoint, IsWithinItsErrorOfTheExactOne) {
   Random random(3);
   for (const double place : kPlaces) {
     for (const double shift : kPlaces) {
       for (int round = 0; round < 50; ++round) {
         const Eigen::Isometry3d pose = random.isometry(shift);
         const Vector3d p = random.vector(place);
-        const Image found = image_of(pose, coordinates(p));
-        EXPECT_LE(squared_distance(exact(vector(found.place)), image(pose, exact(p))),
+        const TransformedPoint found = transform_point(pose, coordinates(p));
+        EXPECT_LE(squared_distance(exact(vector(found.position)), image(pose, exact(p))),
                   test::Rational(found.error) * test::Rational(found.error));
         const Long sizes = (pose.linear().cwiseAbs() * p.cwiseAbs()).sum() + pose.translation().lpNorm<1>();
         EXPECT_NEAR(static_cast<double>(found.error / (0x1p-50L * sizes + 0x1p-500L)), 1, 1e-9);
@@ -77,17 +77,17 @@ TEST(Stretch, IsThatOfTheGreatestStretchedVector) {
   Random random(4);
   for (int round = 0; round < 200; ++round) {
     Eigen::Isometry3d pose = random.isometry(1);
-    const double turned = stretch_of(pose);
+    const double turned = max_stretch(pose);
     EXPECT_GT(turned, 1 + 0x1.8p-46);
     EXPECT_LT(turned, 1 + 0x1.4p-45);
     if (round % 2 == 0) pose.linear().array() += random.uniform(-1, 1);
     const double greatest = pose.linear().jacobiSvd().singularValues()[0];
-    EXPECT_GE(stretch_of(pose), greatest);
-    EXPECT_LE(stretch_of(pose), std::sqrt(3.0) * greatest * (1 + 1e-12));
+    EXPECT_GE(max_stretch(pose), greatest);
+    EXPECT_LE(max_stretch(pose), std::sqrt(3.0) * greatest * (1 + 1e-12));
   }
   Eigen::Isometry3d uneven(Eigen::AngleAxisd(0, Vector3d::UnitX()));
   uneven.linear().diagonal() = Vector3d(1, 3, 2);
-  EXPECT_EQ(stretch_of(uneven), 3 * (1 + 0x1p-45));
+  EXPECT_EQ(max_stretch(uneven), 3 * (1 + 0x1p-45));
 }
 
 TEST(SphereAround, HoldsTheBoxAndLittleMore) {
@@ -115,14 +115,14 @@ TEST(SphereAround, HoldsTheBoxAndLittleMore) {
   EXPECT_TRUE(sphere_around({{0, -kInfinity, 0}, {1, 1, 1}}).empty());
 }
 
-TEST(Turnable, AKdopsPlanesMoveOutwardByTheirRoundingAlone) {
+TEST(Rotatable, AKdopsPlanesMoveOutwardByTheirRoundingAlone) {
   Random random(6);
   for (const double place : kPlaces) {
     for (const double size : kPlaces) {
       const std::vector<Vector3d> cloud = random.cloud({"", place, size}, Span::solid, 20);
       for (const auto& set : kdop_sets()) {
         const Kdop kdop = around(Kdop(set), cloud);
-        const Hull hull = std::get<Hull>(turnable(kdop));
+        const Hull hull = std::get<Hull>(rotatable(kdop));
         ASSERT_EQ(hull.planes().size(), 2 * kdop.size());
         const Long doubt =
             0x1p-48L * (kdop.aabb().min().lpNorm<1>() + kdop.aabb().max().lpNorm<1>()) + kSmallestNormal;
@@ -148,7 +148,7 @@ TEST(BodyDistance, OfABoxIsThatOfItsMiddleLessItsReachAndAMargin) {
         const Vector3d middle = center(volume) + random.vector(10 * size + 3),
                        half = random.vector(size).cwiseAbs(), low = middle - half, high = middle + half,
                        at = 0.5 * (low + high);
-        const double least = body.at_least({low, high}), away = distance(ConvexBody(volume), at);
+        const double least = body.lower_bound({low, high}), away = distance(ConvexBody(volume), at);
         const Long reach = (high.cast<Long>() - low.cast<Long>()).norm() / 2,
                    margin = 0x1p-36L * (away + reach + aabb(volume).min().lpNorm<1>() +
                                         aabb(volume).max().lpNorm<1>() + at.lpNorm<1>());
@@ -156,7 +156,7 @@ TEST(BodyDistance, OfABoxIsThatOfItsMiddleLessItsReachAndAMargin) {
         EXPECT_LE(least, away - reach - 0.99L * margin);
         for (int corner = 0; corner < 8; ++corner) {
           const Vector3d p = corner_of(low, high, corner);
-          EXPECT_LE(least, body.of(p));
+          EXPECT_LE(least, body.distance_to(p));
         }
       }
     }

@@ -98,7 +98,7 @@ TEST(PlaneBody, ReachesAsFarAsItsFarthestVertex) {
         Real farthest = -std::numeric_limits<Real>::infinity();
         for (const RealVector& v : vertices)
           farthest = std::max(farthest, d.cast<Real>().dot(v + center.cast<Real>()));
-        const double reach = body.reach_up(d);
+        const double reach = body.support_bound_up(d);
         EXPECT_NEAR(reach, static_cast<double>(farthest), taxicab3(d) * room) << scale.name;
         for (const Vector3d& p : within)
           EXPECT_LE(dot(d, exact(p)), Rational(reach)) << scale.name;
@@ -120,11 +120,11 @@ TEST(PlaneBody, AddsToEachSideWhatContainsMayAllow) {
     const double allowed = 2 * 0x1p-46 * 3;  // of twice the size, which bounds the size itself
     EXPECT_NEAR(body.box()->max()[k] - hull.aabb().max()[k], allowed, 0x1p-50);
     EXPECT_NEAR(hull.aabb().min()[k] - body.box()->min()[k], allowed, 0x1p-50);
-    EXPECT_NEAR(body.reach_up(Vector3d::Unit(k)) - hull.aabb().max()[k], 0x1p-46 * 3, 0x1p-50);
-    EXPECT_NEAR(body.reach_up(-Vector3d::Unit(k)) + hull.aabb().min()[k], 0x1p-46 * 3, 0x1p-50);
+    EXPECT_NEAR(body.support_bound_up(Vector3d::Unit(k)) - hull.aabb().max()[k], 0x1p-46 * 3, 0x1p-50);
+    EXPECT_NEAR(body.support_bound_up(-Vector3d::Unit(k)) + hull.aabb().min()[k], 0x1p-46 * 3, 0x1p-50);
   }
   const PlaneBody other(cube({-1, -1, -1}, 4));
-  EXPECT_NEAR(other.reach_up({1, 0, 0}) - 3, 0x1p-46 * 3, 0x1p-50);
+  EXPECT_NEAR(other.support_bound_up({1, 0, 0}) - 3, 0x1p-46 * 3, 0x1p-50);
 }
 
 Hull box_of(const Vector3d& low, const Vector3d& size, const std::vector<HullPlane>& more = {}) {
@@ -152,14 +152,14 @@ TEST(PlaneBody, SeesPlanesThatCutLittleOffFarFromTheOrigin) {
   const Vector3d low(5e6, 5e6, 5e6), size(1, 1, 1), n(1, 1, 1);
   const double cut = n.dot(low + size) - 5e-7;
   const PlaneBody body(box_of(low, size, {{n, cut}}));
-  EXPECT_NEAR(body.reach_up(n), cut, 2 * 0x1p-46 * 5e6);
+  EXPECT_NEAR(body.support_bound_up(n), cut, 2 * 0x1p-46 * 5e6);
 }
 
 TEST(PlaneBody, OfNothingOrBeyondTheRangeOfDoubleHasNoBox) {
   for (const PlaneBody& body : {PlaneBody(Hull()), PlaneBody(Kdop()), PlaneBody(cube({0, 0, 0}, 1.5e308)),
                                 PlaneBody(box_of({2e307, 0, 0}, {7.5e307, 1, 1}))}) {
     EXPECT_FALSE(body.box());
-    EXPECT_EQ(body.reach_up({1, 0, 0}), kInfinity);
+    EXPECT_EQ(body.support_bound_up({1, 0, 0}), kInfinity);
   }
 }
 
@@ -188,7 +188,7 @@ TEST(PlaneBody, HasNoBoxWherePlanesLeaveItOpen) {
     const auto* const hull = std::get_if<Hull>(&volume);
     if (hull == nullptr || hull->empty()) continue;
     EXPECT_FALSE(PlaneBody(*hull).box());
-    EXPECT_EQ(PlaneBody(*hull).reach_up({1, 0, 0}), kInfinity);
+    EXPECT_EQ(PlaneBody(*hull).support_bound_up({1, 0, 0}), kInfinity);
   }
   Hull cube_without_lid = cube({0, 0, 0}, 1);
   std::vector<HullPlane> planes = cube_without_lid.planes();

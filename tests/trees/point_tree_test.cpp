@@ -98,7 +98,7 @@ bool same_bytes(const PackedTree& a, const PackedTree& b) {
   };
   return a.count == b.count && a.boxes.scale == b.boxes.scale && a.boxes.origin == b.boxes.origin &&
          equal(a.boxes.groups, b.boxes.groups) && equal(a.floats, b.floats) && equal(a.doubles, b.doubles) &&
-         equal(a.numbers, b.numbers);
+         equal(a.indices, b.indices);
 }
 
 TYPED_TEST(PointTreeOf, IsTheSameForEveryExecution) {
@@ -157,7 +157,7 @@ TYPED_TEST(PointTreeOf, AnswersForPointsThatMoved) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     moved.xyz[3 * (20 + axis) + axis] = std::numeric_limits<TypeParam>::infinity();
   for (std::size_t packet : {0, 5, 187})  // all that is first in a packet
-    moved.xyz[3 * static_cast<std::size_t>(tree.packed().numbers[packet * kTreeWidth])] =
+    moved.xyz[3 * static_cast<std::size_t>(tree.packed().indices[packet * kTreeWidth])] =
         std::numeric_limits<TypeParam>::quiet_NaN();
   tree.refit(moved.view());
   const EachPoint points(moved.view());

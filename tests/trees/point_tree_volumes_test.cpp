@@ -7,7 +7,7 @@
 
 #include "clouds.h"
 #include "each_point.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {

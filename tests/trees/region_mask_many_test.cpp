@@ -15,9 +15,9 @@
 #include "any_volumes.h"
 #include "clouds.h"
 #include "executions.h"
-#include "grown.h"
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "inflated.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "sources.h"
 
@@ -69,7 +69,7 @@ TEST(RegionMask, OfAnyNumberOfRegionsIsTheLoopOverThem) {
       for (const auto& cloud : {scanned(points, 31), test::gaussian<float>(points, 32)}) {
         std::vector<AnyVolume> volumes;
         for (const auto& [volume, padding] : regions)
-          volumes.push_back(grown(volume, padding));
+          volumes.push_back(inflated(volume, padding));
         Marks expected;
         for (std::size_t i = 0; i < points; ++i) {
           const Coordinates p = load_point(cloud.view(), i);

@@ -17,8 +17,8 @@
 #include "clouds.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "grown.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "inflated.h"
+#include "pcl_bv/points/point_groups.h"
 #include "sources.h"
 
 namespace pcl_bv {
@@ -49,7 +49,7 @@ Marks contained(const std::vector<Region>& regions, const PointView& points) {
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);
     inside.push_back(is_valid(p) && std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-                       return contains(grown(region.volume, region.padding), Vector3d(p.x, p.y, p.z));
+                       return contains(inflated(region.volume, region.padding), Vector3d(p.x, p.y, p.z));
                      }));
   }
   return inside;

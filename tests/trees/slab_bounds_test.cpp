@@ -182,7 +182,10 @@ TEST(SlabBounds, ContainWhatIsInsideAndRefuseWhatIsOutsideOfAnySlabByMoreThanRou
     for (std::size_t i = 0; i < 13; ++i) {
       const Vector3d d(kCubeDirections[i][0], kCubeDirections[i][1], kCubeDirections[i][2]);
       const double up = Expansion().add_dot(d, p).up(), down = Expansion().add_dot(d, p).down();
-      const double doubt = i < 3 ? 0 : 8 * kU * taxicab3(p);  // the sum's own rounding and the 4 kU asked for
+      const double doubt =
+          i < 3
+              ? 0
+              : 8 * kUnitRoundoff * taxicab3(p);  // the sum's own rounding and the 4 kUnitRoundoff asked for
       ASSERT_TRUE(slab(i, -kInfinity, up).contains(p)) << i;
       ASSERT_TRUE(slab(i, down, kInfinity).contains(p)) << i;
       ASSERT_FALSE(slab(i, -kInfinity, next_down(down - doubt)).contains(p)) << i;
@@ -196,7 +199,7 @@ TEST(SlabBounds, ContainWhatIsOutsideByFourRoundingsOfAnExactSumAndNoFartherPoin
   for (int round = 0; round < 200; ++round) {
     const Vector3d p = (8 * random.vector(1)).array().round() / 8;
     for (std::size_t i = 3; i < 13; ++i) {
-      const double s = dot3(kCubeDirections[i], p), doubt = 4 * kU * taxicab3(p);
+      const double s = dot3(kCubeDirections[i], p), doubt = 4 * kUnitRoundoff * taxicab3(p);
       ASSERT_TRUE(slab(i, -kInfinity, s - doubt).contains(p)) << i;
       ASSERT_TRUE(slab(i, s + doubt, kInfinity).contains(p)) << i;
       ASSERT_FALSE(slab(i, -kInfinity, next_down(s - doubt)).contains(p)) << i;

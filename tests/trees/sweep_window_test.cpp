@@ -40,15 +40,15 @@ Cloud joined(const std::deque<const Cloud*>& clouds) {
 void expect_window(const SweepWindow& window, const std::deque<const Cloud*>& inside) {
   const Cloud all = joined(inside);
   ASSERT_EQ(window.size(), inside.size());
-  ASSERT_EQ(window.points(), all.size());
-  ASSERT_EQ(window.all().size(), all.size());
-  const Partial at_once(all.view(), static_cast<std::size_t>(window.first()));
-  ASSERT_EQ(window.all().to_bytes(), at_once.to_bytes());
+  ASSERT_EQ(window.point_count(), all.size());
+  ASSERT_EQ(window.merged().size(), all.size());
+  const Partial at_once(all.view(), static_cast<std::size_t>(window.first_index()));
+  ASSERT_EQ(window.merged().to_bytes(), at_once.to_bytes());
   for (const std::string name :
        {"aabb", "dop14", "dop26", "sphere", "hull", "obb-pca", "obb-min", "cylinder"}) {
     const Method& method = *find_method(name);
     AnyVolume found, expected;
-    const EstimationResult result = window.all().fit(method, found);
+    const EstimationResult result = window.merged().fit(method, found);
     at_once.fit(method, expected);
     ASSERT_EQ(found, expected) << name;
     if (name != "aabb" && name != "dop26" && name != "hull") continue;
@@ -72,7 +72,7 @@ void expect_slides(std::size_t capacity, std::size_t points) {
   for (; !inside.empty(); inside.pop_front(), window.drop_oldest())
     ASSERT_NO_FATAL_FAILURE(expect_window(window, inside));
   EXPECT_EQ(window.size(), 0U);
-  EXPECT_EQ(window.all().size(), 0U);
+  EXPECT_EQ(window.merged().size(), 0U);
   window.drop_oldest();
 }
 
@@ -94,7 +94,7 @@ TEST(SweepWindow, NumbersPointsAsTheyComeWhateverTheirViewsCallThem) {
   Cloud other;
   other.xyz.assign(cloud.xyz.begin() + 300, cloud.xyz.end());
   other.xyz.insert(other.xyz.end(), cloud.xyz.begin(), cloud.xyz.begin() + 900);
-  EXPECT_EQ(window.all().to_bytes(), Partial(other.view()).to_bytes());
+  EXPECT_EQ(window.merged().to_bytes(), Partial(other.view()).to_bytes());
 }
 
 TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
@@ -103,7 +103,7 @@ TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
   const auto floats = test::gaussian<float>(50, 1);
   const auto doubles = test::gaussian<double>(50, 1);
   window.add(floats.view());
-  const auto bytes = window.all().to_bytes();
+  const auto bytes = window.merged().to_bytes();
   EXPECT_THROW(window.add(doubles.view()), std::invalid_argument);
   EXPECT_THROW(window.add(doubles.view().slice(0, 1)), std::invalid_argument);
   const std::int32_t indices[] = {1, 2};
@@ -112,7 +112,7 @@ TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
   some.count = 2;
   EXPECT_THROW(window.add(some), std::invalid_argument);
   EXPECT_EQ(window.size(), 1U);
-  EXPECT_EQ(window.all().to_bytes(), bytes);
+  EXPECT_EQ(window.merged().to_bytes(), bytes);
   window.add(doubles.view().slice(0, 0));  // no points are of no type
   EXPECT_THROW(window.add(doubles.view()), std::invalid_argument);
   window.add(floats.view());  // now one sweep is dropped, and the others are merged from their end
@@ -120,7 +120,7 @@ TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
   while (window.size() > 0)
     window.drop_oldest();
   window.add(doubles.view());
-  EXPECT_EQ(window.points(), 50U);
+  EXPECT_EQ(window.point_count(), 50U);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using namespace testing;
 // Keeps what it is shown, and always says the same time.
 struct Shown final : PacketVisitor {
   explicit Shown(const PointTree& tree, float until)
-      : latest(until), points(tree.packed().boxes.below[0] * kTreeWidth) {}
+      : latest(until), points(tree.packed().boxes.child_counts[0] * kTreeWidth) {}
 
   float visit(std::size_t packet, std::uint32_t bits) override {
     EXPECT_NE(bits, 0U);
@@ -73,8 +73,8 @@ void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const Swept
     ASSERT_LE(from_origin.cross(ray.direction.normalized()).norm(),
               ray.radius * (1 + 1e-9) + 1e-11 * from_origin.lpNorm<1>() + 1e-100);
   }
-  if (!std::isfinite(ball.pad)) return;
-  const auto pad = static_cast<double>(ball.pad), last = static_cast<double>(shown.latest);
+  if (!std::isfinite(ball.margin)) return;
+  const auto pad = static_cast<double>(ball.margin), last = static_cast<double>(shown.latest);
   for (std::size_t n = 0; n < shown.packets.size(); ++n) {
     // One is shown before there is a latest time.
     const double enter = enter_time(tree.packed().boxes, shown.packets[n], ray, ball, 1.01 * pad);
@@ -99,7 +99,7 @@ TYPED_TEST_SUITE(SweptBallOf, ScalarTypes);
 void expect_shown(const PointTree& tree, const Ray& ray, double until) {
   const SweptBall ball(tree.packed().boxes, coordinates(ray.origin), coordinates(ray.direction), ray.radius);
   for (const double end : {kInfinity, until}) {
-    Shown shown(tree, end == until ? ball.latest(until) : std::numeric_limits<float>::max());
+    Shown shown(tree, end == until ? ball.latest_entry(until) : std::numeric_limits<float>::max());
     visit_along(tree.isa(), tree.packed(), ball, shown);
     ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
     ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
@@ -130,8 +130,8 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
       const Vector3d origin = vector(boxes.origin) + Vector3d(-away, 1, 2), direction(1e-7, -40, 3e-20);
       const SweptBall ball(boxes, coordinates(origin), coordinates(direction), radius);
       const double size = (away + 3 + radius) * boxes.scale + 1, r = radius * boxes.scale;
-      EXPECT_GE(static_cast<double>(ball.pad), r + size * 0x1p-17);
-      EXPECT_LE(static_cast<double>(ball.pad), r + size * 0x1p-15);
+      EXPECT_GE(static_cast<double>(ball.margin), r + size * 0x1p-17);
+      EXPECT_LE(static_cast<double>(ball.margin), r + size * 0x1p-15);
       EXPECT_NEAR(static_cast<double>(ball.origin[0]), -away * boxes.scale, 0x1p-23 * size);
       EXPECT_NEAR(static_cast<double>(ball.origin[2]), 2 * boxes.scale, 0x1p-23 * size);
       // Of a direction from (0, -2, 0) to (0, -1, 0): -40 is -1.25 * 2^5.
@@ -141,7 +141,7 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
       EXPECT_EQ(ball.time, 32 * boxes.scale);
       EXPECT_NEAR(ball.unit.y, -1, 1e-15);
       EXPECT_NEAR(ball.unit.x, 1e-7 / 40, 1e-23);
-      const double latest = static_cast<double>(ball.latest(3)), pad = static_cast<double>(ball.pad);
+      const double latest = static_cast<double>(ball.latest_entry(3)), pad = static_cast<double>(ball.margin);
       EXPECT_GE(latest, 3 * ball.time + pad);
       EXPECT_LE(latest, 3 * ball.time * (1 + 0x1p-15) + 1.001 * pad);
     }

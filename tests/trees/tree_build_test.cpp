@@ -20,16 +20,16 @@ namespace {
 using namespace testing;
 
 template <typename T>
-using Items = std::vector<PlacedItem<T>>;
+using Items = std::vector<PositionedItem<T>>;
 
 template <typename T>
 Items<T> items_of(const test::TestCloud<T>& cloud) {
   Items<T> items;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    PlacedItem<T> item;
-    load_point(cloud.view(), i, item.place);
-    item.number = static_cast<std::int32_t>(i);
-    if (is_valid({item.place[0], item.place[1], item.place[2]})) items.push_back(item);
+    PositionedItem<T> item;
+    load_point(cloud.view(), i, item.position);
+    item.index = static_cast<std::int32_t>(i);
+    if (is_valid({item.position[0], item.position[1], item.position[2]})) items.push_back(item);
   }
   return items;
 }
@@ -62,21 +62,21 @@ void order_by_sorting(Items<T>& items, std::size_t begin, std::size_t end,
   double length = 0;
   for (std::size_t axis = 0; axis < 3 && begin < end; ++axis) {
     const auto [low, high] = std::minmax_element(
-        first, last, [axis](const auto& a, const auto& b) { return a.place[axis] < b.place[axis]; });
-    const double side = static_cast<double>(high->place[axis]) - static_cast<double>(low->place[axis]);
+        first, last, [axis](const auto& a, const auto& b) { return a.position[axis] < b.position[axis]; });
+    const double side = static_cast<double>(high->position[axis]) - static_cast<double>(low->position[axis]);
     if (side > length) longest = axis;
     length = std::max(length, side);
   }
   const std::size_t count = end - begin;
   if (count <= 16 || length == 0) {
     std::vector<std::int64_t> numbers;
-    std::transform(first, last, std::back_inserter(numbers), [](const auto& item) { return item.number; });
+    std::transform(first, last, std::back_inserter(numbers), [](const auto& item) { return item.index; });
     std::sort(numbers.begin(), numbers.end());
     leaves.push_back(numbers);
     return;
   }
   std::sort(first, last, [longest](const auto& a, const auto& b) {
-    return std::pair(a.place[longest], a.number) < std::pair(b.place[longest], b.number);
+    return std::pair(a.position[longest], a.index) < std::pair(b.position[longest], b.index);
   });
   std::size_t unit = 16;
   while (16 * unit < count)
@@ -105,7 +105,7 @@ TYPED_TEST(TreeBuildOf, OrdersItemsAsSortingAlongLongestSidesDoes) {
     for (const std::vector<std::int64_t>& leaf : leaves) {
       std::vector<std::int64_t> found;
       for (std::size_t i = 0; i < leaf.size(); ++i)
-        found.push_back(order[place++].number);
+        found.push_back(order[place++].index);
       std::sort(found.begin(), found.end());
       ASSERT_EQ(found, leaf) << "before place " << place;
     }
@@ -121,7 +121,7 @@ TYPED_TEST(TreeBuildOf, MakesBoxesThatTouchTheirPointsFromAllSides) {
     const PointView points = tree.packed().view();
     std::size_t width = kTreeWidth;
     for (std::size_t level = 0; level < boxes.levels; ++level, width *= kTreeWidth) {
-      for (std::size_t item = 0; item < boxes.below[level]; ++item) {
+      for (std::size_t item = 0; item < boxes.child_counts[level]; ++item) {
         Aabb around;
         for (std::size_t i = item * width; i < std::min((item + 1) * width, points.count); ++i) {
           const Coordinates p = load_point(points, i);
@@ -143,7 +143,7 @@ TYPED_TEST(TreeBuildOf, NamesNothingWhereAPacketLacksPoints) {
   const auto cloud = test::gaussian<TypeParam>(21, 1);
   PointTree tree(test::gaussian<TypeParam>(32, 2).view());
   tree.assign(cloud.view());
-  const std::vector<std::int32_t>& numbers = tree.packed().numbers;
+  const std::vector<std::int32_t>& numbers = tree.packed().indices;
   ASSERT_EQ(numbers.size(), 32U);
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), -1), 11);
 }
@@ -155,7 +155,7 @@ TEST(BoxLevels, HaveOneGroupAtTheTopAndSixteenBelowEach) {
     std::size_t below = items, first = 0;
     for (std::size_t level = 0; level < boxes.levels; ++level) {
       EXPECT_EQ(boxes.first[level], first);
-      EXPECT_EQ(boxes.below[level], below);
+      EXPECT_EQ(boxes.child_counts[level], below);
       below = (below + 15) / 16;
       first += below;
     }
@@ -188,7 +188,7 @@ TEST(BoxLevels, FillTheirFrame) {
 
 // The squared radius from which on a ball about the place surely holds a point of a box that touches its
 // points.
-double surely_reached(const Vector3d& place, const Vector3d& low, const Vector3d& high) {
+double projection_lower_bound(const Vector3d& place, const Vector3d& low, const Vector3d& high) {
   const Vector3d near = (place - low).cwiseAbs().cwiseMin((place - high).cwiseAbs()).cwiseAbs2(),
                  far = (place - low).cwiseAbs().cwiseMax((place - high).cwiseAbs()).cwiseAbs2();
   return (far.sum() * Vector3d::Ones() - far + near).minCoeff();
@@ -212,13 +212,13 @@ TEST(BoxLevels, TellHowLittleABallMayBeThatSurelyHoldsAPoint) {
       for (int side = 0; side < 3; ++side) {
         Vector3d middle = (low[k] + high[k]) / 2;
         middle[side] = low[k][side];
-        least = std::min(least, surely_reached(middle, low[k], high[k]));
+        least = std::min(least, projection_lower_bound(middle, low[k], high[k]));
       }
       for (int place = 0; place < 20; ++place)
-        found = std::min(found, surely_reached(somewhere(), low[k], high[k]));
+        found = std::min(found, projection_lower_bound(somewhere(), low[k], high[k]));
     }
-    find_least_reached(boxes);
-    const double told = static_cast<double>(boxes.least_reached[0]) / (boxes.scale * boxes.scale);
+    find_min_side_radii(boxes);
+    const double told = static_cast<double>(boxes.min_side_radius[0]) / (boxes.scale * boxes.scale);
     EXPECT_LE(told, found + 1e-5);
     EXPECT_NEAR(told, least, 1e-5);
   }

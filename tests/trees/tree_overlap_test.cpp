@@ -9,9 +9,9 @@
 
 #include "any_volumes.h"
 #include "clouds.h"
-#include "image.h"
 #include "pcl_bv/trees/collision.h"
 #include "scattered_volumes.h"
+#include "transformed_point.h"
 
 namespace pcl_bv {
 namespace {

@@ -25,7 +25,7 @@ TEST(VolumeTree, OfNoVolumesOrEmptyOnesFindsNothing) {
     tree.all_hit({0, 0, 0}, {1, 0, 0}, hits);
     EXPECT_TRUE(found.empty() && hits.empty());
     found = {1};
-    tree.all_touching(Aabb({-1, -1, -1}, {1, 1, 1}), found);
+    tree.all_with_box_overlapping(Aabb({-1, -1, -1}, {1, 1, 1}), found);
     EXPECT_TRUE(found.empty());
     found = {1};
     tree.all_overlapping(Sphere({0, 0, 0}, 1), found);

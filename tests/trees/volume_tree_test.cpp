@@ -11,9 +11,9 @@
 
 #include "clouds.h"
 #include "executions.h"
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "scattered_volumes.h"
 
 namespace pcl_bv {
@@ -86,7 +86,7 @@ void expect_meets(const VolumeTree& tree, const Volumes& volumes, const AnyVolum
   ASSERT_EQ(found, indices_where(volumes, [&](const AnyVolume& v) { return overlaps(v, volume); }))
       << shape_name(volume);
   const Aabb box = aabb(volume);
-  tree.all_touching(box, found);
+  tree.all_with_box_overlapping(box, found);
   ASSERT_EQ(found, indices_where(volumes, [&](const AnyVolume& v) { return aabb(v).overlaps(box); }));
 }
 

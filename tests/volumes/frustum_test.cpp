@@ -10,7 +10,7 @@
 #include <string>
 
 #include "pair_volumes.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {

@@ -252,6 +252,8 @@ TEST(KdopShape, SlabsThatDoNotMeetHaveNoCorners) {
   const Kdop kdop(KdopSet::dop14(), min, max);
   EXPECT_EQ(kdop.volume(), 0);
   EXPECT_TRUE(kdop.corners().empty());
+  EXPECT_TRUE(kdop.center().array().isNaN().all()) << kdop.center().transpose();
+  EXPECT_EQ(kdop.distance({0, 0, 0}), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(Motion, APointIsAtMostItsErrorFromItsExactImage) {
   for (int i = 0; i < 500; ++i) {
     const Eigen::Isometry3d transform = random.isometry(10);
     const Vector3d p = random.vector(3);
-    const MovedPoint moved = move_point(transform, p);
+    const TransformedPoint moved = transform_point(transform, p);
     ExactPoint difference = image(transform, exact(p));
     for (std::size_t k = 0; k < 3; ++k)
       difference[k] -= exact(moved.point)[k];
@@ -53,14 +53,14 @@ TEST(Motion, APointIsAtMostItsErrorFromItsExactImage) {
 }
 
 TEST(Motion, StretchIsThatOfAScaledRotation) {
-  EXPECT_EQ(stretch_up(Eigen::Matrix3d::Identity()), 1);
-  EXPECT_EQ(stretch_up(-4 * Eigen::Matrix3d::Identity()), 4);
-  EXPECT_EQ(stretch_up(Vector3d(2, -3, 0.5).asDiagonal().toDenseMatrix()), 3);
-  EXPECT_NEAR(stretch_up(Random(43).isometry(0).linear()), 1, 1e-15);
+  EXPECT_EQ(matrix_norm_up(Eigen::Matrix3d::Identity()), 1);
+  EXPECT_EQ(matrix_norm_up(-4 * Eigen::Matrix3d::Identity()), 4);
+  EXPECT_EQ(matrix_norm_up(Vector3d(2, -3, 0.5).asDiagonal().toDenseMatrix()), 3);
+  EXPECT_NEAR(matrix_norm_up(Random(43).isometry(0).linear()), 1, 1e-15);
   Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
   shear(0, 2) = -1;  // greatest singular value: the golden ratio
-  EXPECT_GE(stretch_up(shear), 1.618033988749894);
-  EXPECT_LT(stretch_up(shear), 1.8);
+  EXPECT_GE(matrix_norm_up(shear), 1.618033988749894);
+  EXPECT_LT(matrix_norm_up(shear), 1.8);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "gjk.h"
 #include "half_spaces.h"
-#include "pair_search.h"
 #include "pair_volumes.h"
 
 namespace pcl_bv {
@@ -23,13 +23,14 @@ using testing::Form;
 using testing::Random;
 using testing::Rational;
 using testing::Scale;
-using volumes_internal::Placed;
+using volumes_internal::PosedShape;
 
 constexpr unsigned kSeed = 5;
 
-// d . (p - origin) <= reach_up(d) + radius |d|.
-bool holds(const Placed& body, const Vector3d& d, const ExactPoint& p) {
-  const Rational beyond = dot(d, testing::minus(p, testing::exact(body.origin))) - Rational(body.reach_up(d));
+// d . (p - origin) <= support_value_up(d) + radius |d|.
+bool holds(const PosedShape& body, const Vector3d& d, const ExactPoint& p) {
+  const Rational beyond =
+      dot(d, testing::minus(p, testing::exact(body.origin))) - Rational(body.support_value_up(d));
   if (beyond <= 0) return true;
   const Rational radius(body.radius);
   return beyond * beyond <= radius * radius * dot(d, testing::exact(d));
@@ -46,7 +47,7 @@ Extreme extreme(Random& random, int kind, const Scale& scale, const Vector3d& d)
   form.axes += 3e-13 * Eigen::Matrix3d::Random();
   const Vector3d at = random.point(scale);
   const ConvexBody body(form.volume(at, scale.extent));
-  const Placed placed(body);
+  const PosedShape placed(body);
   const ExactPoint p = testing::exact(Vector3d(placed.origin + (placed.support(d) + placed.radius * d)));
   return {testing::just_reaching(form, at, p, 0.9 * scale.extent), p};
 }
@@ -72,12 +73,12 @@ void for_all_extremes(const Check& check) {
 TEST(PairBounds, ReachIsThatOfTheFarthestPointOrAbove) {
   for_all_extremes([](Random&, const Scale& scale, const Vector3d& d, const Extreme& e) {
     const ConvexBody body(e.volume);
-    const Placed placed(body);
+    const PosedShape placed(body);
     EXPECT_TRUE(holds(placed, d, e.point));
     const Rational reach = dot(d, testing::minus(e.point, testing::exact(placed.origin)));
     // The points themselves are off by the rounding of their coordinates.
     const double room = 2e-14 * scale.extent + 0x1p-50 * scale.offset;
-    EXPECT_LE(placed.reach_up(d) + placed.radius - static_cast<double>(reach), room);
+    EXPECT_LE(placed.support_value_up(d) + placed.radius - static_cast<double>(reach), room);
   });
 }
 
@@ -89,11 +90,11 @@ TEST(PairBounds, HoldForImagesUnderAnyMatrix) {
     // Along which the image is the farthest.
     const Vector3d turned = (first.linear().inverse().transpose() * d).normalized(),
                    again = (second.linear() * turned).normalized();
-    const ConvexBody moved = ConvexBody(e.volume).moved(first), both = moved.moved(second);
-    EXPECT_TRUE(holds(Placed(moved), turned, once));
-    EXPECT_TRUE(holds(Placed(both), again, twice));
-    EXPECT_GE(Placed(both).size * (1 + 1e-15),
-              Placed(both).support(again).norm());  // what distances by size rest on
+    const ConvexBody moved = ConvexBody(e.volume).transformed(first), both = moved.transformed(second);
+    EXPECT_TRUE(holds(PosedShape(moved), turned, once));
+    EXPECT_TRUE(holds(PosedShape(both), again, twice));
+    EXPECT_GE(PosedShape(both).size * (1 + 1e-15),
+              PosedShape(both).support(again).norm());  // what distances by size rest on
   });
 }
 
@@ -142,7 +143,7 @@ TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
       planes.push_back({i < 6 ? axis : (Vector3d::UnitZ() + random.vector(width)).normalized(), 1});
       half_spaces.add(planes.back().normal, planes.back().offset, Vector3d::Zero());
     }
-    ASSERT_TRUE(half_spaces.enclose(4));
+    ASSERT_TRUE(half_spaces.add_box(4));
     const std::vector<ExactPoint> corners = corners_of(planes);
     for (int round = 0; round < 50; ++round) {
       const Vector3d d = (Vector3d::UnitZ() + random.vector(width)).normalized();
@@ -152,7 +153,7 @@ TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
                             static_cast<double>(best[2]));
       const Rational expected = dot(d, best);
       for (const Vector3d& hint : {vertex, Vector3d(Vector3d::Zero())}) {  // a wrong one costs time only
-        const Rational reach(half_spaces.reach_up(d, hint));
+        const Rational reach(half_spaces.support_value_up(d, hint));
         EXPECT_GE(reach, expected);
         EXPECT_LE(static_cast<double>(reach - expected), hint == vertex ? 1e-14 : 1e-9) << width;
       }
@@ -169,11 +170,11 @@ TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
         const Vector3d n(signs & 1 ? 1 : -1, signs & 2 ? 1 : -1, signs & 4 ? 1 : -1);
         half_spaces.add(n.cwiseQuotient(half), 1, Vector3d::Zero());
       }
-      ASSERT_TRUE(half_spaces.enclose(guess * half.maxCoeff()));
+      ASSERT_TRUE(half_spaces.add_box(guess * half.maxCoeff()));
       EXPECT_GE(half_spaces.radius_up(), half.norm() * (1 - 1e-15));
       EXPECT_LE(half_spaces.radius_up(), half.norm() * (1 + 1e-9)) << half.transpose() << ", " << guess;
       for (int k = 0; k < 3; ++k) {
-        const double reach = half_spaces.reach_up(Vector3d::Unit(k), Vector3d::Zero());
+        const double reach = half_spaces.support_value_up(Vector3d::Unit(k), Vector3d::Zero());
         EXPECT_GE(reach, half[k]);
         EXPECT_LE(reach, half[k] + 1e-9 * half.maxCoeff()) << half.transpose() << ", " << guess;
       }
@@ -187,7 +188,7 @@ TEST(PairBounds, NoBoxIsFoundAroundHalfSpacesThatLeaveOneSideOpen) {
     for (int side = 0; side < 6; ++side) {
       if (side != open) half_spaces.add((side < 3 ? 1 : -1) * Vector3d::Unit(side % 3), 1, Vector3d::Zero());
     }
-    EXPECT_FALSE(half_spaces.enclose(4)) << open;
+    EXPECT_FALSE(half_spaces.add_box(4)) << open;
   }
 }
 

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "pair_volumes.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "flush_to_zero.h"
 #include "pair_volumes.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {
@@ -174,7 +174,7 @@ TEST(Pairs, EmptyOnesMeetNothing) {
       EXPECT_FALSE(within(ConvexBody(empty), ConvexBody(b), 1e300));
     }
     EXPECT_EQ(distance(ConvexBody(empty), Vector3d(1, 2, 3)), kInf);
-    EXPECT_TRUE(ConvexBody(empty).moved(Eigen::Isometry3d::Identity()).empty());
+    EXPECT_TRUE(ConvexBody(empty).transformed(Eigen::Isometry3d::Identity()).empty());
   });
   EXPECT_TRUE(ConvexBody().empty());
 }
@@ -237,7 +237,7 @@ TEST(ConvexBody, MovedHoldsTheImageOfEveryPoint) {
       const auto place = [](const ExactPoint& q) {
         return Vector3d(static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2]));
       };
-      const ConvexBody body(a), moved = body.moved(first), again = moved.moved(second);
+      const ConvexBody body(a), moved = body.transformed(first), again = moved.transformed(second);
       const Vector3d there = place(once) + first.linear() * away,
                      farther = place(twice) + second.linear() * first.linear() * away;
       const Form other(random, j);

@@ -12,7 +12,7 @@
 
 #include "pair_volumes.h"
 #include "pcl_bv/volumes/frustum.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The coordinates in which spheres are computed: near zero and about 1, whatever the cloud's are.
+// Local coordinates for numerical work: relative to a point of the cloud and scaled to an extent of about 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,51 +12,54 @@
 
 namespace pcl_bv {
 
-/// Half of the 2^-48 that the numeric rules allow a squared distance to be off by: it covers the root, too.
+/// Factor that makes the root of a squared_distance() an upper bound of the distance. The root is off by less
+/// than 4 2^-53 of itself; the margin 2^-49 is four times that (docs/numerics.md, Spheres).
 inline constexpr double kOutward = 1.0 + 0x1p-49;
 
 inline Eigen::Vector3d vector(const Coordinates& p) {
   return {p.x, p.y, p.z};
 }
 
-/// The greatest width along an axis, in the unit of the points; 0 if all are equal.
+/// Returns the largest extent along a coordinate axis, in the unit of the points; 0 if all points are equal.
 double widest_side(const Supports& supports);
 
-/// The power of two that brings a positive extent into [1, 2), as far as doubles have it (for 2^-1000 and
-/// below it is 2^1000); 1 for 0.
+/// Returns the power of two that scales a positive extent into [1, 2): at most 2^1000, for extents of 2^-1000
+/// and below. Returns 1 for 0.
 double unit_scale(double extent);
 
-/// Relative to one of the cloud's points, in units of a power of two near its extent.
+/// Local coordinates: relative to one of the cloud's points, in units of a power of two near the cloud's
+/// extent.
 class LocalFrame {
  public:
-  /// Of a cloud with at least one valid point.
+  /// The supports must have points and be of a cloud with at least one valid point.
   explicit LocalFrame(const Supports& supports);
 
-  /// As widest_side() says.
+  /// The widest_side() of the cloud.
   double extent() const { return extent_; }
 
   Eigen::Vector3d local(const Coordinates& p) const { return (vector(p) - origin_) * scale_; }
   Eigen::Vector3d global(const Eigen::Vector3d& local) const { return origin_ + local / scale_; }
 
-  /// Where a point is, seen from a place in the coordinates of the points, in local units: each coordinate is
-  /// rounded once, which changes it by at most 2^-53 of itself.
-  Eigen::Vector3d seen_from(const Eigen::Vector3d& center, const Coordinates& p) const {
+  /// Returns p relative to `center`, both in the coordinates of the points, in local units. Each coordinate
+  /// is rounded once, by at most 2^-53 of itself.
+  Eigen::Vector3d relative_to(const Eigen::Vector3d& center, const Coordinates& p) const {
     return (vector(p) - center) * scale_;
   }
 
-  /// A local length in the unit of the points, not greater, and not smaller.
+  /// Converts a local length to the unit of the points, rounded down and rounded up.
   double length_down(double local) const { return divide_down(local, scale_); }
   double length_up(double local) const { return divide_up(local, scale_); }
 
   /// Local units per unit of the points: a power of two.
   double scale() const { return scale_; }
 
-  /// For the kernels, and the measures that they give: in the unit of the points for float clouds.
+  /// Returns a centre for the distance kernels. With it they measure in the unit of the points for float
+  /// clouds, in local units for double clouds.
   DistanceCenter center(const Eigen::Vector3d& global) const {
     return {global.x(), global.y(), global.z(), kernel_scale_};
   }
 
-  /// A kernel's distance as a radius in the unit of the points, not smaller.
+  /// Converts a distance of the kernels to a radius in the unit of the points, rounded up.
   double radius(double distance) const { return divide_up(distance, kernel_scale_); }
 
  private:

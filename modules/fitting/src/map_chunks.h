@@ -1,33 +1,33 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in chunks over the cores: what every pass of a kernel is built on.
+// Parallel passes over the chunks of a cloud. Every pass of a kernel is built on this.
 #pragma once
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 
-/// merge(map(chunk)) for each chunk of the points: the maps in parallel, each under a FloatEnvironment, the
-/// merges in order, `most` chunks at a time, so that what they give takes little memory whatever the cloud's
-/// size. Clouds of one chunk, of which there are many in a sweep, need no allocation; for
-/// them the caller's FloatEnvironment counts.
-template <typename Partial, std::size_t most = 256, typename Map, typename Merge>
+/// Calls merge(map(chunk)) for each chunk of the points: map() in parallel, each call under a
+/// FloatEnvironment; merge() in the order of the chunks. At most `max_pending` results exist at a time, so
+/// memory is bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled
+/// without allocation and in the caller's FloatEnvironment.
+template <typename Partial, std::size_t max_pending = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);
   if (chunks <= 1) {
     if (chunks == 1) merge(map(load_chunk(points, 0).view()));
     return;
   }
-  std::vector<Partial> partials(std::min(chunks, most));
-  for (std::size_t first = 0; first < chunks; first += most) {
-    const std::size_t count = std::min(most, chunks - first);
+  std::vector<Partial> partials(std::min(chunks, max_pending));
+  for (std::size_t first = 0; first < chunks; first += max_pending) {
+    const std::size_t count = std::min(max_pending, chunks - first);
     for_each_chunk(policy, count, [&](std::size_t chunk) {
       const FloatEnvironment environment;
       partials[chunk] = map(load_chunk(points, first + chunk).view());

@@ -43,7 +43,7 @@ EstimationResult best(const PointView& points, const MethodOptions& options, Any
   return fit_smallest(points, best_candidates(), volume, execution, options);
 }
 
-// The least set with the directions of both.
+// Returns the smallest set that contains the directions of both.
 DirectionSet union_of(DirectionSet a, DirectionSet b) {
   if (a == b || b == DirectionSet::dop6) return a;
   return a == DirectionSet::dop6 ? b : DirectionSet::dop26;
@@ -90,17 +90,17 @@ const Method* find_method(std::string_view name) {
 Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Supports& supports) {
   const FloatEnvironment environment;
-  std::size_t askers = 0, hull_askers = 0;
+  std::size_t with_supports = 0, with_hull = 0;
   std::optional<DirectionSet> widest;
   for (const Method* method : among) {
-    hull_askers += method->on_hull ? 1 : 0;
-    if (!method->begins_with) continue;
-    ++askers;
-    widest = !widest ? *method->begins_with : union_of(*widest, *method->begins_with);
+    with_hull += method->needs_hull ? 1 : 0;
+    if (!method->initial_directions) continue;
+    ++with_supports;
+    widest = !widest ? *method->initial_directions : union_of(*widest, *method->initial_directions);
   }
-  const bool hull = hull_askers > 1;
+  const bool hull = with_hull > 1;
   Execution shared = execution;
-  if (!hull && (askers < 2 || *widest == DirectionSet::dop6)) return shared;
+  if (!hull && (with_supports < 2 || *widest == DirectionSet::dop6)) return shared;
   supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);
   if (hull && supports.used > 0)
     supports.hull = shared_hull(points, supports, LocalFrame(supports), execution);
@@ -132,12 +132,12 @@ EstimationResult fit_smallest(const PointView& points, const std::vector<const M
   const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
   for (const Method* method : among) {
     AnyVolume candidate;
-    const EstimationResult said = method->fit(points, candidate, shared, options);
+    const EstimationResult fitted = method->fit(points, candidate, shared, options);
     const bool better =
-        found == nullptr || (!failed(said) && (failed(result) || size(candidate) < size(volume)));
+        found == nullptr || (!failed(fitted) && (failed(result) || size(candidate) < size(volume)));
     if (!better) continue;
     volume = std::move(candidate);
-    result = said;
+    result = fitted;
     found = method;
   }
   if (winner != nullptr) *winner = result.used > 0 && !failed(result) ? found : nullptr;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Sums of the moments of blocks. The order of the additions depends on the block numbers alone.
 #pragma once
 
 #include <cstddef>
@@ -10,44 +11,48 @@
 
 namespace pcl_bv {
 
-/// In larger units: what vanishes is nothing beside the sums in these units. `exponent` is not above theirs.
+/// Converts the moments to larger units: to an `exponent` not above the present one. Values that underflow
+/// are negligible beside the sums in these units.
 void coarsen(int exponent, Moments& moments);
 
-/// About the origin of the first one, with the lesser exponent that leaves room for both.
+/// Returns the moments of the points of both, about the origin of `first`. The exponent is the smaller of the
+/// two, reduced further if products of the distance between the origins could overflow.
 Moments merged(const Moments& first, const Moments& second);
 
-/// Of 2^k blocks, the first of which is a multiple of 2^k.
+/// The moments of 2^k successive blocks; the number of the first block is a multiple of 2^k.
 struct MomentNode {
-  std::size_t first;
-  std::size_t blocks;
+  std::size_t first;   ///< Number of the first block.
+  std::size_t blocks;  ///< Number of blocks, 2^k.
   Moments moments;
 };
 
-/// Adds up the moments of blocks in pairs, of those pairs in pairs, and so on: which sums are formed depends
-/// on the blocks' numbers alone. So parts of a cloud that are summed apart give the bits of the whole.
+/// Adds the moments of blocks in pairs, then these sums in pairs, and so on. The block numbers alone decide
+/// which sums are formed. So parts of a cloud that are summed separately give the bits of the whole cloud.
 class MomentTree {
  public:
-  /// Of block number `block`, which comes after those that are here.
+  /// Appends the block with number `block`, which must be higher than the numbers of all blocks appended
+  /// before.
   void append(std::size_t block, const Moments& moments) { append(MomentNode{block, 1, moments}); }
 
-  /// Of blocks that come after those that are here.
+  /// Appends a node. The numbers of its blocks must be higher than those of all blocks appended before.
   void append(const MomentNode& next);
 
-  /// Of blocks that `tree` numbers from 0 on, here from `first` on: 0 or a power of two times its blocks.
+  /// Appends the nodes of `tree` with `first` added to their block numbers. `first` must be 0 or a multiple
+  /// of the number of blocks in each node, and all numbers must be higher than those appended before.
   void append(std::size_t first, const MomentTree& tree);
 
-  /// Of all blocks; a count of 0 if there is none.
+  /// Returns the moments of all blocks; a count of 0 if there is no block.
   Moments total() const;
 
-  /// Ascending. Which ones there are depends on the blocks alone.
+  /// The nodes, in ascending order of their blocks. Which nodes exist depends on the appended blocks alone.
   const MomentNode* begin() const { return nodes_.data(); }
   const MomentNode* end() const { return begin() + nodes_.size(); }
 
  private:
-  SmallVector<MomentNode, 6> nodes_;  // a chunk's 32 blocks are at most 5 nodes, and one that is being added
+  SmallVector<MomentNode, 6> nodes_;  // the 32 blocks of a chunk: at most 5 nodes, and one being appended
 };
 
-/// Of the blocks of a chunk, the first of which has this number.
+/// Returns the moments of the blocks of a chunk. Its first block gets the number `first_block`.
 MomentTree moments_of(UsableIsa isa, const PointView& chunk, std::size_t first_block);
 
 }  // namespace pcl_bv

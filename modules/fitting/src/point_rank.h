@@ -1,40 +1,44 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How many dimensions a cloud spans: one definition for all methods.
+// The rank of a cloud: the number of dimensions that it spans. All methods use this one definition.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 
-/// Thinner than this, in units of the extent rounded down to a power of two, is flat: what the rounding of
-/// doubles moves points by there is a 2^-16th of it.
+/// Points that are thinner than this are flat. The unit is the extent rounded down to a power of two. In this
+/// unit the rounding of doubles moves points by about 2^-52, which is 2^-16 of the limit.
 inline constexpr double kFlat = 0x1p-36;
 
-/// What points span, dimension after dimension: p0 is the first of them by (x, y, z), p1 the one farthest
-/// from p0, p2 from the line p0 p1, p3 from the plane p0 p1 p2; of equally far ones the first by (x, y, z).
+/// The dimensions that points span, found one after another. p0 is the first point in lexicographic order of
+/// (x, y, z). p1 is the point farthest from p0, p2 from the line p0 p1, p3 from the plane p0 p1 p2; of
+/// equally far points the first in lexicographic order.
 struct Span {
-  int rank = 0;  ///< Of these three distances, those before the first that is not above kFlat.
+  int rank = 0;  ///< Number of these three distances before the first that is not above kFlat.
 
-  /// Orthonormal; the first `rank` towards p1, p2 and p3, each across those before.
+  /// Orthonormal. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the columns
+  /// before.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
-  /// The three distances, in local units, or kFlat for those that are not above it.
-  Eigen::Vector3d reach = Eigen::Vector3d::Constant(kFlat);
+  /// The three distances in local units; kFlat for each distance that is not above it.
+  Eigen::Vector3d distances = Eigen::Vector3d::Constant(kFlat);
 };
 
-/// Of a cloud with at least one valid point; `scale` is that of its LocalFrame. The same for every execution
-/// and every order of the points. O(n), a pass for each distance and one for p0. Needs a FloatEnvironment.
+/// Computes the span of a cloud with at least one valid point; `scale` is LocalFrame::scale() of the cloud.
+/// The same for every execution and every order of the points. O(n): a pass for p0 and a pass for each
+/// distance. Needs a FloatEnvironment.
 Span span_of(const PointView& points, double scale, const Execution& execution);
 
-/// The rank of span_of(), 0 without a valid point. `supports` of the same points. Four points that span a
-/// solid decide, so for nearly all clouds the first four that are looked at do. Needs a FloatEnvironment.
-/// O(n) where a cloud is as thin as 2^-30 of its extent and not across a coordinate axis.
+/// Returns the rank of span_of(); 0 without a valid point. `supports` must be of the same points. Four points
+/// that clearly span a solid decide; for nearly all clouds, these are the first four points inspected. O(n)
+/// if a cloud is flat to 2^-30 of its extent, unless its plane is perpendicular to a coordinate axis. Needs a
+/// FloatEnvironment.
 int point_rank(const PointView& points, const Supports& supports, const Execution& execution);
 
 }  // namespace pcl_bv

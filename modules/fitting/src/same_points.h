@@ -1,28 +1,32 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The points of a source may change between the passes of a fit. What one pass found is held against the
-// next, before a list that cannot be empty is, or numbers leave the range that the first pass has set.
+// Checks for points of a source that changed between the passes of a fit. Each pass compares its points with
+// the results of the first pass. Otherwise changed points could leave a list empty that must not be, or
+// exceed the range that the first pass found.
 #pragma once
 
 #include <stdexcept>
 
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 
+/// Throws std::invalid_argument unless `same`.
 inline void require_same_points(bool same) {
   if (!same) throw std::invalid_argument("the points changed while they were fitted");
 }
 
-/// Whether a point is in the box of all points.
+/// Returns whether a point is in the bounding box of all points.
 inline bool within(const Supports& all, const Coordinates& p) {
   return p.x >= all.along[0].low && p.x <= all.along[0].high && p.y >= all.along[1].low &&
          p.y <= all.along[1].high && p.z >= all.along[2].low && p.z <= all.along[2].high;
 }
 
-/// Calls visit(index, p) for the valid points of a view of at most kChunkPoints.
+/// Calls visit(index, p) for the valid points of a view of at most kChunkPoints points. Throws
+/// std::invalid_argument if a point is outside the box of `all`, or if the number of valid points is not
+/// all.used.
 template <typename Visit>
 void for_each_valid(const PointView& points, const Supports& all, const Visit& visit) {
   const LoadedPoints loaded(points, 0, points.count);

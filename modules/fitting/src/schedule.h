@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// When threads pay: starting them costs microseconds, on an idle pool tens of them.
+// Decides how many threads pay off. Starting threads costs microseconds; on an idle pool tens of
+// microseconds.
 #pragma once
 
 #include <algorithm>
@@ -10,29 +11,30 @@
 
 namespace pcl_bv {
 
-/// The policy, or Serial if the work would take a single thread less than 200 us; at most one thread per 100
-/// us.
+/// Returns the policy with at most one thread per 100 us of work; Serial if the work takes one thread less
+/// than 200 us.
 inline ParallelPolicy worthwhile(const ParallelPolicy& policy, double serial_seconds) {
   if (serial_seconds < 200e-6) return Serial{};
   return limit_threads(policy, static_cast<unsigned>(std::min(serial_seconds / 100e-6, 1024.0)));
 }
 
-/// What is done for each point, plane or vertex.
+/// Kinds of work, for each point, plane or vertex.
 enum class Work {
   box,
   cube_support,
-  own_support,
+  custom_support,
   distance,
   half_spaces,
   outline,
   rank,
   verify,
   hull_plane,
-  look  ///< At a hull's vertex, for its silhouette and the calipers.
+  silhouette  ///< A hull's vertex in a silhouette and in the rotating calipers.
 };
 
-/// Nanoseconds of one thread for a point, of supports for each direction, of hulls for a plane or vertex.
-/// Only their order of magnitude matters. Measured on a Zen 5 with the points in the third-level cache.
+/// Returns the time that one thread needs, in nanoseconds: for each point; for supports for each point and
+/// direction; for hulls for each plane or vertex. Only the order of magnitude matters. Measured on a Zen 5
+/// with the points in the third-level cache.
 constexpr double nanoseconds(Work work, Isa isa) {
   struct Cost {
     double scalar, bits128, avx2, avx512;
@@ -42,7 +44,7 @@ constexpr double nanoseconds(Work work, Isa isa) {
                             {0.9, 0.17, 0.08, 0.05},
                             {1.2, 0.4, 0.25, 0.15},
                             {20, 3, 3, 3},
-                            {5, 5, 5, 5},  // between 1, all inside, and 50, none
+                            {5, 5, 5, 5},  // 1 if all points are inside, 50 if none is
                             {3, 3, 3, 3},
                             {50, 50, 50, 50},
                             {5e3, 5e3, 5e3, 5e3},
@@ -54,7 +56,7 @@ constexpr double nanoseconds(Work work, Isa isa) {
                               : cost.bits128;
 }
 
-/// The policy for a pass over so many points, or points times directions.
+/// Returns the policy for a pass over `count` items: points, or points times directions.
 inline ParallelPolicy worthwhile(const Execution& execution, Work work, std::size_t count) {
   return worthwhile(execution.parallel, 1e-9 * nanoseconds(work, execution.isa) * static_cast<double>(count));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A list without an allocation as long as it is short: fits of small clusters, of which there are thousands
-// in a sweep, must not ask the allocator for anything.
+// A vector that does not allocate while it is short. A sweep has thousands of small clusters, whose fits must
+// not allocate.
 #pragma once
 
 #include <boost/container/small_vector.hpp>

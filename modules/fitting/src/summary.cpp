@@ -10,9 +10,9 @@
 #include "map_chunks.h"
 #include "moment_tree.h"
 #include "pcl_bv/kernels/moments.h"
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/points/point_source.h"
 #include "point_rank.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
@@ -21,7 +21,7 @@
 namespace pcl_bv {
 namespace {
 
-// What a chunk gives; the supports are those of a search, or the box alone.
+// Results of one chunk. `Found` is the result of a search for supports, or only a box.
 template <typename Found>
 struct Part {
   Found supports;
@@ -32,13 +32,13 @@ void finish(Moments moments, CloudSummary& summary) {
   if (moments.count == 0) return;
   const double extent = widest_side(summary.supports);
   if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
-  summary.scale = std::ldexp(1.0, moments.exponent);
+  summary.covariance_scale = std::ldexp(1.0, moments.exponent);
   const double n = static_cast<double>(moments.count);
   const double from[3] = {moments.origin.x, moments.origin.y, moments.origin.z};
   double mean[3];
   for (int axis = 0; axis < 3; ++axis) {
     mean[axis] = moments.sum[axis] / n;
-    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale,
+    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.covariance_scale,
                                         summary.supports.along[axis].low, summary.supports.along[axis].high) +
                              0.0;
   }
@@ -51,7 +51,8 @@ void finish(Moments moments, CloudSummary& summary) {
   }
 }
 
-// One pass: search(chunk) and the moments of the chunk, merge(found) in order.
+// One pass: search(chunk) and the moments of each chunk in parallel, merge(found) in order. Returns the
+// moments of all points.
 template <typename Found, typename Search, typename Merge>
 Moments pass(const PointView& points, const Execution& execution, std::size_t count, const Search& search,
              const Merge& merge) {
@@ -70,7 +71,7 @@ Moments pass(const PointView& points, const Execution& execution, std::size_t co
   return moments.total();
 }
 
-// Of points whose moments are known, as their supports are.
+// Summary of points whose supports and moments are known already.
 CloudSummary known_summary(const Supports& supports) {
   CloudSummary summary;
   summary.supports = supports;
@@ -82,26 +83,26 @@ CloudSummary known_summary(const Supports& supports) {
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_supports(points, execution);
-  if (stand_for_all(execution)) return known_summary(*execution.supports);
+  require_matching_supports(points, execution);
+  if (represents_cloud(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
-  // Moments cost about as much again as the supports.
+  // Twice: the moments cost about as much as the supports.
   const Moments moments = pass<ChunkSupports>(
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
       [&](const ChunkSupports& found) { search.merge(found); });
-  summary.supports = of_search(search, set, points);
+  summary.supports = supports_of_search(search, set, points);
   summary.supports.rank = point_rank(points, summary.supports, execution);
   finish(moments, summary);
   return summary;
 }
 
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
-  require_own_supports(points, execution);
-  if (stand_for_all(execution)) return known_summary(*execution.supports);
+  require_matching_supports(points, execution);
+  if (represents_cloud(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
   if (execution.supports != nullptr) {
     struct Nothing {};
@@ -112,8 +113,8 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
     finish(moments, summary);
     return summary;
   }
-  summary.supports = no_bounds(points);
-  // Moments cost about as much as a 26-DOP, the box next to nothing.
+  summary.supports = empty_bounds(points);
+  // The moments cost about as much as a 26-DOP, the box next to nothing.
   const Moments moments = pass<AxisExtents>(
       points, execution, kMaxDirections * points.count,
       [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },

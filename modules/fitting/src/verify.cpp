@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact predicates: rationals decide, and a double computation with a rigorous bound spares them nearly all
-// points.
+// Exact predicates in rational arithmetic. A double computation with a rigorous error bound first accepts
+// nearly all points that are inside.
 
 #include "pcl_bv/fitting/verify.h"
 
@@ -12,11 +12,11 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -34,8 +34,9 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// How far p is outside, as a double: 0 only if it is inside by exact arithmetic.
-double positive(const Rational& excess, double scale) {
+// Converts an exact excess to a distance, excess / scale. The result is 0 only if the excess is not positive,
+// so only if the point is inside by exact arithmetic.
+double excess_distance(const Rational& excess, double scale) {
   if (excess <= 0) return 0.0;
   return std::max(static_cast<double>(excess) / scale, std::numeric_limits<double>::denorm_min());
 }
@@ -44,15 +45,15 @@ double violation(const Aabb& box, const Eigen::Vector3d& p) {
   if ((p.array() >= box.min().array()).all() && (p.array() <= box.max().array()).all()) return 0.0;
   double worst = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    worst = std::max(worst, positive(Rational(box.min()[axis]) - Rational(p[axis]), 1.0));
-    worst = std::max(worst, positive(Rational(p[axis]) - Rational(box.max()[axis]), 1.0));
+    worst = std::max(worst, excess_distance(Rational(box.min()[axis]) - Rational(p[axis]), 1.0));
+    worst = std::max(worst, excess_distance(Rational(p[axis]) - Rational(box.max()[axis]), 1.0));
   }
   return worst;
 }
 
-// What n . p in double may be off by, and more.
+// Upper bound of the rounding error of n . p in double.
 double dot_error(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
-  return 8 * kU * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
+  return 8 * kUnitRoundoff * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
 }
 
 double violation(const Kdop& kdop, const Eigen::Vector3d& p) {
@@ -62,8 +63,8 @@ double violation(const Kdop& kdop, const Eigen::Vector3d& p) {
     const double rounded = dot3(n, p), bound = dot_error(n, p);
     if (rounded - bound >= kdop.min(k) && rounded + bound <= kdop.max(k)) continue;
     const Rational along = dot3(exact(n), exact(p));
-    worst = std::max(worst, positive(Rational(kdop.min(k)) - along, n.norm()));
-    worst = std::max(worst, positive(along - Rational(kdop.max(k)), n.norm()));
+    worst = std::max(worst, excess_distance(Rational(kdop.min(k)) - along, n.norm()));
+    worst = std::max(worst, excess_distance(along - Rational(kdop.max(k)), n.norm()));
   }
   return worst;
 }
@@ -72,7 +73,7 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - sphere.center();
   const double squared = dot3(q, q);
   const double r = sphere.radius();
-  if (squared * (1 + 16 * kU) + kSmallestNormal <= r * r * (1 - 16 * kU)) return 0.0;
+  if (squared * (1 + 16 * kUnitRoundoff) + kSmallestNormal <= r * r * (1 - 16 * kUnitRoundoff)) return 0.0;
   Rational excess = -Rational(r) * Rational(r);
   for (int axis = 0; axis < 3; ++axis) {
     const Rational difference = Rational(p[axis]) - Rational(sphere.center()[axis]);
@@ -84,7 +85,7 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
 
 double violation(const Obb& box, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - box.center();
-  const double bound = 8 * kU * taxicab3(q) + kSmallestNormal;
+  const double bound = 8 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d a = box.axis(i);
@@ -94,7 +95,7 @@ double violation(const Obb& box, const Eigen::Vector3d& p) {
     for (int k = 0; k < 3; ++k)
       exact += Rational(a[k]) * (Rational(p[k]) - Rational(box.center()[k]));
     const Rational limit(box.half_extents()[i]);
-    worst = std::max(worst, positive((exact < 0 ? Rational(-exact) : exact) - limit, 1.0));
+    worst = std::max(worst, excess_distance((exact < 0 ? Rational(-exact) : exact) - limit, 1.0));
   }
   return worst;
 }
@@ -106,20 +107,20 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
     const double rounded = dot3(n, p), bound = dot_error(n, p);
     if (rounded + bound <= plane.offset) continue;
     const Rational along = dot3(exact(n), exact(p));
-    worst = std::max(worst, positive(along - Rational(plane.offset), n.norm()));
+    worst = std::max(worst, excess_distance(along - Rational(plane.offset), n.norm()));
   }
   return worst;
 }
 
-// With q = p - center, off by U of itself, and an axis of about length 1, q . axis and |q x axis| are off by
-// less than 32 U |q|_1 together with the axis' length.
+// With U = 2^-53: q = p - center is off by U of itself, and the axis has about length 1. The errors of
+// q . axis and of |q x axis|, including that of the axis' length, are below 32 U |q|_1.
 double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
   const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
-  const double doubt = 32 * kU * taxicab3(q) + kSmallestNormal;
+  const double error_bound = 32 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   const double r = cylinder.radius(), h = cylinder.half_height();
-  if (along + doubt <= h && across + doubt <= r) return 0.0;
+  if (along + error_bound <= h && across + error_bound <= r) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(cylinder.center())), a = exact(axis);
   const Rational squared_axis = dot3(a, a), projection = dot3(exact_q, a), squared = projection * projection;
   const bool too_far = squared > Rational(h) * Rational(h) * squared_axis;
@@ -136,7 +137,7 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
   const double length = e.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
   const double far = (q - std::clamp(q.dot(unit), 0.0, length) * unit).stableNorm();
-  if (far + 64 * kU * (taxicab3(q) + taxicab3(e)) + kSmallestNormal <= r) return 0.0;
+  if (far + 64 * kUnitRoundoff * (taxicab3(q) + taxicab3(e)) + kSmallestNormal <= r) return 0.0;
   const ExactVector a = exact(capsule.a()), edge = difference(exact(capsule.b()), a);
   const ExactVector from_a = difference(exact(p), a);
   const Rational squared_edge = dot3(edge, edge);
@@ -152,13 +153,13 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
 double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - ellipsoid.center();
   const Eigen::Vector3d& radii = ellipsoid.radii();
-  const double doubt = 16 * kU * taxicab3(q) + kSmallestNormal;
+  const double error_bound = 16 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + doubt) / radii[i];
+    const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + error_bound) / radii[i];
     sum += ratio * ratio;
   }
-  if (sum <= 1 - 16 * kU) return 0.0;
+  if (sum <= 1 - 16 * kUnitRoundoff) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(ellipsoid.center()));
   Rational exact_sum = 0;
   bool off_plane = false;
@@ -178,7 +179,7 @@ double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
 void merge(Verification& all, const Verification& part) {
   all.checked += part.checked;
   all.outside += part.outside;
-  all.worst = std::max(all.worst, part.worst);
+  all.max_violation = std::max(all.max_violation, part.max_violation);
 }
 
 template <typename Volume>
@@ -191,7 +192,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
     ++result.checked;
     const double out = volume.empty() ? kInfinity : violation(volume, Eigen::Vector3d(p.x, p.y, p.z));
     if (out > 0) ++result.outside;
-    result.worst = std::max(result.worst, out);
+    result.max_violation = std::max(result.max_violation, out);
   }
   return result;
 }
@@ -200,7 +201,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
 
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  constexpr std::size_t chunk_points = 4096;  // a chunk may be all rationals: a microsecond each
+  constexpr std::size_t chunk_points = 4096;  // few: a point that needs rationals takes a microsecond
   const auto check = [&](std::size_t chunk) {
     const std::size_t begin = chunk * chunk_points;
     const LoadedPoints part(points, begin, std::min(chunk_points, points.count - begin));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A temporary file beside the target, on the same file system, makes the final rename one step.
+// The temporary file is in the target's folder, so on the same file system: this makes the rename atomic.
 #include "pcl_bv/io/atomic_file.h"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ using Pieces = std::vector<std::string_view>;
 
 const char cannot_write[] = "cannot write: ";
 
-// Throws the reason that errno holds unless a call succeeded.
+// Throws IoError with the reason in errno if a call failed.
 void require(bool success) {
   if (!success) throw IoError(cannot_write + system_reason(errno));
 }
@@ -42,8 +42,8 @@ void write_all(const FileDescriptor& file, const Pieces& pieces) {
   }
 }
 
-// Some file systems cannot do that for folders, and say EINVAL.
-void wait_for_the_disk(const FileDescriptor& file) {
+// EINVAL is ignored: some file systems return it for the fsync of a folder.
+void sync_to_disk(const FileDescriptor& file) {
   int failed = 0;
   do
     failed = ::fsync(file.get());
@@ -51,22 +51,23 @@ void wait_for_the_disk(const FileDescriptor& file) {
   require(failed == 0 || errno == EINVAL);
 }
 
-// 64 random bits, and O_EXCL when it is opened: no two writers, on whatever machines, share a temporary file.
+// 64 random bits, and O_EXCL at opening, so that no two writers share a temporary file, even on different
+// machines.
 fs::path temporary_name() {
   std::random_device random;
   return ".pcl_bv-" + std::to_string(random()) + "-" + std::to_string(random()) + ".tmp";
 }
 
-// Temporary files there are; `ended` when there must be no more. Lives until the process ends, as threads
-// may.
+// The existing temporary files. `ended`: no further ones may be created. Never destroyed, since other threads
+// may run until the process ends.
 struct Temporaries {
   std::mutex mutex;
   std::vector<fs::path> paths;
   bool ended = false;
 
-  // To be called with the lock held.
+  // Requires that the caller holds the lock.
   void require_not_ended() const {
-    if (ended) throw IoError(std::string(cannot_write) + "the program is being ended");
+    if (ended) throw IoError(std::string(cannot_write) + "the program is terminating");
   }
 };
 
@@ -75,7 +76,7 @@ Temporaries& temporaries() {
   return *all;
 }
 
-// A name that is known while it lives, and means no file any more after it.
+// Registers the name of a temporary file, and removes file and registration at destruction.
 class TemporaryName {
  public:
   explicit TemporaryName(fs::path path) : path_(std::move(path)) {
@@ -118,8 +119,7 @@ void write_file_atomically(const fs::path& path, std::initializer_list<std::stri
 }
 
 void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
-  // A link stays a link; what it leads to is replaced. /dev/stdout leads to something that rename must not
-  // touch.
+  // A symbolic link stays, and its target is replaced; but rename must not replace the target of /dev/stdout.
   struct stat old;
   const bool exists = ::stat(link_or_file.c_str(), &old) == 0;
   const bool special =
@@ -134,22 +134,23 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   const fs::path path = exists && !unresolved ? resolved : link_or_file;
   if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
   const fs::path folder = path.parent_path();
-  // Opened first: what cannot be made to last must not take the place of the old file.
-  const FileDescriptor opened(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0, cannot_write);
+  // Open the folder first: if it cannot be synchronised, the old file must not be replaced.
+  const FileDescriptor folder_descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0,
+                                         cannot_write);
   const TemporaryName name(folder / temporary_name());
   FileDescriptor file = name.create();
   if (exists) require(::fchmod(file.get(), old.st_mode & 0777) == 0);
   write_all(file, pieces);
-  wait_for_the_disk(file);
+  sync_to_disk(file);
   require(file.close());
   name.rename_to(path);
-  wait_for_the_disk(opened);
+  sync_to_disk(folder_descriptor);
 }
 
-void make_folder_of(const fs::path& file) {
+void create_parent_folders(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
-  if (failure) throw IoError("cannot make its folder: " + system_reason(failure.value()));
+  if (failure) throw IoError("cannot create its folder: " + system_reason(failure.value()));
 }
 
 void remove_temporary_files() noexcept {

@@ -13,33 +13,33 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kLeastFields = 3, kMostFields = 32;
+constexpr std::size_t kMinFields = 3, kMaxFields = 32;
 
-// Floats that are looked at: some thousand points say enough, and take 0.1 ms.
-constexpr std::size_t kSample = 8192;
+// Number of floats that are checked: about 2000 points are enough and take 0.1 ms.
+constexpr std::size_t kSampledFloats = 8192;
 
-// Other numbers of floats that a file may be of.
-constexpr std::size_t kLikelyFields[] = {3, 4, 5, 6, 7, 8};
+// Alternative numbers of fields that are tried.
+constexpr std::size_t kAlternativeFields[] = {3, 4, 5, 6, 7, 8};
 
-std::size_t fields_of_name(const std::filesystem::path& path) {
+std::size_t default_field_count(const std::filesystem::path& path) {
   const bool nuscenes = lower_case_extension(path.stem()) == ".pcd";
   return nuscenes ? 5 : 4;
 }
 
 std::vector<float> sample_of(const InputFile& file) {
-  const std::size_t floats = std::min(kSample, file.size() / sizeof(float));
+  const std::size_t floats = std::min(kSampledFloats, file.size() / sizeof(float));
   std::vector<float> values(floats);
   file.read(0, values.data(), floats * sizeof(float));
   return values;
 }
 
-bool is_no_coordinate(float value) {
+bool is_implausible_coordinate(float value) {
   const float magnitude = std::abs(value);
   return !(magnitude <= 1e7F) || (magnitude < 1e-20F && magnitude != 0);
 }
 
-// How much values differ from those `distance` on: the median, which a few jumps do not move. Lost beams
-// (NaN) say nothing.
+// The median difference between values that are `distance` floats apart: robust against a small number of
+// jumps. Differences of NaN (lost beams) are ignored.
 float median_difference(const std::vector<float>& values, std::size_t distance) {
   std::vector<float> differences;
   for (std::size_t i = 0; i + distance < values.size(); ++i) {
@@ -52,12 +52,12 @@ float median_difference(const std::vector<float>& values, std::size_t distance) 
   return *middle;
 }
 
-// Another number of floats whose records follow one another clearly better, or 0. Of a multiple of the true
-// number that holds nearly as well, so it has to be a third, and the least such number counts.
-std::size_t better_fields(const std::vector<float>& values, std::size_t fields, std::size_t file_size) {
+// The smallest other number of fields with which successive records differ clearly less, or 0. Multiples of
+// the true number also give small differences: hence the factor of 3, and the smallest number.
+std::size_t better_field_count(const std::vector<float>& values, std::size_t fields, std::size_t file_size) {
   if (values.size() < 16 * fields) return 0;
   const float own = median_difference(values, fields);
-  for (const std::size_t other : kLikelyFields) {
+  for (const std::size_t other : kAlternativeFields) {
     const bool fits = other != fields && file_size % (other * sizeof(float)) == 0;
     if (fits && median_difference(values, other) < own / 3) return other;
   }
@@ -66,32 +66,34 @@ std::size_t better_fields(const std::vector<float>& values, std::size_t fields, 
 
 void require_plausible(const InputFile& file, std::size_t fields) {
   const std::vector<float> values = sample_of(file);
-  const auto bad = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_no_coordinate));
-  const std::string as = "as points of " + std::to_string(fields) + " floats ";
-  if (2 * bad > values.size()) throw IoError(as + "most values are no coordinates: not such a file");
-  const std::size_t other = better_fields(values, fields, file.size());
+  const auto bad =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_implausible_coordinate));
+  const std::string prefix = "with " + std::to_string(fields) + " floats per point, ";
+  if (2 * bad > values.size())
+    throw IoError(prefix + "most values are not plausible coordinates: probably not a .bin point cloud");
+  const std::size_t other = better_field_count(values, fields, file.size());
   if (other == 0) return;
-  throw IoError(as + "its points leap, as points of " + std::to_string(other) +
-                " they do not: try --bin-fields " + std::to_string(other));
+  throw IoError(prefix + "successive points jump; " + std::to_string(other) +
+                " floats per point fit better: try --bin-fields " + std::to_string(other));
 }
 
 }  // namespace
 
 PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& path, std::size_t fields) {
-  if (fields != 0 && (fields < kLeastFields || fields > kMostFields))
-    throw std::invalid_argument("read_bin: " + std::to_string(fields) + " fields, not 3 to 32");
+  if (fields != 0 && (fields < kMinFields || fields > kMaxFields))
+    throw std::invalid_argument("read_bin: " + std::to_string(fields) + " fields; must be 0 or 3 to 32");
   constexpr std::array names{"x", "y", "z", "intensity", "ring"};
   PcdHeader header;
   header.encoding = PcdEncoding::binary;
   RawCloud& cloud = header.cloud;
-  const std::size_t count = fields == 0 ? fields_of_name(path) : fields;
+  const std::size_t count = fields == 0 ? default_field_count(path) : fields;
   for (std::size_t i = 0; i < count; ++i, cloud.point_step += 4) {
     std::string name = i < names.size() ? names[i] : "field" + std::to_string(i + 1);
     cloud.fields.push_back({std::move(name), 'F', 4, 1, cloud.point_step});
   }
   if (file.size() % cloud.point_step != 0) {
-    throw IoError("truncated: " + std::to_string(file.size()) + " bytes are no multiple of the " +
-                  std::to_string(cloud.point_step) + " of a point");
+    throw IoError("truncated: " + std::to_string(file.size()) + " bytes are not a multiple of the " +
+                  std::to_string(cloud.point_step) + " bytes of a point");
   }
   cloud.width = file.size() / cloud.point_step;
   if (fields == 0) require_plausible(file, count);

@@ -7,17 +7,18 @@
 #include <bit>
 #include <cstring>
 
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {
 
-// Of every 4 KB the first line of the cache: another cloud differs there, too. That costs 1 % of the leanest
-// pass over a file that the system holds in memory; all bytes would cost half of it.
+// Only the first cache line of every 4 KiB is summed: another cloud differs there, too. This costs 1 % of the
+// cheapest pass over a file in the page cache; summing all bytes would cost half of the pass.
 constexpr std::size_t kStride = 4096;
 
-// Lanes, since each step waits for the one before. Each step is one to one: no single word is changed unseen.
+// Several lanes, since each step depends on the previous step of its lane. Each step is a bijection, so that
+// a change of a single word always changes the lane.
 std::uint16_t sum_of(const std::byte* from, std::size_t bytes) {
   constexpr std::size_t kLanes = 8;
   constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;

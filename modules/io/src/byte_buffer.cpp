@@ -8,23 +8,23 @@
 namespace pcl_bv::internal {
 namespace {
 
-constexpr std::size_t huge_page = std::size_t{2} << 20;
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-// Below, the unused end of a last huge page would be a great part of the whole.
-constexpr std::size_t least_huge = 2 * huge_page;
+// Minimum size for huge pages: in smaller blocks the unused rest of the last page would be too large a part.
+constexpr std::size_t kMinHugeBlock = 2 * kHugePage;
 
 }  // namespace
 
 void* allocate_buffer(std::size_t bytes) {
-  if (bytes < least_huge) return ::operator new(bytes);
-  void* memory = ::operator new (bytes, std::align_val_t{huge_page});
-  ::madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
+  if (bytes < kMinHugeBlock) return ::operator new(bytes);
+  void* memory = ::operator new (bytes, std::align_val_t{kHugePage});
+  ::madvise(memory, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
   return memory;
 }
 
 void free_buffer(void* memory, std::size_t bytes) noexcept {
-  if (bytes < least_huge) return ::operator delete(memory);
-  ::operator delete (memory, std::align_val_t{huge_page});
+  if (bytes < kMinHugeBlock) return ::operator delete(memory);
+  ::operator delete (memory, std::align_val_t{kHugePage});
 }
 
 }  // namespace pcl_bv::internal

@@ -12,8 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-// A size known at compile time turns each copy into one load and store; fields of 4 bytes are nearly all
-// there are.
+// A size known at compile time turns each copy into one load and one store. Nearly all fields have 4 bytes.
 template <std::size_t bytes>
 constexpr std::integral_constant<std::size_t, bytes> fixed;
 
@@ -28,7 +27,7 @@ bool is_coordinate(const PointField& field) {
   return field.count == 1 && (field.type != 'F' || field.size >= 4);
 }
 
-// Whether float32 holds every value of such a field.
+// Whether float32 represents every value of the field's type exactly.
 bool fits_float32(const PointField& field) {
   return field.type == 'F' ? field.size == 4 : field.size <= 2;
 }
@@ -38,7 +37,7 @@ std::array<const PointField*, 3> find_coordinates(const std::vector<PointField>&
   return {find_field(fields, names[0]), find_field(fields, names[1]), find_field(fields, names[2])};
 }
 
-// From 2^53 on not every integer is a double.
+// Above 2^53 doubles do not represent every integer.
 template <typename T>
 double exact_double(T value) {
   if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
@@ -47,7 +46,7 @@ double exact_double(T value) {
     if constexpr (std::is_signed_v<T>) beyond = beyond || value < -limit;
     if (beyond)
       throw IoError("the coordinate " + std::to_string(value) +
-                    " is no double: integers of 8 bytes may be at most 2^53");
+                    " is too large: integers may be at most 2^53 in magnitude");
   }
   return static_cast<double>(value);
 }
@@ -131,7 +130,7 @@ void add_note(RawCloud& cloud, const std::string& note) {
   cloud.note += (cloud.note.empty() ? "" : "; ") + note;
 }
 
-bool moves_points(const std::array<double, 7>& viewpoint) {
+bool is_not_identity(const std::array<double, 7>& viewpoint) {
   for (const std::size_t i : {0, 1, 2, 4, 5, 6}) {
     if (viewpoint[i] != 0) return true;
   }

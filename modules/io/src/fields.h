@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fields of records: what they mean, and copies between records and arrays.
+// Interprets the fields of records, and copies them between records and arrays.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace pcl_bv {
 
-/// Calls function with a value of the C++ type that the field's letter and size mean. Floating point of 1 and
-/// 2 bytes has no type: that is for the caller to refuse.
+/// Calls function with a value of the field's C++ type, as given by its type letter and size. The caller must
+/// refuse floating point of 1 or 2 bytes, which has no C++ type.
 template <typename Function>
 auto with_element_type(const PointField& field, const Function& function) {
   const bool is_signed = field.type == 'I';
@@ -35,8 +35,8 @@ auto with_element_type(const PointField& field, const Function& function) {
   }
 }
 
-/// Where the elements of a strided copy lie: the first one `offset` bytes after `base`, each `stride` bytes
-/// after the one before it. `base` may be null if there are none.
+/// One side of a strided copy: the first element is `offset` bytes after `base`, and each following one
+/// `stride` bytes after its predecessor. `base` may be null if there are no elements.
 template <typename Byte>
 struct Strided {
   Byte* base;
@@ -49,46 +49,48 @@ using StridedTarget = Strided<std::byte>;
 /// Copies `count` elements of `bytes` bytes each. The two must not overlap.
 void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::size_t count);
 
-/// The first field of this name, or null.
+/// Returns the first field of this name, or null.
 const PointField* find_field(const std::vector<PointField>& fields, std::string_view name);
 
-/// Whether it is x, y or z (or X, Y, Z) of these fields.
+/// Whether the name is x, y, z, X, Y or Z.
 bool is_coordinate_name(std::string_view name);
 
-/// Where x, y and z are in the record.
+/// Offsets and types of x, y and z in the record.
 struct CoordinateFields {
   std::array<std::size_t, 3> offset{};
   std::array<char, 3> type{};
   std::array<std::uint32_t, 3> size{};
-  /// What they are read as: float32 if that holds every value of their types, else float64.
+  /// Type of the coordinates in views: float32 if it represents all values of their types, else float64.
   ScalarType scalar = ScalarType::float32;
-  bool readable = false;  ///< All three exist, as one number each.
-  bool adjacent = false;  ///< They lie side by side in that order, as `scalar`, so that a PointView fits.
+  bool readable = false;  ///< All three exist, with one element each, of a supported type.
+  bool adjacent = false;  ///< They are adjacent in this order, of type `scalar`: no copy is needed.
 };
 
+/// Finds the coordinates of a record; `readable` is false if there are none.
 CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
 
-/// The coordinates of these records, where they lie; for fields that are adjacent.
+/// A view of the coordinates in these records, without a copy. Requires `fields.adjacent`.
 PointView view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                   std::size_t point_step);
 
-/// check_coordinates(), but a cloud without points gets x, y and z as float32 where it lacks them: filters
-/// that have nothing left write no fields.
+/// Calls check_coordinates(), except for a cloud without points and without readable coordinates: its fields
+/// become x, y and z as float32, since filters that remove all points write no fields.
 void require_coordinates(RawCloud& cloud);
 
-/// Adds a line to what is said of the cloud.
+/// Appends a warning to the cloud's note.
 void add_note(RawCloud& cloud, const std::string& note);
 
-/// Whether a viewpoint is a translation or a rotation. All zeros is treated as the identity.
-bool moves_points(const std::array<double, 7>& viewpoint);
+/// Whether the viewpoint (tx ty tz qw qx qy qz) has a translation or rotation. All zeros is treated as the
+/// identity.
+bool is_not_identity(const std::array<double, 7>& viewpoint);
 
-/// Copies the coordinates of these records to where packed_points() finds them; integers become floating
-/// point. Throws IoError for an integer above 2^53, which a double cannot hold exactly.
+/// Copies the coordinates of these records to `xyz` in the layout of packed_points(), converted to
+/// `fields.scalar`. Throws IoError for an integer above 2^53 in magnitude, which may have no exact double.
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz);
 
-/// Throws `Error` unless x, y and z (or X, Y, Z) exist, each once, in a form that is readable: IoError for
-/// readers, or std::invalid_argument.
+/// Throws `Error` (IoError or std::invalid_argument) unless x, y and z (or X, Y, Z) each exist exactly once,
+/// with one element of a supported type.
 template <typename Error = IoError>
 void check_coordinates(const std::vector<PointField>& fields);
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // ASPRS LAS Specification 1.4 R15, tables 3 (header), 7 to 17 (records) and 24 (extended records). All
-// numbers are little-endian. 1.0, 1.1 and 1.5 have what is read here at the same bytes.
+// numbers are little-endian. Versions 1.0, 1.1 and 1.5 have the fields that are read here at the same
+// offsets.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@
 
 #include "fields.h"
 #include "las_format.h"
-#include "rest_of_file.h"
+#include "trailing_points.h"
 
 namespace pcl_bv {
 namespace {
@@ -19,9 +20,9 @@ namespace {
 constexpr std::size_t kHeaderOf12 = 227, kHeaderOf14 = 375;
 constexpr int kNewestMinor = 5;
 
-// What a record holds, by point format.
+// Layout of a record, by point format.
 struct PointFormat {
-  std::size_t bytes;                                       // at least; files may add some
+  std::size_t bytes;                                       // minimum; files may have extra bytes
   std::size_t time, color;                                 // offsets, 0: none
   bool wide() const { return bytes >= 30 && time == 22; }  // formats 6 to 10
 };
@@ -29,7 +30,7 @@ constexpr PointFormat kFormats[] = {{20, 0, 0},   {28, 20, 0},  {26, 0, 20}, {34
                                     {57, 20, 0},  {63, 20, 28}, {30, 22, 0}, {36, 22, 30},
                                     {38, 22, 30}, {59, 22, 0},  {67, 22, 30}};
 
-// Numbers of some bits of a byte, named as laspy and PDAL do.
+// A number of a few bits within a byte, named as in laspy and PDAL.
 struct PackedField {
   const char* name;
   std::size_t byte;
@@ -104,21 +105,21 @@ const PointFormat& point_format(const HeaderBytes& bytes) {
   return kFormats[format];
 }
 
-// From 1.4 on the number of 64 bits decides. The old one says nothing of formats 6 to 10, and of the others
-// only where a writer left the new one 0.
+// From 1.4 on the 64-bit count decides. The legacy count is used only if a writer left the 64-bit count 0 and
+// the point format is 0 to 5: it is not valid for formats 6 to 10.
 std::size_t point_count(const HeaderBytes& bytes, int minor, const PointFormat& format, RawCloud& cloud) {
   const auto legacy = bytes.at<std::uint32_t>(107);
   if (minor < 4) return legacy;
   const auto count = bytes.at<std::uint64_t>(247);
   if (legacy == 0 || legacy == count) return count;
   const bool use_legacy = count == 0 && !format.wide();
-  add_note(cloud, "the header says " + std::to_string(legacy) + " points by its legacy count and " +
-                      std::to_string(count) + " by that of version 1.4; the " +
-                      (use_legacy ? "first" : "second") + " is taken");
+  add_note(cloud, "the header has a legacy count of " + std::to_string(legacy) +
+                      " points and a 64-bit count of " + std::to_string(count) + "; the " +
+                      (use_legacy ? "legacy" : "64-bit") + " count is used");
   return use_legacy ? legacy : count;
 }
 
-// Whether an extended variable length record begins there and fits in the file.
+// Whether an extended variable length record that begins at `at` fits in the file.
 bool is_extended_record(const InputFile& file, std::size_t at) {
   constexpr std::size_t header = 60, length = 20;
   if (at > file.size() || file.size() - at < header) return false;
@@ -127,7 +128,8 @@ bool is_extended_record(const InputFile& file, std::size_t at) {
   return bytes <= file.size() - at - header;
 }
 
-// Where the points end at the latest: where records behind them begin, which hold waveforms or anything else.
+// Upper limit for the end of the point data: the start of the extended records behind it (waveforms or other
+// data), or the end of the file.
 std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
   std::size_t end = file.size();
   const auto stop_at = [&](std::size_t at) {
@@ -141,7 +143,7 @@ std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, i
 void require_points(const InputFile& file, std::size_t end, LasHeader& header) {
   const std::size_t points = header.cloud.width, begin = header.data_offset;
   if (begin <= end && points <= (end - begin) / header.record)
-    return note_rest(file, {begin + points * header.record, end}, header.record, header.cloud);
+    return note_trailing_points(file, {begin + points * header.record, end}, header.record, header.cloud);
   const std::string what = std::to_string(points) + " points of " + std::to_string(header.record) +
                            " bytes from byte " + std::to_string(begin) + " on, ";
   if (end < file.size())
@@ -158,7 +160,7 @@ void read_scale(const HeaderBytes& bytes, LasHeader& header) {
   }
 }
 
-// One record of the file to one of ours.
+// Converts a record of the file to a record of the cloud.
 void convert(const std::byte* from, const LasHeader& header, std::byte* to) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::int32_t stored;
@@ -191,8 +193,9 @@ LasHeader read_las_header(const InputFile& file) {
   header.data_offset = bytes.at<std::uint32_t>(96);
   header.record = bytes.at<std::uint16_t>(105);
   if (header.record < format.bytes || header.data_offset < kHeaderOf12)
-    throw IoError("header: records of " + std::to_string(header.record) + " bytes from byte " +
-                  std::to_string(header.data_offset) + " on are too short or in the header");
+    throw IoError("header: record size " + std::to_string(header.record) +
+                  " is too small for the point format, or the point data offset " +
+                  std::to_string(header.data_offset) + " is inside the header");
   header.cloud.width = point_count(bytes, minor, format, header.cloud);
   require_points(file, end_of_point_data(file, bytes, minor, header.data_offset), header);
   read_scale(bytes, header);

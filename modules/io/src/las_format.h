@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The header and the fields of .las files, shared by the reader's parts.
 #pragma once
 
 #include <array>
@@ -13,17 +14,17 @@
 
 namespace pcl_bv {
 
-/// One field but x, y and z: where it is in the file's record and where in ours.
+/// One field other than x, y and z.
 struct LasColumn {
-  std::size_t from, to;
+  std::size_t from, to;  ///< Offset in the file's record and in the cloud's record.
   std::uint32_t size;    ///< Bytes: 1, 2 or 8.
-  unsigned shift, mask;  ///< Of those of 1 byte, which bits it is.
+  unsigned shift, mask;  ///< Bits of the field, if it has 1 byte.
 };
 
 struct LasHeader {
-  RawCloud cloud;  ///< All but its points.
+  RawCloud cloud;  ///< The cloud without its points.
   std::vector<LasColumn> columns;
-  std::size_t data_offset = 0;  ///< Of the first record.
+  std::size_t data_offset = 0;  ///< Byte offset of the first record in the file.
   std::size_t record = 0;       ///< Bytes of a record in the file.
   std::array<double, 3> scale{}, offset{};
 };

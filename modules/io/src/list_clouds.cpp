@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers in names are compared as text without leading zeros, so no count of digits overflows.
+// Numbers in names are compared as text without leading zeros, so that long numbers cannot overflow.
 #include "pcl_bv/io/list_clouds.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 namespace {
@@ -22,7 +22,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Takes the run of digits at the front of `text` away; returns it without leading zeros.
+// Removes the run of digits at the beginning of `text` and returns it without leading zeros.
 std::string_view take_number(std::string_view& text) {
   std::string_view number = text.substr(0, text.find_first_not_of("0123456789"));
   text.remove_prefix(number.size());
@@ -30,7 +30,7 @@ std::string_view take_number(std::string_view& text) {
   return number;
 }
 
-// Negative, zero or positive, like std::string_view::compare().
+// Returns a negative value, zero or a positive value, like std::string_view::compare().
 int compare_natural(std::string_view a, std::string_view b) {
   while (!a.empty() && !b.empty()) {
     if (is_digit(a.front()) && is_digit(b.front())) {
@@ -60,7 +60,7 @@ std::vector<fs::path> list_clouds(const fs::path& folder, std::size_t* subfolder
   std::error_code error;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    std::error_code ignored;  // what cannot be looked at is listed, so that reading it gives the reason
+    std::error_code ignored;  // an entry whose type is unknown is listed: reading it will give the reason
     if (entry->path().filename().native().front() == '.') continue;
     if (entry->is_directory(ignored)) {
       ++folders;

@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "fields.h"
+#include "invalid_values.h"
 #include "pcd_format.h"
 #include "text.h"
 #include "text_rows.h"
-#include "unread_values.h"
 
 namespace pcl_bv {
 namespace {
@@ -32,10 +32,11 @@ std::size_t values_per_point(const RawCloud& cloud) {
   return values;
 }
 
-// Reads a row at a time; fields of one type that follow each other are read as one.
+// Reads one row. Successive fields of the same type are read as one run.
 class PointRow {
  public:
-  PointRow(const RawCloud& cloud, UnreadValues& unread) : cloud_(cloud), unread_(unread) {
+  PointRow(const RawCloud& cloud, InvalidValues& invalid_values)
+      : cloud_(cloud), invalid_values_(invalid_values) {
     for (const PointField& field : cloud.fields) {
       if (runs_.empty() || !extend_run(runs_.back(), field)) runs_.push_back(field);
     }
@@ -44,7 +45,8 @@ class PointRow {
   void operator()(TextRows& rows, std::byte* to) const {
     std::size_t read = 0;
     for (const PointField& run : runs_) {
-      rows.read_all(run, to, [&](std::uint32_t found, std::byte* at) { pass_over(rows, read + found, at); });
+      rows.read_all(run, to,
+                    [&](std::uint32_t found, std::byte* at) { replace_value(rows, read + found, at); });
       read += run.count;
       to += run.bytes();
     }
@@ -54,8 +56,8 @@ class PointRow {
   }
 
  private:
-  // Where the value after `read` others is missing or none of its type.
-  void pass_over(TextRows& rows, std::size_t read, std::byte* at) const {
+  // Handles value number `read` of the row (from 0), which is missing or not a number of its field's type.
+  void replace_value(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +
                                             std::to_string(values_per_point(cloud_))};
@@ -63,7 +65,7 @@ class PointRow {
     std::size_t number = 0;
     for (; read >= cloud_.fields[number].count; ++number)
       read -= cloud_.fields[number].count;
-    if (unread_.pass_over(rows, number, at)) return;
+    if (invalid_values_.replace_value(rows, number, at)) return;
     const PointField& field = cloud_.fields[number];
     throw RowError{"row ", ", field " + in_quotes(field.name) + ": " + in_quotes(rows.value()) +
                                " is not a number of TYPE " + field.type + ", SIZE " +
@@ -71,7 +73,7 @@ class PointRow {
   }
 
   const RawCloud& cloud_;
-  UnreadValues& unread_;
+  InvalidValues& invalid_values_;
   std::vector<PointField> runs_;
 };
 
@@ -81,22 +83,22 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
   RawCloud& cloud = header.cloud;
   check_types(cloud);
   const std::size_t available = file.size() - header.data_offset;
-  // A value takes a digit and a separator, which only the last one of the file may lack.
+  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
   const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " + std::to_string(values) +
                   " values do not fit in the " + std::to_string(available) + " bytes after the header");
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
-  UnreadValues unread(cloud, "row", 1);
+  InvalidValues invalid_values(cloud, "row", 1);
   const RowsRead rows = read_text_rows({file, header.data_offset, false}, {1, cloud.size(), cloud.point_step},
-                                       PointRow(cloud, unread), cloud.data.data(), policy);
+                                       PointRow(cloud, invalid_values), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
                   std::to_string(cloud.size()));
   }
   if (rows.more) throw IoError("more rows than the " + std::to_string(cloud.size()) + " POINTS");
-  unread.report(cloud);
+  invalid_values.report(cloud);
 }
 
 std::string format_ascii_points(const RawCloud& cloud) {
@@ -109,7 +111,7 @@ std::string format_ascii_points(const RawCloud& cloud) {
         with_element_type(field, [&](auto value) {
           std::memcpy(&value, at, sizeof value);
           if (std::isnan(static_cast<double>(value))) {
-            text += "nan";  // whatever its sign and payload
+            text += "nan";  // without sign and payload
           } else {
             append_number(text, value);
           }

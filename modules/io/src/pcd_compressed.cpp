@@ -19,11 +19,12 @@ struct BlockSizes {
   std::uint32_t unpacked;
 };
 
-// Three bytes of LZF unpack to at most 264 (7 + 255 + 2): a small file cannot ask for much memory.
-constexpr std::uint64_t greatest_expansion = 88;
+// Three bytes of LZF unpack to at most 264 bytes (7 + 255 + 2), a factor of 88. The limit keeps a small file
+// from requesting much memory.
+constexpr std::uint64_t kMaxExpansion = 88;
 
-// What LZF takes at most for data that it cannot pack (1 byte more in 32) still has to fit in a uint32.
-constexpr std::size_t most_unpacked = 4'000'000'000;
+// The compressed size must fit in a uint32, also for incompressible data, which LZF expands by 1 byte in 32.
+constexpr std::size_t kMaxUnpackedBytes = 4'000'000'000;
 
 void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t needed) {
   if (sizes.packed > available) {
@@ -34,14 +35,14 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
     throw IoError("corrupt: compressed data of " + std::to_string(sizes.unpacked) +
                   " bytes, the points of the header need " + std::to_string(needed));
   }
-  if (sizes.unpacked > sizes.packed * greatest_expansion) {
+  if (sizes.unpacked > sizes.packed * kMaxExpansion) {
     throw IoError("corrupt: " + std::to_string(sizes.packed) + " bytes of compressed data cannot hold " +
                   std::to_string(sizes.unpacked));
   }
 }
 
-// A block that LZF does not shrink is stored as it is by some writers. One of the same size can be LZF, too
-// (it takes up to 1 byte in 32 more than it is given), so that is tried first.
+// Some writers store a block uncompressed if LZF does not shrink it. A block of equal packed and unpacked
+// size can also be LZF (which can expand data by 1 byte in 32), so LZF is tried first.
 void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
                                       static_cast<unsigned>(unpacked.size()));
@@ -50,10 +51,10 @@ void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   unpacked.swap(packed);
 }
 
-// The records of a block of points stay in the cache while field after field is written to them.
+// Size of a block of records that stays in the cache while its fields are written one after another.
 constexpr std::size_t block_bytes = 128 << 10;
 
-void gather_records(const ByteBuffer& columns, RawCloud& cloud) {
+void interleave_columns(const ByteBuffer& columns, RawCloud& cloud) {
   const std::size_t block = std::max<std::size_t>(block_bytes / cloud.point_step, 1);
   for (std::size_t first = 0; first < cloud.size(); first += block) {
     const std::size_t count = std::min(block, cloud.size() - first);
@@ -66,7 +67,7 @@ void gather_records(const ByteBuffer& columns, RawCloud& cloud) {
   }
 }
 
-// All values of the first field, then of the second one, ...; padding is left out.
+// Returns all values of the first field, then all values of the second field, and so on, without padding.
 ByteBuffer field_by_field(const RawCloud& cloud) {
   std::size_t step = 0;
   for (const PointField& field : cloud.fields)
@@ -100,15 +101,15 @@ void read_compressed_points(const InputFile& file, PcdHeader& header) {
     unpack(packed, columns);
   }
   cloud.data.resize(columns.size());
-  gather_records(columns, cloud);
+  interleave_columns(columns, cloud);
 }
 
 std::string compress_points(const RawCloud& cloud) {
   const ByteBuffer columns = field_by_field(cloud);
-  if (columns.size() > most_unpacked) {
+  if (columns.size() > kMaxUnpackedBytes) {
     throw IoError(std::to_string(columns.size()) +
                   " bytes of points are too many for binary_compressed, at most " +
-                  std::to_string(most_unpacked));
+                  std::to_string(kMaxUnpackedBytes));
   }
   BlockSizes sizes{0, static_cast<std::uint32_t>(columns.size())};
   std::string block(sizeof sizes + columns.size() + columns.size() / 16 + 64, '\0');

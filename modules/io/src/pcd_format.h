@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The header of .pcd and .bin files, and readers and writers of their points.
 #pragma once
 
 #include <array>
@@ -13,37 +14,37 @@
 
 namespace pcl_bv {
 
-/// By PcdEncoding.
+/// Names of the encodings in the line DATA, by PcdEncoding.
 inline constexpr std::array pcd_encoding_names{"ascii", "binary", "binary_compressed"};
 
-/// What the header says. The sizes are consistent and do not overflow, but may be greater than the file.
+/// The parsed header. The sizes are consistent and do not overflow, but may exceed the file.
 struct PcdHeader {
-  RawCloud cloud;  ///< All but its points.
+  RawCloud cloud;  ///< The cloud without its points.
   PcdEncoding encoding = PcdEncoding::ascii;
-  std::size_t data_offset = 0;  ///< Where the line DATA ended.
+  std::size_t data_offset = 0;  ///< Byte offset of the points: the end of the line DATA.
 };
 
 /// Throws IoError.
 PcdHeader read_pcd_header(const InputFile& file);
 
-/// The header that the points of a .bin would have in a binary .pcd; data_offset 0. As read_bin().
+/// Returns a header that describes a .bin file as a binary .pcd with data_offset 0. Throws as read_bin().
 PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& path, std::size_t fields);
 
-/// Throws IoError unless the file holds all records of a binary cloud; notes records behind them.
+/// Throws IoError unless the file has all records of a binary cloud; adds a note if more records follow.
 void require_records(const InputFile& file, PcdHeader& header);
 
-/// Each reads the points behind the header into header.cloud.data. Throws IoError.
+/// Both read the points behind the header into header.cloud.data. They throw IoError.
 void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelPolicy& policy);
 void read_compressed_points(const InputFile& file, PcdHeader& header);
 
-/// The rows of all points. Throws IoError for a field that has no form as text.
+/// Returns the text rows of all points. Throws IoError for floating-point fields of 1 or 2 bytes.
 std::string format_ascii_points(const RawCloud& cloud);
 
-/// The block of all points, without padding fields: two sizes, then the packed bytes. Throws IoError if there
-/// is too much to pack.
+/// Returns the compressed block of all points, without padding fields: two sizes, then the compressed bytes.
+/// Throws IoError if there are more than 4e9 bytes to compress.
 std::string compress_points(const RawCloud& cloud);
 
-/// Throws IoError, saying what it is, for a name of a known format that holds no clouds or none that is read.
+/// Throws IoError with advice if the path has the extension of another known format (mesh, recording, ...).
 void refuse_other_formats(const std::filesystem::path& path);
 
 }  // namespace pcl_bv

@@ -9,8 +9,8 @@
 
 #include "fields.h"
 #include "pcd_format.h"
-#include "rest_of_file.h"
 #include "text.h"
+#include "trailing_points.h"
 
 namespace pcl_bv {
 namespace {
@@ -20,7 +20,7 @@ using KeywordLines = std::map<std::string_view, Words>;  // keyword -> the words
 constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                          "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
-// Adds a line's words; returns its keyword, empty for a comment or an empty line.
+// Adds the words of a line. Returns its keyword, or an empty text for a comment or an empty line.
 std::string_view add_line(std::string_view line, KeywordLines& lines) {
   Words words = split(line);
   if (words.empty() || words[0][0] == '#') return {};
@@ -35,8 +35,8 @@ std::string_view add_line(std::string_view line, KeywordLines& lines) {
   return keyword;
 }
 
-// Some recorders write the line DATA again when they rewrite the header: then every number would be read from
-// the wrong place. Points that begin with one of these texts do not occur.
+// Some recorders write the line DATA twice when they rewrite the header. Then all points would be read from a
+// wrong offset. Real points never begin with such a line.
 bool begins_with_data_line(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   const Words words = split(line);
@@ -45,14 +45,15 @@ bool begins_with_data_line(std::string_view text) {
              pcd_encoding_names.end();
 }
 
-// False if there is no line DATA. `more`: the file goes on after `start`.
-bool gather_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
+// Collects the header lines up to the line DATA. Returns false if there is no such line in `start`. `more`:
+// the file is longer than `start`.
+bool collect_header_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
     const std::size_t end = std::min(newline, start.size());
     const std::string_view line = start.substr(at, end - at);
-    // A header that stops inside a line is cut off, whatever the piece of a word looks like.
+    // An incomplete last line is not interpreted, except a line DATA, or the only line, of the whole file.
     if (newline == std::string_view::npos && (more || (!lines.empty() && !line.starts_with("DATA"))))
       return false;
     const std::string_view keyword = add_line(line, lines);
@@ -125,9 +126,9 @@ void read_shape(const KeywordLines& lines, RawCloud& cloud) {
   if (!lines.count("WIDTH") && !lines.count("POINTS")) throw IoError("header: neither WIDTH nor POINTS");
   cloud.height = lines.count("HEIGHT") ? value("HEIGHT") : 1;
   cloud.width = lines.count("WIDTH") ? value("WIDTH") : value("POINTS");
-  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t max_size = std::numeric_limits<std::size_t>::max();
   const std::size_t step = std::max<std::size_t>(cloud.point_step, 1);
-  if (cloud.height != 0 && cloud.width > most / cloud.height / step) {
+  if (cloud.height != 0 && cloud.width > max_size / cloud.height / step) {
     throw IoError("header: " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
                   " points of " + std::to_string(cloud.point_step) + " bytes are more than a file can hold");
   }
@@ -142,7 +143,7 @@ void read_viewpoint(const KeywordLines& lines, RawCloud& cloud) {
   const Words& words = words_of(lines, "VIEWPOINT", 7);
   std::transform(words.begin(), words.end(), cloud.viewpoint.begin(),
                  [](std::string_view word) { return number<double>("VIEWPOINT", word, "a number"); });
-  if (moves_points(cloud.viewpoint))
+  if (is_not_identity(cloud.viewpoint))
     add_note(cloud, "VIEWPOINT is not the identity and is not applied: coordinates are taken as stored");
 }
 
@@ -168,7 +169,7 @@ PcdHeader read_pcd_header(const InputFile& file) {
   PcdHeader header;
   parse_header(file, "DATA line", [&](std::string_view start, bool more) {
     KeywordLines lines;
-    if (!gather_lines(start, more, lines, header.data_offset)) return false;
+    if (!collect_header_lines(start, more, lines, header.data_offset)) return false;
     check_version(lines);
     header.encoding = read_encoding(lines);
     read_fields(lines, header.cloud);
@@ -186,7 +187,7 @@ void require_records(const InputFile& file, PcdHeader& header) {
   const std::size_t needed = cloud.size() * cloud.point_step;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t end = header.data_offset + needed;
-  if (needed <= available) return note_rest(file, {end, file.size()}, cloud.point_step, cloud);
+  if (needed <= available) return note_trailing_points(file, {end, file.size()}, cloud.point_step, cloud);
   throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                 std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
                 " bytes, the file has " + std::to_string(available));

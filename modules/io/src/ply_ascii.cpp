@@ -6,17 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "invalid_values.h"
 #include "ply_format.h"
 #include "text_rows.h"
-#include "unread_values.h"
 
 namespace pcl_bv {
 namespace {
 
-// Reads a vertex at a time; properties of one type that follow each other are read as one.
+// Reads one vertex. Successive properties of the same type are read as one run.
 class VertexRow {
  public:
-  VertexRow(const PlyElement& vertex, UnreadValues& unread) : vertex_(vertex), unread_(unread) {
+  VertexRow(const PlyElement& vertex, InvalidValues& invalid_values)
+      : vertex_(vertex), invalid_values_(invalid_values) {
     for (const PlyProperty& property : vertex.properties) {
       const bool follows = !property.is_list && !steps_.empty() && !steps_.back().is_list;
       if (!follows || !extend_run(steps_.back().value, property.value)) steps_.push_back(property);
@@ -32,7 +33,7 @@ class VertexRow {
         continue;
       }
       rows.read_all(step.value, to, [&](std::uint32_t found, std::byte* at) {
-        if (!unread_.pass_over(rows, field + found, at)) refuse(rows, property[found].value);
+        if (!invalid_values_.replace_value(rows, field + found, at)) refuse(rows, property[found].value);
       });
       property += step.value.count;
       field += step.value.count;
@@ -43,7 +44,7 @@ class VertexRow {
 
  private:
   static void skip_list(TextRows& rows, const PlyProperty& list) {
-    std::uint64_t n = 0;  // little-endian, and not negative: a smaller element fills its low bytes
+    std::uint64_t n = 0;  // a count of a smaller unsigned type fills the low bytes (little-endian)
     PointField count = list.count;
     count.type = 'U';
     count.count = 1;
@@ -54,7 +55,7 @@ class VertexRow {
     }
   }
 
-  // The value that is missing here, or is none of this type.
+  // Throws for a value at the cursor that is missing or not of this type.
   [[noreturn]] static void refuse(TextRows& rows, const PointField& value) {
     if (!rows.find_value()) {
       throw RowError{"truncated: vertex ", " has no more values for property " + in_quotes(value.name)};
@@ -64,7 +65,7 @@ class VertexRow {
   }
 
   const PlyElement& vertex_;
-  UnreadValues& unread_;
+  InvalidValues& invalid_values_;
   std::vector<PlyProperty> steps_;
 };
 
@@ -82,19 +83,19 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   RawCloud& cloud = header.cloud;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t values = std::max<std::size_t>(header.vertex.properties.size(), 1);
-  // A value takes a digit and a separator, which only the last one of the file may lack.
+  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
                   " properties do not fit in the " + std::to_string(available) + " bytes after the header");
   }
-  // A carriage return alone ends rows too; where a line feed follows, the row between them is empty.
+  // A carriage return alone ends a row, too. If a line feed follows it, there is an empty row between them.
   TextBody body{file, header.data_offset, true};
   for (const PlyElement& element : header.skipped)
     skip(body, element);
   cloud.data.resize(cloud.size() * cloud.point_step);
-  UnreadValues unread(cloud, "vertex", 0);
+  InvalidValues invalid_values(cloud, "vertex", 0);
   const RowsRead rows = read_text_rows(body, {0, cloud.size(), cloud.point_step},
-                                       VertexRow(header.vertex, unread), cloud.data.data(), policy);
+                                       VertexRow(header.vertex, invalid_values), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: vertex " + std::to_string(rows.count) + " is missing, of " +
                   std::to_string(cloud.size()));
@@ -102,7 +103,7 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   if (header.vertices_are_last && rows.more) {
     throw IoError("more rows than the " + std::to_string(cloud.size()) + " vertices");
   }
-  unread.report(cloud);
+  invalid_values.report(cloud);
 }
 
 }  // namespace pcl_bv

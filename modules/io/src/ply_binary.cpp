@@ -9,19 +9,19 @@
 
 #include "fields.h"
 #include "ply_format.h"
-#include "rest_of_file.h"
+#include "trailing_points.h"
 
 namespace pcl_bv {
 namespace {
 
-/// The bytes of a file one after another, by way of a window.
+/// Reads the bytes of a file in sequence, small values through a buffer of 64 KiB.
 class ByteStream {
  public:
   ByteStream(const InputFile& file, std::size_t offset) : file_(file), at_(offset) {}
 
   std::size_t left() const { return file_.size() - at_; }
 
-  /// The caller makes sure that so many are left().
+  /// For the three functions below, `bytes` must be at most left().
   void skip(std::size_t bytes) { at_ += bytes; }
   void read_all(std::byte* to, std::size_t bytes) {
     file_.read(at_, to, bytes);
@@ -55,7 +55,7 @@ class ElementReader {
   std::size_t left() const { return stream_.left(); }
 
   void skip(const PlyElement& element) {
-    check_room(element);
+    require_available(element);
     if (!element.has_lists()) return stream_.skip(element.count * element.fixed_bytes());
     std::array<std::byte, 8> ignored;
     for (std::size_t i = 0; i < element.count; ++i) {
@@ -65,7 +65,7 @@ class ElementReader {
   }
 
   void read(const PlyElement& vertex, RawCloud& cloud) {
-    check_room(vertex);
+    require_available(vertex);
     cloud.data.resize(cloud.size() * cloud.point_step);
     if (!vertex.has_lists()) {
       stream_.read_all(cloud.data.data(), cloud.data.size());
@@ -82,7 +82,7 @@ class ElementReader {
   }
 
  private:
-  void check_room(const PlyElement& element) const {
+  void require_available(const PlyElement& element) const {
     const std::size_t bytes = element.fixed_bytes();
     if (bytes == 0 || element.count <= stream_.left() / bytes) return;
     throw IoError("truncated: " + std::to_string(element.count) + " of element " + in_quotes(element.name) +
@@ -90,7 +90,7 @@ class ElementReader {
                   std::to_string(stream_.left()));
   }
 
-  // Copies a value as it is, or moves over a list.
+  // Copies a value in the file's byte order, or skips a list.
   void take(const PlyElement& element, std::size_t i, const PlyProperty& property, std::byte* to) {
     const auto need = [&](std::uint64_t bytes) {
       if (bytes <= stream_.left()) return;
@@ -141,7 +141,8 @@ void read_ply_binary(const InputFile& file, PlyHeader& header) {
   reader.read(header.vertex, header.cloud);
   const bool has_rest = header.vertices_are_last && !header.vertex.has_lists();
   if (has_rest)
-    note_rest(file, {file.size() - reader.left(), file.size()}, header.cloud.point_step, header.cloud);
+    note_trailing_points(file, {file.size() - reader.left(), file.size()}, header.cloud.point_step,
+                         header.cloud);
 }
 
 }  // namespace pcl_bv

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The header of .ply files, and readers of their vertices.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +10,19 @@
 #include <string_view>
 #include <vector>
 
+#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
-#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 
-/// A property is one value, or a list: a count, itself a value, and that many values.
+/// A property is one value or a list. A list is a count, then this number of values.
 struct PlyProperty {
-  PointField value;  ///< Name, type and size; of the elements if it is a list.
+  PointField value;  ///< Name, type and size of the value, or of a list's values.
   PointField count;  ///< Type and size of a list's count.
   bool is_list = false;
-  std::size_t fixed_bytes() const { return is_list ? count.size : value.size; }  ///< At least, in binary.
+  /// Minimum size in a binary file.
+  std::size_t fixed_bytes() const { return is_list ? count.size : value.size; }
 };
 
 struct PlyElement {
@@ -29,29 +31,29 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   bool has_lists() const;
-  std::size_t fixed_bytes() const;  ///< Of one of them, without the elements of lists.
+  std::size_t fixed_bytes() const;  ///< Minimum size of one element in a binary file: without list values.
 };
 
 enum class PlyEncoding { ascii, little_endian, big_endian };
 
-/// What the header says of the data up to the vertices; the elements after them are left out. Nothing has
-/// been held against the size of the file.
+/// The parsed header, without the elements after the vertices. Sizes have not been checked against the size
+/// of the file.
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
-  std::vector<PlyElement> skipped;  ///< Before the vertices.
+  std::vector<PlyElement> skipped;  ///< Elements before the vertices.
   PlyElement vertex;
-  bool vertices_are_last = false;
-  RawCloud cloud;               ///< Fields and size: a field for each property that is no list.
-  std::size_t data_offset = 0;  ///< Where the line end_header ended.
+  bool vertices_are_last = false;  ///< No element follows the vertices.
+  RawCloud cloud;                  ///< Fields and size: a field for each property that is not a list.
+  std::size_t data_offset = 0;     ///< Byte offset of the data: the end of the line end_header.
 };
 
-/// The name of a property's type: "float".
+/// Returns the name of a property's type, such as "float".
 std::string_view ply_type_name(const PointField& value);
 
 /// Throws IoError.
 PlyHeader read_ply_header(const InputFile& file);
 
-/// Each reads the data of the vertices into header.cloud.data; lists are left out. Throws IoError.
+/// Both read the vertices into header.cloud.data, without lists. They throw IoError.
 void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy);
 void read_ply_binary(const InputFile& file, PlyHeader& header);
 

@@ -32,10 +32,10 @@ PointField field_of(std::string_view type, std::string_view name) {
 }
 
 [[noreturn]] void refuse(std::string_view line) {
-  throw IoError("header: " + in_quotes(line) + " is not understood");
+  throw IoError("header: invalid line " + in_quotes(line));
 }
 
-/// The lines of a header. They end as the first one does: in "\n", maybe after a "\r", or in "\r" alone.
+/// The lines of a header. All end like the first line: in "\n", in "\r\n", or in "\r" alone.
 class Lines {
  public:
   explicit Lines(std::string_view start) : start_(start) {
@@ -44,7 +44,7 @@ class Lines {
     if (end + 1 < start.size() && start[end + 1] != '\n') newline_ = '\r';
   }
 
-  /// False if no line ends in the rest of the text.
+  /// Returns the next line; false if no line ends in the rest of the text.
   bool next(std::string_view& line) {
     const std::size_t newline = start_.find(newline_, at_);
     if (newline == std::string_view::npos) return false;
@@ -96,8 +96,8 @@ struct Contents {
                         [](const PlyElement& element) { return element.name == "vertex"; });
   }
 
-  /// Whether the element that is being read follows the vertices, so that its data is not looked at.
-  bool is_behind_vertices() const { return elements.end() - vertex() > 1; }
+  /// Whether the last element read follows the vertices. Its properties do not matter.
+  bool last_follows_vertices() const { return elements.end() - vertex() > 1; }
 };
 
 void read_line(const Words& words, std::string_view line, Contents& contents) {
@@ -108,14 +108,14 @@ void read_line(const Words& words, std::string_view line, Contents& contents) {
     contents.elements.push_back(read_element(words, line));
   } else if (words[0] == "property") {
     if (contents.elements.empty()) throw IoError("header: a property before any element");
-    if (!contents.is_behind_vertices())
+    if (!contents.last_follows_vertices())
       contents.elements.back().properties.push_back(read_property(words, line));
   } else {
     refuse(line);
   }
 }
 
-// False if the header does not end there.
+// Parses the header. Returns false if it does not end in `start`.
 bool read_contents(std::string_view start, Contents& contents, std::size_t& data_offset) {
   Lines lines(start);
   std::string_view line;

@@ -38,7 +38,8 @@ FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags, uns
   if (fd_ < 0) throw IoError(context + system_reason(errno));
 }
 
-// O_NONBLOCK: a pipe without a writer must be refused, not waited for. Regular files ignore it.
+// O_NONBLOCK: opening a pipe without a writer must not block, so that it can be refused. It has no effect on
+// regular files.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
   opened_ = status_of(file_);
   if (S_ISDIR(opened_.st_mode)) throw IoError(system_reason(EISDIR));
@@ -61,10 +62,11 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
   require_unchanged();
 }
 
-// The status is of the open file, whatever its name has come to mean: one that takes this one's place changes
-// the number of links and with it st_ctim, but nothing that is read here. st_ctim also tells of writers that
-// put st_mtim back. What is written within a tick of the system's clock (4 ms) of the opening stays unnoticed
-// here, and so does what is written through a mapping made before; CloudFile has checksums for that.
+// fstat() describes the open file, whatever its name now refers to. If another file takes the name, the
+// number of links and st_ctim change, but not the content that is read here: hence `relinked`. Otherwise
+// st_ctim detects writers that restore st_mtim. Two changes stay undetected: writes within a tick of the
+// system's clock (4 ms) after the opening, and writes through an earlier mapping. CloudFile has checksums for
+// both.
 void InputFile::require_unchanged() const {
   const struct stat now = status_of(file_);
   if (now.st_size < opened_.st_size) throw IoError(kCut);

@@ -22,8 +22,8 @@ PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t p
     throw std::invalid_argument(
         "fields x, y and z are not all float32 or all float64, side by side in this order");
   if (point_step < 3 * size_of(xyz.scalar) || xyz.offset[0] > point_step - 3 * size_of(xyz.scalar))
-    throw std::invalid_argument("fields x, y and z reach beyond the point_step of " +
-                                std::to_string(point_step) + " bytes");
+    throw std::invalid_argument("fields x, y and z exceed the point_step of " + std::to_string(point_step) +
+                                " bytes");
   if (count > 0 && data == nullptr) throw std::invalid_argument("points without data");
   return count > 0 ? view_at(xyz, data, count, point_step) : PointView();
 }

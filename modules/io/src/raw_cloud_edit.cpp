@@ -26,17 +26,17 @@ void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t v
   }
 }
 
-// The fields with the new one in its place; those kept still have their old offsets.
+// Returns the fields including the new one, all others still with their old offsets.
 std::vector<PointField> fields_with(const RawCloud& cloud, std::string_view name) {
   const auto named = [&](const PointField& field) { return field.name == name; };
   const PointField added{std::string(name), 'U', 4, 1, 0};
   std::vector<PointField> fields = cloud.fields;
-  const auto place = std::find_if(fields.begin(), fields.end(), named);
-  if (place == fields.end()) {
+  const auto existing_field = std::find_if(fields.begin(), fields.end(), named);
+  if (existing_field == fields.end()) {
     fields.push_back(added);
   } else {
-    *place = added;
-    fields.erase(std::remove_if(place + 1, fields.end(), named), fields.end());
+    *existing_field = added;
+    fields.erase(std::remove_if(existing_field + 1, fields.end(), named), fields.end());
   }
   return fields;
 }
@@ -64,11 +64,11 @@ std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view na
     std::string names;
     for (const PointField& one : cloud.fields)
       names += (names.empty() ? "" : ", ") + one.name;
-    refuse("is not there: the fields are " + names);
+    throw std::runtime_error("there is no field '" + std::string(name) + "'; the fields are " + names);
   }
   if (field->type == 'F') refuse("is floating point, not an integer");
-  const std::vector<std::string>& unread = cloud.unread_fields;
-  if (std::find(unread.begin(), unread.end(), field->name) != unread.end())
+  const std::vector<std::string>& invalid = cloud.invalid_fields;
+  if (std::find(invalid.begin(), invalid.end(), field->name) != invalid.end())
     refuse("has values that are no integers: " + cloud.note);
   if (field->count != 1) refuse("has " + std::to_string(field->count) + " elements a point, not one");
   std::vector<std::int64_t> values(cloud.size());
@@ -84,7 +84,7 @@ std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view na
     is_signed ? copy_integers<std::int32_t>(cloud, at, values)
               : copy_integers<std::uint32_t>(cloud, at, values);
   } else {
-    if (!is_signed) refuse("is unsigned and of 8 bytes: at most 4");
+    if (!is_signed) refuse("is unsigned with 8 bytes; at most 4 are supported");
     copy_integers<std::int64_t>(cloud, at, values);
   }
   return values;

@@ -51,7 +51,7 @@ void read_points(const InputFile& file, PlyHeader& header, const ParallelPolicy&
   read_ply_binary(file, header);
 }
 
-// The cloud of a file whose header is read by `read_header`.
+// Reads a cloud; `read_header` reads its header.
 template <typename ReadHeader>
 RawCloud read_file(const std::filesystem::path& path, const ReadHeader& read_header,
                    const ParallelPolicy& policy) {
@@ -81,7 +81,7 @@ void refuse_other_formats(const std::filesystem::path& path) {
   };
   constexpr Kind kinds[] = {
       {" .obj .stl .off .gltf .glb .dae .3ds ",
-       "is a mesh, no cloud: sample points of it, as with pcl_mesh_sampling"},
+       "is a mesh, not a cloud: sample it, for example with pcl_mesh_sampling"},
       {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
       {" .bag .mcap .db3 .pcap .pcapng ",
        "is a recording, not a cloud: read it with open_recording() or RecordedClouds"},
@@ -89,7 +89,7 @@ void refuse_other_formats(const std::filesystem::path& path) {
   const std::string extension = " " + lower_case_extension(path) + " ";
   for (const auto& [extensions, what] : kinds) {
     if (extensions.find(extension) == std::string_view::npos) continue;
-    static_cast<void>(InputFile(path));  // no such file, or an empty one, is the better reason
+    static_cast<void>(InputFile(path));  // throws the more useful reason for a missing or empty file
     throw IoError(std::string(what));
   }
 }
@@ -137,8 +137,8 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin
   } else {
     refuse_other_formats(path);
     PcdHeader pcd = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
-    header.by_position = pcd.encoding == PcdEncoding::binary;
-    if (header.by_position) require_records(file, pcd);
+    header.random_access = pcd.encoding == PcdEncoding::binary;
+    if (header.random_access) require_records(file, pcd);
     header.cloud = std::move(pcd.cloud);
   }
   header.scalar = coordinate_fields(header.cloud.fields).scalar;

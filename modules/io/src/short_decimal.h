@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Decimal numbers as clouds have them, eight digits at a time: of a dozen digits at most, near to 1. Rounded
-// exactly like std::from_chars or left to it (Clinger 1990; the arithmetic of eight digits: Lemire 2021).
+// Fast path for the short decimal numbers of clouds: a dozen digits at most, of a magnitude near 1. Rounds
+// exactly as std::from_chars does, or leaves the number to it (Clinger 1990). Reads eight digits at a time
+// (Lemire 2021).
 #pragma once
 
 #include <array>
@@ -15,13 +16,14 @@
 
 namespace pcl_bv {
 
-/// Bytes after a text that read_short_decimal() may look at.
-inline constexpr std::size_t text_padding = 16;
+/// Number of bytes after the text that read_short_decimal() may read.
+inline constexpr std::size_t kTextPadding = 16;
 
-/// What separates values: blanks as C knows them, and the end of a line.
+/// Whether the character separates values within a line: white space of C except the line feed.
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
+/// Whether the character ends a value: a blank or a line feed.
 inline bool ends_value(char c) {
   return c == '\n' || is_blank(c);
 }
@@ -30,22 +32,23 @@ namespace internal {
 
 static_assert(std::endian::native == std::endian::little, "the first digit is the lowest byte");
 
-/// The digits at the front of eight characters.
+/// The digits at the beginning of eight characters.
 struct DigitRun {
-  unsigned length;      ///< 0 to 8.
-  std::uint64_t value;  ///< Of the number that they are.
+  unsigned length;      ///< Number of digits, 0 to 8.
+  std::uint64_t value;  ///< Their value as a decimal integer.
 };
 
 inline DigitRun read_digit_run(const char* at) {
   std::uint64_t text;
   std::memcpy(&text, at, sizeof text);
-  const std::uint64_t digits = text ^ 0x3030303030303030;  // 0 to 9 where there are digits
-  // The sum may carry out of a byte that is no digit, but only into later ones.
+  const std::uint64_t digits = text ^ 0x3030303030303030;  // bytes of digits become 0 to 9
+  // The highest bit marks a byte that is no digit. The addition can carry out of such a byte, but only into
+  // later bytes, which do not matter.
   const std::uint64_t others = (digits | (digits + 0x7676767676767676)) & 0x8080808080808080;
   const unsigned length = others == 0 ? 8U : static_cast<unsigned>(std::countr_zero(others)) / 8;
-  const unsigned half_shift = 32 - 4 * length;  // twice: a shift by 64 is not defined
+  const unsigned half_shift = 32 - 4 * length;  // applied twice, since a shift by 64 is undefined
   std::uint64_t value = digits << half_shift << half_shift;
-  value = value * 10 + (value >> 8);  // pairs of digits, in every other byte
+  value = value * 10 + (value >> 8);  // the values of pairs of digits, in every other byte
   constexpr std::uint64_t pairs = 0x000000FF000000FF;
   value = ((value & pairs) * (100 + (std::uint64_t{1000000} << 32)) +
            ((value >> 16) & pairs) * (1 + (std::uint64_t{10000} << 32))) >>
@@ -56,27 +59,28 @@ inline DigitRun read_digit_run(const char* at) {
 inline constexpr std::array<std::uint64_t, 9> integer_powers{1,      10,      100,      1000,     10000,
                                                              100000, 1000000, 10000000, 100000000};
 
-/// The powers of ten that are doubles.
-inline constexpr int greatest_power = 22;
-inline constexpr std::array<double, greatest_power + 1> double_powers{
+/// The largest power of ten that a double represents exactly is 10^22.
+inline constexpr int kMaxExactPower = 22;
+inline constexpr std::array<double, kMaxExactPower + 1> double_powers{
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// digits * 10^exponent; digits < 1e18.
+/// The number digits * 10^exponent; digits < 1e18.
 struct Decimal {
   std::int64_t digits;
   int exponent;
 
-  bool has_power() const { return exponent <= greatest_power && exponent >= -greatest_power; }
+  bool has_power() const { return exponent <= kMaxExactPower && exponent >= -kMaxExactPower; }
 
-  /// With one rounding of the digits and one of the product; only if has_power().
+  /// The value, rounded twice: the digits to a double, then the product or quotient. Requires has_power().
   double magnitude() const {
     const double factor = double_powers[static_cast<unsigned>(std::abs(exponent))];
     return exponent < 0 ? static_cast<double>(digits) / factor : static_cast<double>(digits) * factor;
   }
 };
 
-/// Rounds to nearest, or says that it cannot.
+/// Rounds to the nearest double. Returns false if this is not possible here. Exact (Clinger 1990): the digits
+/// and the power of ten are doubles, so that only the product or quotient is rounded.
 inline bool round_decimal(Decimal decimal, bool negative, double& value) {
   constexpr std::int64_t doubles_end = std::int64_t{1} << 53;
   if (decimal.digits > doubles_end || !decimal.has_power()) return false;
@@ -85,22 +89,23 @@ inline bool round_decimal(Decimal decimal, bool negative, double& value) {
   return true;
 }
 
-/// By way of a double that is off by two units in its last place at most. Where it is nearer than that to the
-/// middle between two floats, the text has to decide.
+/// Rounds to the nearest float through a double with an error of at most two units in its last place. Returns
+/// false if the double is so near to the midpoint of two floats that the error could change the result.
 inline bool round_decimal(Decimal decimal, bool negative, float& value) {
   if (!decimal.has_power()) return false;
   const double magnitude = decimal.magnitude();
   constexpr std::uint64_t middle = std::uint64_t{1} << 28, below_float = (middle << 1) - 1;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(magnitude);
   const bool near_middle = (bits & below_float) - (middle - 2) <= 4;
-  // No denormal: what is not 0 is at least 1e-22.
+  // The float is never denormal: a value other than 0 is at least 1e-22.
   if (near_middle || magnitude > static_cast<double>(std::numeric_limits<float>::max())) return false;
   const float rounded = static_cast<float>(magnitude);
   value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) | std::uint32_t{negative} << 31);
   return true;
 }
 
-/// Moves over "e-5"; false if it is none.
+/// Reads an exponent such as "e-5", adds it to `exponent` and moves `at` behind it. Returns false if there is
+/// none of 1 to 3 digits.
 inline bool read_exponent(const char*& at, int& exponent) {
   ++at;
   const bool negative = *at == '-';
@@ -114,9 +119,9 @@ inline bool read_exponent(const char*& at, int& exponent) {
 
 }  // namespace internal
 
-/// Reads a number that blanks or a line's end follow. Returns where it ends, or null, which says nothing: the
-/// number may be one that has to be read in another way. The text must be followed by text_padding bytes that
-/// begin with an end of line.
+/// Reads a number that is followed by a blank or a line end. Returns the position behind it, or null if this
+/// fast path cannot decide: the text may still be a valid number for std::from_chars. The text must be
+/// followed by kTextPadding bytes that begin with a line feed.
 template <typename T>
 inline const char* read_short_decimal(const char* at, T& value) {
   static_assert(std::is_floating_point_v<T>);
@@ -136,7 +141,7 @@ inline const char* read_short_decimal(const char* at, T& value) {
                        static_cast<std::int64_t>(run.value);
       decimal.exponent -= static_cast<int>(run.length);
       at += run.length;
-    } while (*at >= '0' && *at <= '9');  // not of the length: one of 8 ends the number as often as not
+    } while (*at >= '0' && *at <= '9');  // tests the character, since runs of 8 digits often end the number
     has_digits = at - first > 1;
   }
   if (!has_digits) return nullptr;

@@ -12,7 +12,8 @@
 namespace pcl_bv {
 namespace {
 
-// Greater exponents are taken for this one, so that no sum overflows: no text has 2^62 digits to balance it.
+// Larger exponents are clamped to this value so that sums cannot overflow. The clamping cannot change a
+// result: no text has 2^62 digits that would compensate the exponent.
 constexpr std::int64_t exponent_limit = std::int64_t{1} << 62;
 
 std::int64_t parse_exponent(std::string_view text) {
@@ -36,7 +37,7 @@ std::string in_quotes(std::string_view text) {
 
 void parse_header(const InputFile& file, const char* last_line,
                   const std::function<bool(std::string_view start, bool more)>& parse) {
-  for (std::size_t size = 1 << 16; size <= max_header_size; size *= 4) {
+  for (std::size_t size = 1 << 16; size <= kMaxHeaderBytes; size *= 4) {
     std::string start(std::min(file.size(), size), '\0');
     file.read(0, start.data(), start.size());
     const bool whole = start.size() == file.size();
@@ -45,7 +46,7 @@ void parse_header(const InputFile& file, const char* last_line,
       throw IoError(std::string("truncated header: no ") + last_line + " in the first " +
                     std::to_string(start.size()) + " bytes");
   }
-  throw IoError("header: longer than the " + std::to_string(max_header_size) + " bytes allowed, no " +
+  throw IoError("header: longer than the " + std::to_string(kMaxHeaderBytes) + " bytes allowed, no " +
                 last_line + " in them");
 }
 
@@ -64,8 +65,8 @@ bool is_word(std::string_view text) {
   return !text.empty() && std::none_of(text.begin(), text.end(), ends_value);
 }
 
-// std::from_chars says only "out of range" for 1e39 and for 1e-46 as float: the sign of the decimal exponent
-// tells which of the two it was, since everything between 1e-45 and 1e38 is in range.
+// std::from_chars reports "out of range" for a float both for 1e39 and for 1e-46. The sign of the decimal
+// exponent distinguishes overflow from underflow, since all values from 1e-45 to 1e38 are in range.
 double value_beyond_range(std::string_view number) {
   const bool negative = number.front() == '-';
   if (negative) number.remove_prefix(1);

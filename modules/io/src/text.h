@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Words and numbers of text, whatever the locale. With numbers, two things that std::from_chars leaves open:
-// "+1", and what is beyond the range of the type.
+// Parses and formats words and numbers, independent of the locale. Unlike std::from_chars, accepts "+1" and
+// gives values outside the range of a floating-point type (infinity or zero).
 #pragma once
 
 #include <charconv>
@@ -16,30 +16,32 @@
 
 namespace pcl_bv {
 
-/// A header must end within this many bytes. Those of most files have 200 to 400, but some exporters keep a
-/// scan's metadata in comments of 100 kB.
-inline constexpr std::size_t max_header_size = 1 << 20;
+/// Maximum size of a header in bytes. Most headers have 200 to 400 bytes, but some exporters store the scan's
+/// metadata in comments of 100 kB.
+inline constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 
-/// Calls parse(start, more) with the beginning of the file, 64 KiB at first, as long as it returns false (the
-/// header does not end there) and there are more bytes to give it. `more`: whether it is not the whole file.
-/// Throws IoError for a header without its `last_line`.
+/// Calls parse(start, more) with the beginning of the file: 64 KiB, then more each time, until it returns
+/// true. `parse` returns false if the header does not end in `start`. `more`: the file is longer than
+/// `start`. Throws IoError, naming `last_line`, if the header does not end in the file or in kMaxHeaderBytes
+/// bytes.
 void parse_header(const InputFile& file, const char* last_line,
                   const std::function<bool(std::string_view start, bool more)>& parse);
 
 using Words = std::vector<std::string_view>;
 
-/// The words of a line, between blanks.
+/// Returns the words of a line, which are separated by blanks.
 Words split(std::string_view line);
 
-/// Whether the text has no blanks or line ends and is not empty, so that it can be the name of a field.
+/// Whether the text can be a field's name: not empty, without blanks and line ends.
 bool is_word(std::string_view text);
 
-/// The value of a well-formed decimal number that std::from_chars found out of range: an infinity or a zero,
-/// signed.
+/// Returns the value of a well-formed decimal number that std::from_chars reported as out of range: an
+/// infinity or a zero with the number's sign.
 double value_beyond_range(std::string_view number);
 
-/// Reads the number at the front of [at, end). Floating point is rounded to nearest; "nan" and "inf" are
-/// numbers; integers must be in range. Returns where it ends, or null if there is no number of this type.
+/// Reads the number at the beginning of [at, end). Floating point is rounded to nearest; "nan" and "inf" are
+/// numbers; integers must be in range. Returns the position behind the number, or null if there is none of
+/// this type.
 template <typename T>
 const char* parse_number(const char* at, const char* end, T& value) {
   if (end - at > 1 && at[0] == '+' && at[1] != '-') ++at;

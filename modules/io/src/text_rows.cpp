@@ -19,7 +19,8 @@
 namespace pcl_bv {
 namespace {
 
-// "nan" as PCL writes it, of which organised clouds have many; std::from_chars reads all other forms.
+// Fast path for "nan" as PCL writes it, which is frequent in organised clouds; std::from_chars reads all
+// other forms.
 template <typename T>
 const char* read_nan(const char* at, T& value) {
   if (std::memcmp(at, "nan", 3) != 0 || !ends_value(at[3])) return nullptr;
@@ -27,13 +28,13 @@ const char* read_nan(const char* at, T& value) {
   return at + 3;
 }
 
-// An integer that is written with a point or an exponent.
+// Reads an integer that is written with a decimal point or an exponent.
 template <typename T>
 const char* read_whole_number(const char* at, const char* end, T& value) {
-  constexpr double greatest = 9007199254740992;  // beyond 2^53 a double says nothing of the integer
+  constexpr double largest = 9007199254740992;  // above 2^53 doubles do not represent every integer
   double number = 0;
   const char* const after = parse_number(at, end, number);
-  if (after == nullptr || !ends_value(*after) || !(std::abs(number) <= greatest) ||
+  if (after == nullptr || !ends_value(*after) || !(std::abs(number) <= largest) ||
       number != std::trunc(number))
     return nullptr;
   const auto whole = static_cast<std::int64_t>(number);
@@ -54,8 +55,8 @@ const char* read_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-// What a piece is read beyond its end at first, since its last line ends there: a part of this of its size.
-constexpr std::size_t overhang_part = 512;
+// A piece is first read with 1/512 of its size beyond its end, where its last line usually ends.
+constexpr std::size_t kOverhangFraction = 512;
 
 // Offset behind the first line end at or after `from`, or npos.
 std::size_t behind_line_end(std::string_view text, std::size_t from) {
@@ -63,8 +64,8 @@ std::size_t behind_line_end(std::string_view text, std::size_t from) {
   return newline == std::string_view::npos ? newline : newline + 1;
 }
 
-// A text cut at line ends into pieces that fit a core's cache, each of which can be fetched by itself. A line
-// belongs to the piece in which it begins, wherever it ends.
+// Splits a text at line ends into pieces that fit in a core's cache. Each piece can be read independently. A
+// line belongs to the piece in which it begins.
 class TextPieces {
  public:
   explicit TextPieces(const TextBody& body)
@@ -72,15 +73,15 @@ class TextPieces {
 
   std::size_t count() const { return count_; }
 
-  // The lines of a piece, in a buffer that can be used again, with the padding that TextRows needs. Empty if
-  // none begins there. Throws IoError.
+  // Reads the lines of a piece into a reusable buffer, with the padding that TextRows needs. Returns an empty
+  // text if no line begins in the piece. Throws IoError.
   std::string_view fetch(std::size_t piece, ByteBuffer& buffer) const {
-    // The byte before the piece tells whether a line begins with it.
+    // Also read the byte before the piece: if it is a line end, a line begins at the first byte of the piece.
     const std::size_t before = piece > 0 ? 1 : 0;
     const std::size_t begin = piece_begin(piece) - before;
-    const std::size_t inside = piece_begin(piece + 1) - begin;  // the last byte may end the last line
+    const std::size_t inside = piece_begin(piece + 1) - begin;  // bytes up to the next piece
     std::size_t have = 0, first = 0, last = std::string_view::npos;
-    for (std::size_t overhang = body_.piece_bytes / overhang_part + 1;; overhang *= 2) {
+    for (std::size_t overhang = body_.piece_bytes / kOverhangFraction + 1;; overhang *= 2) {
       const std::size_t want = std::min(inside + overhang, body_.file.size() - begin);
       fill(buffer, begin + have, want - have, have);
       const std::string_view text(reinterpret_cast<const char*>(buffer.data()), want);
@@ -93,7 +94,7 @@ class TextPieces {
     last = std::min(last, have);
     first = std::min(first, last);
     char* text = reinterpret_cast<char*>(buffer.data());
-    std::memset(text + last, '\n', text_padding);
+    std::memset(text + last, '\n', kTextPadding);
     return {text + first, last - first};
   }
 
@@ -102,12 +103,12 @@ class TextPieces {
     return std::min(body_.begin + piece * body_.piece_bytes, body_.file.size());
   }
 
-  // Appends `bytes` bytes of the file, from `from` on, to the `have` bytes that the buffer has.
+  // Reads `bytes` bytes of the file from offset `from` into the buffer, behind its first `have` bytes.
   void fill(ByteBuffer& buffer, std::size_t from, std::size_t bytes, std::size_t have) const {
-    if (buffer.size() < have + bytes + text_padding) buffer.resize(have + bytes + text_padding);
+    if (buffer.size() < have + bytes + kTextPadding) buffer.resize(have + bytes + kTextPadding);
     body_.file.read(from, buffer.data() + have, bytes);
     char* text = reinterpret_cast<char*>(buffer.data());
-    if (body_.returns_end_rows) std::replace(text + have, text + have + bytes, '\r', '\n');
+    if (body_.cr_ends_row) std::replace(text + have, text + have + bytes, '\r', '\n');
   }
 
   TextBody body_;
@@ -124,7 +125,8 @@ std::size_t count_rows_one_by_one(std::string_view text) {
   return rows;
 }
 
-// Lines that begin with a value are rows, empty ones are none. Bytes are summed in bytes, many at once.
+// Counts the rows fast: the lines that begin with a value. If a line begins with a blank, counts byte by byte
+// instead. Counters of 8 bits, enough for a block of 240 bytes, let the compiler vectorise the loop.
 std::size_t count_rows(std::string_view text) {
   constexpr std::size_t block = 240;
   std::size_t rows = !text.empty() && !ends_value(text[0]), others = !text.empty() && is_blank(text[0]);
@@ -147,9 +149,10 @@ std::size_t count_rows(std::string_view text) {
   return others == 0 ? rows : count_rows_one_by_one(text);
 }
 
-// Which rows a piece of text holds is known only when those before it have been counted. Several threads
-// count first, at a tenth of the cost of reading numbers, and then read every piece to its place: none ever
-// waits for another, as it would if pieces were handed over in order.
+// The numbers of the rows in a piece are known only when the rows of all pieces before it have been counted.
+// So several threads first count the rows of every piece, at a tenth of the cost of parsing, and then parse
+// every piece directly into its records. No thread waits for another, as it would if pieces were handed over
+// in order.
 class RowReader {
  public:
   RowReader(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row, std::byte* records)
@@ -164,7 +167,7 @@ class RowReader {
   }
 
   RowsRead run_parallel(const ParallelPolicy& policy) const {
-    std::vector<std::size_t> end(pieces_.count());  // rows up to the end of a piece
+    std::vector<std::size_t> end(pieces_.count());  // number of rows up to the end of each piece
     over_pieces(policy, [&](std::size_t piece, ByteBuffer& text) {
       end[piece] = count_rows(pieces_.fetch(piece, text));
     });
@@ -180,19 +183,20 @@ class RowReader {
   }
 
  private:
-  // Neighbours share a buffer. The error of the lowest group is that of its first bad row.
+  // Four successive pieces share a buffer. for_each_range throws the error of the first group that failed,
+  // which is the error of the first bad row.
   template <typename Body>
   void over_pieces(const ParallelPolicy& policy, const Body& body) const {
     constexpr std::size_t group = 4;
-    for_each_run(policy, pieces_.count(), group, [&](std::size_t begin, std::size_t end) {
+    for_each_range(policy, pieces_.count(), group, [&](std::size_t begin, std::size_t end) {
       ByteBuffer text;
       for (std::size_t piece = begin; piece < end; ++piece)
         body(piece, text);
     });
   }
 
-  // Reads the rows of a piece as number `row` to `stop` - 1, and returns the number behind the last one; one
-  // more if the piece has more.
+  // Reads the rows of a piece as rows `row` to `stop` - 1. Returns the number after its last row, or stop + 1
+  // if the piece has further rows.
   std::size_t read_piece(std::size_t piece, std::size_t row, std::size_t stop, ByteBuffer& buffer) const {
     TextRows text(pieces_.fetch(piece, buffer));
     try {
@@ -247,7 +251,7 @@ bool extend_run(PointField& run, const PointField& next) {
 
 RowsRead read_text_rows(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row,
                         std::byte* records, const ParallelPolicy& policy) {
-  if (wanted.count == 0) {  // whatever a record would take
+  if (wanted.count == 0) {  // only check whether there are rows
     TextBody rest = body;
     return {0, skip_text_rows(rest, 1) > 0};
   }
@@ -265,7 +269,7 @@ std::size_t skip_text_rows(TextBody& body, std::size_t count) {
     body.file.read(body.begin, window.data(), bytes);
     std::size_t at = 0;
     for (; at < bytes && skipped < count; ++at) {
-      const bool ends = window[at] == '\n' || (body.returns_end_rows && window[at] == '\r');
+      const bool ends = window[at] == '\n' || (body.cr_ends_row && window[at] == '\r');
       skipped += ends && in_row;
       in_row = !ends && (in_row || !is_blank(window[at]));
     }

@@ -35,7 +35,7 @@ void check_cloud(const RawCloud& cloud) {
       std::to_string(cloud.data.size()) + " bytes of data, must be " + std::to_string(cloud.size() * offset));
 }
 
-// binary_compressed files have no padding fields.
+// Leaves out padding fields in binary_compressed files.
 std::string format_header(const RawCloud& cloud, PcdEncoding encoding) {
   std::string names, sizes, types, counts, viewpoint;
   for (const PointField& field : cloud.fields) {
@@ -59,8 +59,8 @@ std::string format_header(const RawCloud& cloud, PcdEncoding encoding) {
 void write_pcd(const std::filesystem::path& path, const RawCloud& cloud, PcdEncoding encoding) {
   check_cloud(cloud);
   const std::string header = format_header(cloud, encoding);
-  require(header.size() <= max_header_size,
-          "its fields need a header of more than " + std::to_string(max_header_size) + " bytes");
+  require(header.size() <= kMaxHeaderBytes,
+          "its fields need a header of more than " + std::to_string(kMaxHeaderBytes) + " bytes");
   if (encoding == PcdEncoding::binary) {
     const char* data = reinterpret_cast<const char*>(cloud.data.data());
     return write_file_atomically(path, {header, {data, cloud.data.size()}});

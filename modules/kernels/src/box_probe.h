@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A query point as the kernels test it against the boxes of a tree.
 #pragma once
 
 #include <algorithm>
@@ -12,38 +13,40 @@
 
 namespace pcl_bv {
 
-/// A place between low and high in the frame of the boxes, and which squared distances there are to count.
+/// The interval between low and high that contains the query point, in the frame of the boxes, and the
+/// squared distances there that are within the limit.
 ///
-/// A box's distance is computed from the near end of [low, high], so before rounding it is none too great;
-/// three differences, three squares and two sums make it greater by a factor of 1 + 6 2^-24 at most, and by 3
-/// 2^-149 where squares underflow. 1 + 2^-19 covers that and the rounding of the limit. Places beyond 2^100
-/// are taken to be there: then all squares are infinite, and that is right for every limit which a float can
+/// The distance of a box is computed from the nearer end of the interval, so before rounding it is a lower
+/// bound. Three differences, three squares and two sums enlarge it by a factor of at most 1 + 6 * 2^-24, and
+/// by 3 * 2^-149 where squares underflow. The limits cover that by a factor of 1 + 2^-19. Positions beyond
+/// 2^100 are clamped to it: then all squares are infinite, which is right for every limit that a float can
 /// hold.
 struct BoxProbe {
   float low[3], high[3];
-  float outer;  ///< No point of a box whose nearest place is farther has a squared distance within the limit.
-  float inner;  ///< A point that is as near in this frame surely has one. Negative: never.
-  double unit;  ///< Squared distances there of squared distances here.
+  float outer;  ///< A box whose squared distance exceeds this has no point within the limit.
+  float inner;  ///< A point whose squared distance is at most this is certainly within the limit. Negative:
+                ///< no point is.
+  double unit;  ///< Factor from squared distances of the points to those in the frame of the boxes.
 
-  // Inlined, and not in a loop: so all stays in registers, which is 2 ns of a question's 40.
+  // Inlined and without a loop, so that everything stays in registers: saves 2 of a query's 40 ns.
   [[gnu::always_inline]] BoxProbe(const BoxLevels& boxes, const Coordinates& center, double limit)
       : unit(boxes.scale * boxes.scale) {
     set(0, (center.x - boxes.origin.x) * boxes.scale);
     set(1, (center.y - boxes.origin.y) * boxes.scale);
     set(2, (center.z - boxes.origin.z) * boxes.scale);
-    narrow(limit);
+    set_limit(limit);
     constexpr double most = std::numeric_limits<float>::max();
     inner = static_cast<float>(std::min(limit * unit * (1 - 0x1p-19) - 0x1p-120, most));
   }
 
-  void narrow(double limit) { outer = static_cast<float>(limit * unit * (1 + 0x1p-19) + 0x1p-140); }
+  void set_limit(double limit) { outer = static_cast<float>(limit * unit * (1 + 0x1p-19) + 0x1p-140); }
 
  private:
-  [[gnu::always_inline]] void set(std::size_t axis, double place) {
-    const float near = static_cast<float>(std::max(std::min(place, 0x1p100), -0x1p100));
-    const float doubt = std::abs(near) * 0x1p-22F + std::numeric_limits<float>::min();
-    low[axis] = near - doubt;
-    high[axis] = near + doubt;
+  [[gnu::always_inline]] void set(std::size_t axis, double position) {
+    const float near = static_cast<float>(std::max(std::min(position, 0x1p100), -0x1p100));
+    const float error_bound = std::abs(near) * 0x1p-22F + std::numeric_limits<float>::min();
+    low[axis] = near - error_bound;
+    high[axis] = near + error_bound;
   }
 };
 

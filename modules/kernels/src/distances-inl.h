@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Squared distances of packets, for the target being compiled: in float, with a proven bound of what that
-// says about the distance in double, and in double, with one stated order of operations and none of them
-// fused.
+// Squared distances of packets, for the target being compiled: in float, with a proven bound for the distance
+// in double; and in double, with a fixed order of operations, none of them fused.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_DISTANCES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -26,7 +25,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The greater of a running maximum and a candidate that may be NaN, which loses.
+// Returns the larger of a running maximum and a candidate; a candidate that is NaN loses.
 template <class D>
 HWY_INLINE V<D> max_or_keep(D, V<D> candidate, V<D> running) {
 #if HWY_ARCH_X86
@@ -36,7 +35,7 @@ HWY_INLINE V<D> max_or_keep(D, V<D> candidate, V<D> running) {
 #endif
 }
 
-// Differences from the centre. `scaled`: in units of its scale, which is 1 for float points.
+// Subtracts the centre. `scaled`: multiplies by the centre's scale, which is 1 for float points.
 template <bool scaled, class D>
 HWY_INLINE void subtract(D d, const DistanceCenter& center, V<D>& x, V<D>& y, V<D>& z) {
   x = hn::Sub(x, hn::Set(d, center.x));
@@ -55,7 +54,8 @@ HWY_INLINE V_ sum_of_squares(V_ x, V_ y, V_ z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-// STEP(x, y, z) with a packet's coordinates in double: once for double points, for each half of float ones.
+// Applies STEP(x, y, z) to a packet's coordinates in double: once for double points, to each half of float
+// points.
 #define PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, STEP)                 \
   do {                                                            \
     if constexpr (sizeof(T) == 8) {                               \
@@ -77,8 +77,8 @@ HWY_INLINE V_ sum_of_squares(V_ x, V_ y, V_ z) {
     }                                                             \
   } while (false)
 
-// A centre as two floats by coordinate: the nearest finite one, and what that left. An infinite head and tail
-// would make a NaN of each distance, which floats reject.
+// A centre as the sum of two floats per coordinate: the nearest finite float (head) and the remainder (tail).
+// An infinite head would make each distance a NaN, and the float filter would reject all points.
 struct FloatCenter {
   explicit FloatCenter(const DistanceCenter& c)
       : head{nearest(c.x), nearest(c.y), nearest(c.z)},
@@ -101,25 +101,28 @@ HWY_INLINE V<D> distances_in_float(D d, const FloatCenter& center, V<D> x, V<D> 
   return hn::MulAdd(qz, qz, hn::MulAdd(qy, qy, hn::Mul(qx, qx)));
 }
 
-// What squared distances in float say about those in double. A coordinate of q is off by 2.1 u of itself
-// (u = 2^-24) and by 3.1 u of what the centre lost in its rounding, and by that much at least every float is
-// away from the centre: by 5.2 u of itself. Squares, sums and products add less than 4 u, or 2^-147 where
-// they underflow. So with f in float the square is no more than f (1 + 2^-20) + 2^-140. At or below this
-// float, squared_distance() is below `limit`. Negative: there is none.
+// Returns a float such that a point whose squared distance in float is at or below it has a
+// squared_distance() below `limit`; negative if there is no such float.
+//
+// A coordinate of q is off by 2.1 u of itself (u = 2^-24) and by 3.1 u of the rounding error of the centre.
+// Every float is at least that rounding error away from the centre, so the total error is at most 5.2 u of
+// the coordinate. Squares, sums and products add less than 4 u, or 2^-147 where they underflow. So the square
+// in double is at most f (1 + 2^-20) + 2^-140 if f is the one in float.
 HWY_INLINE float float_limit(double limit) {
   const double least = (limit - 0x1p-139) * (1 - 0x1p-18);
   constexpr double most = std::numeric_limits<float>::max();
   return least < 0 ? -1.0F : static_cast<float>(HWY_MIN(least, most));
 }
 
-// What float arithmetic goes by: squared_distance() of points at or below `limit` is below the scan's limit.
-struct InFloat {
-  InFloat(const DistanceCenter& c, double scan_limit) : center(c), limit(float_limit(scan_limit)) {}
+// The arguments of float arithmetic: squared_distance() of points at or below `limit` is below the scan's
+// limit.
+struct FloatRejection {
+  FloatRejection(const DistanceCenter& c, double scan_limit) : center(c), limit(float_limit(scan_limit)) {}
   FloatCenter center;
   float limit;
 };
 
-// Some packets of a view: what float arithmetic rejects as a whole.
+// Consecutive packets of a view that float arithmetic rejects as a whole.
 struct Run {
   std::size_t begin, end;
 };
@@ -129,15 +132,15 @@ HWY_INLINE Run run_at(D d, std::size_t begin, std::size_t count) {
   return {begin, HWY_MIN(begin + kBoundPoints * hn::Lanes(d), count)};
 }
 
-// The greatest squared distances of a run in float, by lane. NaN loses; infinite where floats overflow and
-// where a point is.
+// Returns the largest squared distance in float of a run, per lane. A NaN loses. The result is infinite where
+// a distance overflows or a point is infinite.
 template <Layout layout, class D>
 HWY_INLINE V<D> greatest_in_float(D d, const PointView& points, Run run, const FloatCenter& center) {
   const std::size_t n = hn::Lanes(d);
   auto greatest = hn::Set(d, -1.0F);
   V<D> x, y, z;
   if (run.end - run.begin == kBoundPoints * n) {
-    // Two packets at a time, and no look at the end: 4.1 became 5.8 Gpt/s (AVX-512).
+    // Two packets at a time and no test for the end: 4.1 became 5.8 Gpt/s (AVX-512).
     auto other = greatest;
     for (std::size_t i = run.begin; i < run.end; i += 2 * n) {
       load_packet<layout>(d, points, i, x, y, z);
@@ -148,7 +151,7 @@ HWY_INLINE V<D> greatest_in_float(D d, const PointView& points, Run run, const F
     return hn::Max(greatest, other);
   }
   for (std::size_t i = run.begin; i < run.end; i += n) {
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     greatest = max_or_keep(d, distances_in_float(d, center, x, y, z), greatest);
   }
   return greatest;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// UPDATESPHERE's side of the paper's EXPANDSPHERE (Figure 3): which points are outside.
+// Lists the points outside a sphere, for step UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson
+// 2010, Figure 3).
 
+#include "distance_squared.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
 #include "references.h"
-#include "square.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -22,26 +23,26 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The lanes of runs that reach the limit, each with its kBoundPoints points.
+// Inspects the kBoundPoints points of each lane whose bound exceeds the limit.
 template <Layout layout>
-std::size_t reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
-                     double limit, std::uint32_t* positions) {
+std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, const DistanceCenter& center,
+                           double limit, std::uint32_t* positions) {
   const Tag<float> d;
   const std::size_t lanes = hn::Lanes(d);
-  const float* bounds = kept.bounds;
-  const float least = float_limit(kept.limit);
+  const float* bounds = scanned.bounds;
+  const float least = float_limit(scanned.limit);
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < block.count; begin += kBoundPoints * lanes, bounds += lanes) {
     if (hn::AllFalse(d, hn::Gt(hn::LoadU(d, bounds), hn::Set(d, least)))) continue;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!(bounds[lane] > least)) continue;
       for (std::size_t packet = begin; packet < begin + kBoundPoints * lanes; packet += lanes) {
-        // The last packet of a view is loaded in order.
+        // An incomplete last packet was loaded in order.
         const std::size_t i =
             packet + (packet + lanes <= block.count ? point_of_lane<layout>(lane, lanes) : lane);
         if (i >= block.count) break;
         positions[count] = static_cast<std::uint32_t>(i);
-        count += square(load_as<float>(block, i), center) >= limit;
+        count += distance_squared(load_as<float>(block, i), center) >= limit;
       }
     }
   }
@@ -57,7 +58,7 @@ std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& 
   std::size_t count = 0;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     bool any = false, far[kGroupBytes / sizeof(T)] = {};
     bool* next = far;
 #define PCL_BV_STEP(x, y, z)                                                   \
@@ -80,7 +81,7 @@ template <Layout layout, typename T>
 std::size_t list_of(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
                     std::uint32_t* positions) {
   const Tag<T> d;
-  const InFloat in_float(center, limit);
+  const FloatRejection in_float(center, limit);
   std::size_t count = 0;
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
        run = run_at(d, run.end, points.count)) {
@@ -96,10 +97,10 @@ std::size_t list_of(const PointView& points, const DistanceCenter& center, doubl
   return count;
 }
 
-std::size_t list_reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
-                          double limit, std::uint32_t* positions) {
+std::size_t list_distant_by_bounds(const PointView& block, const ScanBounds& scanned,
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions) {
   return for_layout(block, [&]<Layout layout, typename>() {
-    return reaching<layout>(block, kept, center, limit, positions);
+    return list_by_bounds<layout>(block, scanned, center, limit, positions);
   });
 }
 
@@ -119,18 +120,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
-                          const DistanceCenter& center, double limit, std::uint32_t* positions) {
-  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
+std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions) {
+  static constexpr KernelTable kTable =
+      PCL_BV_KERNEL_TABLE(list_distant_by_bounds, &list_distant_by_bounds_reference);
   require_distances(block, center, kBlockPoints);
-  require_bounds(block, kept);
-  return kTable[isa](block, kept, center, limit, positions);
+  require_scan_bounds(block, scanned);
+  return kTable[isa](block, scanned, center, limit, positions);
 }
 
 std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
-  require_distances(points, center, kMostPositions);
+  require_distances(points, center, kMaxPositions);
   return kTable[isa](points, center, limit, filter, positions);
 }
 

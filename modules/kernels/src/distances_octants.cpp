@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The farthest points in each octant, for the smallest sphere: float arithmetic rejects runs of points, as
-// the mask of the paper's EXPANDSPHERE (Figure 3) does groups of four, and double arithmetic decides.
+// The farthest points in each octant, for the smallest sphere. Float arithmetic rejects runs of points, as
+// the mask of EXPANDSPHERE (Karlsson, Winberg and Larsson 2010, Figure 3) rejects groups of four; double
+// arithmetic decides.
 
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
@@ -22,7 +23,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// A second look at a packet of a run: whether no point of it is beyond the limit. Double points: never.
+// Tests one packet of a run again: returns whether none of its points is beyond the limit. Always false for
+// double points.
 template <class D>
 HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D> y, V<D> z) {
   if constexpr (sizeof(hn::TFromD<D>) == 4) {
@@ -31,7 +33,7 @@ HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D
   return false;
 }
 
-// The best distances per octant and lane while a block is scanned.
+// The largest distances per octant and lane while a block is scanned.
 struct LaneOctants {
   static constexpr std::size_t lanes = kGroupBytes / sizeof(double);
   LaneOctants() {
@@ -39,7 +41,7 @@ struct LaneOctants {
       b = -1;
   }
 
-  // d2: -1 where a point does not matter.
+  // d2 is -1 for points that are ignored.
   template <class D>
   HWY_INLINE void compete(D d, V<D> x, V<D> y, V<D> z, V<D> d2) {
     const auto none = hn::Set(d, -1.0), zero = hn::Zero(d);
@@ -64,59 +66,60 @@ struct LaneOctants {
   }
 
   template <class D>
-  void reduce(D d, std::array<double, 8>& greatest) const {
+  void reduce(D d, std::array<double, 8>& max_squared) const {
     for (std::size_t o = 0; o < 8; ++o)
-      greatest[o] = hn::GetLane(hn::MaxOfLanes(d, hn::Load(d, best + o * lanes)));
+      max_squared[o] = hn::GetLane(hn::MaxOfLanes(d, hn::Load(d, best + o * lanes)));
   }
 
   HWY_ALIGN double best[8 * lanes];
 };
 
-// Lets a run's points compete. False if some point is not valid and could win; never if `masked`.
+// Updates the octants with the points of a run. Returns false if a point that is not valid may be among the
+// maxima; never if `masked`.
 template <Layout layout, typename T, bool masked, bool filtered>
-bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const InFloat& in_float,
+bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const FloatRejection& in_float,
                     LaneOctants& octants) {
   const Tag<T> d;
   const Tag<double> dd;
   const auto none = hn::Set(dd, -1.0);
   const auto least = hn::Set(dd, scan.limit);
   const auto infinity = hn::Set(dd, std::numeric_limits<double>::infinity());
-  bool fine = true;
+  bool all_valid = true;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     if constexpr (filtered) {
       if (rejects(d, in_float.center, in_float.limit, x, y, z)) continue;
     }
-#define PCL_BV_STEP(x, y, z)                                     \
-  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z); \
-  subtract<sizeof(T) == 8>(dd, scan.center, x, y, z);            \
-  auto d2 = sum_of_squares(x, y, z);                             \
-  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);   \
-  const auto far = hn::Ge(d2, least);                            \
-  if (!hn::AllFalse(dd, far)) {                                  \
-    fine = fine && hn::AllFalse(dd, hn::Ge(d2, infinity));       \
-    octants.compete(dd, x, y, z, hn::IfThenElse(far, d2, none)); \
+#define PCL_BV_STEP(x, y, z)                                         \
+  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z);     \
+  subtract<sizeof(T) == 8>(dd, scan.center, x, y, z);                \
+  auto d2 = sum_of_squares(x, y, z);                                 \
+  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);       \
+  const auto far = hn::Ge(d2, least);                                \
+  if (!hn::AllFalse(dd, far)) {                                      \
+    all_valid = all_valid && hn::AllFalse(dd, hn::Ge(d2, infinity)); \
+    octants.compete(dd, x, y, z, hn::IfThenElse(far, d2, none));     \
   }
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
   }
-  return fine;
+  return all_valid;
 }
 
-// Where three of a block's first four runs are not rejected, others will not be either: on the surface of a
-// sphere no run is.
-constexpr std::size_t kAskedRuns = 4;
-constexpr std::size_t kTooManyKept = 3;
+// If three of a block's first four runs are not rejected (as on the surface of a sphere), the remaining runs
+// are unlikely to be rejected, and the filter is switched off.
+constexpr std::size_t kProbedRuns = 4;
+constexpr std::size_t kMaxUnrejectedRuns = 3;
 
-// False if some point is not valid and could win; never if `masked`.
+// Scans a block. Returns false if a point that is not valid may be among the maxima; never if `masked`.
 template <Layout layout, typename T, bool masked>
 bool octants_of(const PointView& points, OctantScan& scan) {
   const Tag<T> d;
-  const InFloat in_float(scan.center, scan.limit);
+  const FloatRejection in_float(scan.center, scan.limit);
   const T infinity = std::numeric_limits<T>::infinity();
   LaneOctants octants;
-  std::size_t asked = 0, kept = 0;
+  std::size_t probed = 0, unrejected = 0;
   float* bounds = scan.bounds;
   bool filtered = sizeof(T) == 4 && scan.filter == FloatFilter::reject;
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
@@ -125,9 +128,9 @@ bool octants_of(const PointView& points, OctantScan& scan) {
       if (filtered) {
         const auto greatest = greatest_in_float<layout>(d, points, run, in_float.center);
         if (bounds != nullptr) hn::StoreU(greatest, d, bounds);
-        ++asked;
+        ++probed;
         if (hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, in_float.limit)))) continue;
-        if (++kept == kTooManyKept && asked <= kAskedRuns) filtered = false;
+        if (++unrejected == kMaxUnrejectedRuns && probed <= kProbedRuns) filtered = false;
         if (!octants_of_run<layout, T, masked, true>(points, run, scan, in_float, octants)) return false;
         continue;
       }
@@ -136,7 +139,7 @@ bool octants_of(const PointView& points, OctantScan& scan) {
     if (!octants_of_run<layout, T, masked, false>(points, run, scan, in_float, octants)) return false;
   }
   if (!filtered) scan.filter = FloatFilter::off;
-  octants.reduce(Tag<double>(), scan.greatest);
+  octants.reduce(Tag<double>(), scan.max_squared);
   return true;
 }
 

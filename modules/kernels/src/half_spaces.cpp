@@ -20,23 +20,23 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The lanes that no half-space denies; without any, those in the ball.
+// Returns the lanes that are inside all half-spaces or in the ball; without half-spaces those in the ball.
 template <typename T, class D>
 HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*planes)[4], V<D> x, V<D> y,
                                     V<D> z) {
-  constexpr std::size_t kBetweenLooks = 4;
+  constexpr std::size_t kTestsPerCheck = 4;
   const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
   const auto in_ball = hn::Lt(squared, hn::Set(d, static_cast<T>(inside.squared_ball)));
   if (hn::AllTrue(d, in_ball)) return in_ball;
   auto in = in_ball;
   if (inside.count > 0) in = hn::Eq(x, x);
   for (std::size_t k = 0; k < inside.count;) {
-    const std::size_t end = HWY_MIN(k + kBetweenLooks, inside.count);
+    const std::size_t end = HWY_MIN(k + kTestsPerCheck, inside.count);
     for (; k < end; ++k) {
-      const auto reach =
+      const auto projection =
           hn::Add(hn::Add(hn::Mul(hn::Set(d, planes[k][0]), x), hn::Mul(hn::Set(d, planes[k][1]), y)),
                   hn::Mul(hn::Set(d, planes[k][2]), z));
-      in = hn::And(in, hn::Lt(reach, hn::Set(d, planes[k][3])));
+      in = hn::And(in, hn::Lt(projection, hn::Set(d, planes[k][3])));
     }
     if (hn::AllFalse(d, in)) break;
   }
@@ -59,7 +59,7 @@ std::size_t list_of(const PointView& points, const HalfSpaces& inside, std::uint
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     const auto in = inside_lanes<T>(d, inside, planes, hn::Sub(x, cx), hn::Sub(y, cy), hn::Sub(z, cz));
     if (HWY_LIKELY(hn::AllTrue(d, in))) continue;
     bool out[kGroupBytes / sizeof(T)];
@@ -86,7 +86,7 @@ namespace pcl_bv {
 std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_outside, &list_outside_reference);
-  require_in_memory(points, kMostPositions);
+  require_in_memory(points, kMaxPositions);
   require_at_most(kMaxHalfSpaces, inside.count, "half-spaces");
   return kTable[isa](points, inside, positions);
 }

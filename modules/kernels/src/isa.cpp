@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 
 #include <array>
 #include <cstdlib>
@@ -19,7 +19,7 @@ namespace {
 struct Entry {
   Isa isa;
   std::string_view name;
-  std::int64_t target;  // Highway's bit; 0 for those that are always there.
+  std::int64_t target;  // Highway's bit; 0 for sets that are always available.
 };
 
 constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
@@ -32,8 +32,9 @@ constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
                                             {Isa::sve2, "sve2", HWY_SVE2}}};
 
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && !HWY_COMPILER_CLANG  // clang does not know all these names
-// Highway's answer is in libhwy, and whatever links that measures its timer before main(): 3.1 of the 6.9 ms
-// in which pcd_bv started. So the compiler's runtime is asked for what Highway compiles each target with.
+// Highway's own detection is in libhwy, and a program that links libhwy calibrates its timer before main():
+// 3.1 of the 6.9 ms in which pcd_bv started. So the compiler's runtime is queried for the features with which
+// Highway compiles each target.
 std::int64_t machine_targets() {
   __builtin_cpu_init();
   const bool sse4 = __builtin_cpu_supports("ssse3") && __builtin_cpu_supports("sse4.1") &&
@@ -52,14 +53,14 @@ std::int64_t machine_targets() {
 }
 #endif
 
-// Asking the processor costs 15 us in a virtual machine, where CPUID traps; its answer does not change.
+// Queries the processor once: in a virtual machine CPUID traps and takes 15 us.
 bool usable(const Entry& entry) {
   static const std::int64_t supported = HWY_TARGETS & machine_targets();
   return entry.isa == Isa::scalar || (entry.target & supported) != 0;
 }
 
-// NEON before SVE: for index lists and wide records SVE has only the general way to load points (Layout::any
-// in load-inl.h), and on most processors its vectors are no longer than NEON's.
+// NEON is preferred to SVE. For index lists and wide records, SVE has only the general way to load points
+// (Layout::any in load-inl.h), and on most processors its vectors are no longer than NEON's.
 Isa best_isa() {
   Isa best = Isa::scalar;
   for (const Entry& entry : kEntries) {

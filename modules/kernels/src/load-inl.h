@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points in memory to packets of x, y and z lanes, for the target being compiled.
+// Loads points into packets (vectors of x, y and z), for the target being compiled.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -15,7 +15,7 @@
 
 #include <limits>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -24,34 +24,34 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// The vectors of every kernel: as wide as the machine's, at most a group of points.
+/// The vector type of all kernels: as wide as the machine's registers, at most one group of points.
 template <typename T>
 using Tag = hn::CappedTag<T, kGroupBytes / sizeof(T)>;
 
 template <class D>
 using V = hn::Vec<D>;
 
-/// What is_valid() allows.
+/// The largest coordinate that is_valid() allows.
 template <typename T>
 constexpr T coordinate_limit() {
   return sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max()) : static_cast<T>(kMaxCoordinate);
 }
 
-/// The lanes of valid points.
+/// Returns a mask of the valid points.
 template <class D>
 HWY_INLINE hn::Mask<D> valid_lanes(D d, V<D> x, V<D> y, V<D> z) {
   const auto limit = hn::Set(d, coordinate_limit<hn::TFromD<D>>());
   return hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
 }
 
-/// How a packet is read. What a layout assumes of the view is said by layout_of().
+/// How a packet is loaded. layout_of() tests what a layout requires of the view.
 enum class Layout {
-  groups,    ///< x, y, z lanes as they are
-  packed12,  ///< float x y z x y z ...
-  packed16,  ///< pcl::PointXYZ: float, one 16-byte load per point, all contiguous
+  groups,    ///< each vector of x, y or z is contiguous
+  packed12,  ///< float, contiguous: x y z x y z ...
+  packed16,  ///< float, contiguous records of 16 bytes (pcl::PointXYZ)
   wide,      ///< float, 16 readable bytes per point, any stride or an index list
   pairs,     ///< double, any stride or an index list
-  any        ///< coordinate by coordinate
+  any        ///< loaded coordinate by coordinate
 };
 
 template <typename T>
@@ -68,7 +68,7 @@ Layout layout_of(const PointView& points) {
   return points.readable >= 16 ? Layout::wide : Layout::any;
 }
 
-/// call.operator()<layout, T>() with the view's layout and the type of its coordinates.
+/// Calls call.operator()<layout, T>() with the view's layout and scalar type.
 template <typename Call>
 auto for_layout(const PointView& points, const Call& call) {
   if (points.scalar == ScalarType::float64) {
@@ -95,15 +95,15 @@ auto for_layout(const PointView& points, const Call& call) {
   }
 }
 
-/// Which point of a packet of `lanes` points lands in a lane of load_packet().
+/// Returns which point of a packet of `lanes` points load_packet() puts into a lane.
 template <Layout layout>
 std::size_t point_of_lane(std::size_t lane, std::size_t lanes) {
   if (layout == Layout::packed16 && !HWY_HAVE_SCALABLE) return lane % 4 * (lanes / 4) + lane / 4;
   return lane;
 }
 
-// One 128-bit block each, `step` points apart, from `bytes` after x of the first on. Recursion on the
-// vector's size ends at one block.
+// Loads one 128-bit block per point, from `bytes` after the point's x on, of points first, first + step, ...
+// Recursion halves the vector down to one block.
 template <class D>
 HWY_INLINE V<D> load_blocks(D d, const PointView& points, std::size_t first, std::size_t step,
                             std::size_t bytes) {
@@ -118,8 +118,8 @@ HWY_INLINE V<D> load_blocks(D d, const PointView& points, std::size_t first, std
   }
 }
 
-// Four registers of whole points (x y z and a fourth lane of anything) to x, y and z: a transpose inside each
-// 128-bit block, seven shuffles.
+// Turns four registers of whole points (x, y, z and a fourth lane of any value) into x, y and z: a transpose
+// inside each 128-bit block, seven shuffles.
 template <class D>
 HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y, V<D>& z) {
   const hn::Repartition<double, D> pairs;
@@ -132,11 +132,11 @@ HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y,
   z = hn::BitCast(d, hn::InterleaveLower(pairs, ab_zw, ce_zw));
 }
 
-/// Loads up to one packet, point by point in order; lanes past `count` repeat the point at `pad` (never
+/// Loads up to one packet, point by point in order. Lanes from `count` on repeat the point `pad` (never
 /// zeros).
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_few(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
-                         V<D>& x, V<D>& y, V<D>& z) {
+HWY_INLINE void load_padded(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
+                            V<D>& x, V<D>& y, V<D>& z) {
   HWY_ALIGN T lanes[3][kGroupBytes / sizeof(T)];
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     T v[3] = {};
@@ -153,7 +153,7 @@ HWY_INLINE void load_few(D d, const PointView& points, std::size_t first, std::s
   z = hn::Load(d, lanes[2]);
 }
 
-/// Loads one full packet of points from `first` on, in the order that point_of_lane() says.
+/// Loads a full packet of points from `first` on, in the order of point_of_lane().
 template <Layout layout, class D>
 HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
   using T = hn::TFromD<D>;
@@ -187,12 +187,12 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
                             load_blocks(d, points, first + 1, 2, sizeof(T)));
 #endif
   } else {
-    load_few(d, points, first, n, static_cast<const T*>(nullptr), x, y, z);
+    load_padded(d, points, first, n, static_cast<const T*>(nullptr), x, y, z);
   }
 }
 
-/// The same from any point on: in groups, a vector that starts amid a packet could reach from one coordinate
-/// into the next.
+/// As load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
+/// could extend from one coordinate into the next.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {
@@ -202,7 +202,7 @@ HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t f
   load_packet<layout>(d, points, first, x, y, z);
 }
 
-/// As load_packet() with lane i holding point first + i.
+/// As load_packet(), but lane i holds point first + i.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {
@@ -213,20 +213,22 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 #endif
 }
 
-/// The packet from `first` on; the last one of a view is in order, filled up with the view's first point.
+/// Loads the packet from `first` on. An incomplete last packet is loaded in order and padded with the view's
+/// first point.
 template <Layout layout, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_some(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
+HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
+                                    V<D>& z) {
   if (first + hn::Lanes(d) <= points.count) {
     load_packet<layout>(d, points, first, x, y, z);
     return;
   }
   T pad[3];
   load_point(points, 0, pad);
-  load_few(d, points, first, points.count - first, pad, x, y, z);
+  load_padded(d, points, first, points.count - first, pad, x, y, z);
 }
 
-/// Appends to `positions`, which has `count` already, those of the packet's points whose lanes are marked, as
-/// load_some() has loaded them. Returns how many there are then.
+/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail().
+/// `positions` has `count` entries before; returns the number of entries after.
 template <Layout layout, class D>
 std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
                           std::uint32_t* positions, std::size_t count) {
@@ -241,7 +243,7 @@ std::size_t append_marked(D d, const bool* marked, const PointView& points, std:
   return count;
 }
 
-/// Lanes of a mask, as bits from the lowest on.
+/// Returns a mask as bits; lane 0 is the lowest bit.
 template <class D>
 HWY_INLINE std::uint64_t bits_of_mask(D d, hn::Mask<D> mask) {
   HWY_ALIGN std::uint8_t bytes[8] = {};
@@ -252,7 +254,7 @@ HWY_INLINE std::uint64_t bits_of_mask(D d, hn::Mask<D> mask) {
   return bits;
 }
 
-/// Lanes of a mask, as booleans.
+/// Stores a mask as booleans.
 template <class D>
 HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
   const std::uint64_t bits = bits_of_mask(d, mask);
@@ -260,9 +262,10 @@ HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
     marked[lane] = (bits >> lane & 1) != 0;
 }
 
-/// Part of a block relative to its centre: the packet from `first` on. Behind a block's end it holds, if
-/// `masked`, the centre, otherwise some points twice, which does no harm to extremes. If `masked`, invalid
-/// points are replaced by the centre, too, and the valid ones are counted.
+/// Loads the packet from `first` on and subtracts the centre. Past the end of the block, lanes hold the
+/// centre if `masked`; else they may repeat points, which changes no extreme. With `masked`, invalid points
+/// are replaced by the centre, too, and valid_count grows by the number of valid lanes, those past the end
+/// included.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, const T* center, V<D>& x,
                               V<D>& y, V<D>& z, [[maybe_unused]] std::size_t& valid_count) {
@@ -273,7 +276,7 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
   if (HWY_LIKELY(first + n <= block.count)) {
     load_packet<layout>(d, block, first, x, y, z);
   } else if (masked || block.count < n) {
-    load_few(d, block, first, block.count - first, center, x, y, z);
+    load_padded(d, block, first, block.count - first, center, x, y, z);
   } else {
     load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);
   }
@@ -289,24 +292,25 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
   z = hn::Sub(z, center_z);
 }
 
-/// Asks for what a packet some hundred points on will load. A loop with much arithmetic per packet fills the
-/// core's window before its loads reach far enough: 26-DOP on AVX-512, 1 M points, 0.9 Gpt/s without, 2.9
-/// with 8 KiB. Not for other layouts: pcl::PointXYZI in L2 fell from 1.8 Gpt/s to 0.9 for 15 % from memory.
+/// Prefetches what a packet some hundred points later will load. A loop with much arithmetic per packet fills
+/// the core's reorder window before its loads get far enough ahead: 26-DOP on AVX-512, 1 M points, 0.9 Gpt/s
+/// without prefetch, 2.9 with 8 KiB. Not for other layouts: pcl::PointXYZI in L2 fell from 1.8 to 0.9 Gpt/s
+/// for a gain of 15 % from memory.
 template <Layout layout, class D>
 HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
   if constexpr (layout == Layout::groups || layout == Layout::packed12 || layout == Layout::packed16) {
     const std::size_t bytes = hn::Lanes(d) * (layout == Layout::packed16 ? 16 : 3 * sizeof(hn::TFromD<D>));
     const auto ahead =
-        reinterpret_cast<std::uintptr_t>(points.address(first)) + 8192;  // maybe past the array
+        reinterpret_cast<std::uintptr_t>(points.address(first)) + 8192;  // harmless if past the array
     for (std::size_t line = 0; line < bytes; line += 64)
       __builtin_prefetch(reinterpret_cast<const void*>(ahead + line));
   }
 }
 
-/// Keeps a loop's integer accumulator in its register. g++ 12 does not see that the float and integer types
-/// of one register are one, and moves and spills it instead: 2600 Mpt/s became 4500 (26-DOP, AVX-512).
+/// Keeps a loop's integer accumulator in its register. g++ 12 does not see that the float vector and the
+/// integer vector are one register, and moves and spills it: 2600 Mpt/s became 4500 (26-DOP, AVX-512).
 template <class Vector>
-HWY_INLINE void hold(Vector& v) {
+HWY_INLINE void keep_in_register(Vector& v) {
 #if HWY_ARCH_X86
   asm("" : "+v"(v.raw));
 #else

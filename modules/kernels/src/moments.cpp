@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums whose bits do not depend on the width of a register: each block is first laid out as groups in order,
-// with the origin, which adds nothing, in the place of invalid points; then as many passes as it takes sum
-// the same 8 lanes. Between the passes the block stays in the first-level cache.
+// Sums whose bits do not depend on the width of a register. Each block is first copied to groups in order;
+// the origin, which adds 0, replaces invalid points and fills the last group. Then the same 8 lanes are
+// summed in as many passes as the width requires. The block stays in the first-level cache between passes.
 
 #include "pcl_bv/kernels/moments.h"
 
 #include <cmath>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "preconditions.h"
 #include "references.h"
 #include "targets.h"
@@ -19,7 +19,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "gather-inl.h"
+#include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -39,14 +39,14 @@ constexpr std::size_t kLanes = 8;
 #define PCL_BV_STEP(k, term) sum##k = hn::Add(sum##k, term);
 #define PCL_BV_KEEP(k, term) hn::Store(sum##k, d, sums + k * kLanes + lane);
 
-// Only doubles may be scaled.
+// Returns the differences from the origin; scaled for double points only.
 template <typename T, class D>
 HWY_INLINE V<D> relative(D d, const T* from, V<D> origin, V<D> scale) {
   const auto q = hn::Sub(load_as_double(d, from), origin);
   return sizeof(T) == 8 ? hn::Mul(q, scale) : q;
 }
 
-// The sums over a block's groups: 8 lanes for each of the 9 terms.
+// Sums over the groups of a block: 8 lanes for each of the 9 terms.
 template <typename T>
 void sum_groups(const T* groups, std::size_t points, const Moments& about, double* sums) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);
@@ -98,8 +98,9 @@ Moments moments_of(const PointView& block) {
   if (first == block.count) return out;
   out.origin = load_point(block, first);
   const T pad[3] = {static_cast<T>(out.origin.x), static_cast<T>(out.origin.y), static_cast<T>(out.origin.z)};
-  out.count = gather<layout, true>(block, pad, groups);
-  sum_with_room(block.scalar, out, [&](Moments& moments) { add_lanes(groups, block.count, moments); });
+  out.count = copy_to_groups<layout, true>(block, pad, groups);
+  sum_without_underflow(block.scalar, out,
+                        [&](Moments& moments) { add_lanes(groups, block.count, moments); });
   return out;
 }
 

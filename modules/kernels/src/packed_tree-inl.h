@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distances of a place to the boxes of a group and to the points of a packet.
+// Distances from a query point to the boxes of a group and to the points of a packet.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_PACKED_TREE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -28,11 +28,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET != HWY_SCALAR
 
 using Floats = hn::CappedTag<float, kTreeWidth>;
-// Of as many lanes as Floats has, or of half as many.
+// Has as many lanes as Floats, or half as many.
 using Doubles = hn::CappedTag<double, 8>;
 
-/// The lanes of a mask, at most 16, as bits. No more bytes are read than were written: reading others waits
-/// for the store.
+/// Returns a mask of at most 16 lanes as bits. Reads exactly the bytes that were written: a longer read would
+/// have to wait for the store.
 template <class D>
 HWY_INLINE std::uint32_t bits_of_lanes(D d, hn::Mask<D> mask) {
   static_assert(hn::MaxLanes(d) <= 16);
@@ -46,8 +46,8 @@ HWY_INLINE V<D> sum_of_squares(V<D> x, V<D> y, V<D> z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// How far the boxes k, k + 1, ... of a group are along an axis; 0 where the place may be between their
-/// sides.
+/// Returns the distances along an axis to the boxes k, k + 1, ... of a group; 0 where the query point may be
+/// between the sides of the box.
 template <class D>
 HWY_INLINE V<D> gap(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
   const auto below = hn::Sub(hn::Load(d, group.low[axis] + k), hn::Set(d, probe.high[axis]));
@@ -61,8 +61,9 @@ HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& prob
                            gap(d, group, probe, 2, k));
 }
 
-/// Squares of how far the nearer side of each box across an axis is at most, and the farther one. Boxes were
-/// rounded outward by up to 2^-20: as far inside a side is a point.
+/// Returns squared upper bounds of the distances, along one axis, to a point on the nearer side of each box
+/// and to its farther side. Boxes were rounded outward by up to 2^-20, so a point may be that far inside the
+/// side that it touches.
 template <class D>
 HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis,
                              std::size_t k, V<D>& nearer, V<D>& farther) {
@@ -76,10 +77,11 @@ HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, 
   farther = hn::Mul(far, far);
 }
 
-/// A box around points has one on each side, so one that is no farther than the farthest place of the nearer
-/// side across x; and so for y and z (Roussopoulos et al. 1995). The least of the three.
+/// Returns a squared upper bound of the distance to the nearest point in each box (Roussopoulos et al. 1995).
+/// A box around points has one on each side. So one point is no farther than the farthest corner of the
+/// nearer side along x, and so for y and z. The bound is the smallest of the three.
 template <class D>
-HWY_INLINE V<D> reached_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
+HWY_INLINE V<D> nearest_point_bounds(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
   V<D> near_x, near_y, near_z, far_x, far_y, far_z;
   side_squares(d, group, probe, 0, k, near_x, far_x);
   side_squares(d, group, probe, 1, k, near_y, far_y);
@@ -90,7 +92,7 @@ HWY_INLINE V<D> reached_squares(D d, const BoxGroup& group, const BoxProbe& prob
   return hn::Min(hn::Min(across_x, across_y), across_z);
 }
 
-/// Those of the first `count` boxes of a group that are not too far.
+/// Returns, as bits, which of the first `count` boxes of a group may have a point within the limit.
 HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe, std::size_t count) {
   const Floats d;
   std::uint32_t bits = 0;
@@ -101,7 +103,8 @@ HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe
   return bits & ((1U << count) - 1);
 }
 
-/// Those that the place may be in. They are known sooner than the near ones: nothing is computed for them.
+/// Returns, as bits, the boxes that may contain the query point. Known sooner than near_boxes(): nothing is
+/// computed.
 HWY_INLINE std::uint32_t boxes_around(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   std::uint32_t bits = 0;
@@ -115,12 +118,13 @@ HWY_INLINE std::uint32_t boxes_around(const BoxGroup& group, const BoxProbe& pro
   return bits;
 }
 
-/// Whether a box of the group is so near that a point in it must be. Empty boxes are infinitely far.
-HWY_INLINE bool surely_near(const BoxGroup& group, const BoxProbe& probe) {
+/// Returns whether a box of the group is so near that it certainly has a point within the limit. Empty boxes
+/// are infinitely far.
+HWY_INLINE bool contains_near_point(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    const auto reached = reached_squares(d, group, probe, k);
-    if (!hn::AllFalse(d, hn::Le(reached, hn::Set(d, probe.inner)))) return true;
+    const auto bounds = nearest_point_bounds(d, group, probe, k);
+    if (!hn::AllFalse(d, hn::Le(bounds, hn::Set(d, probe.inner)))) return true;
   }
   return false;
 }
@@ -135,7 +139,7 @@ HWY_INLINE V<D> load_as_double(D d, const float* from) {
   return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), from));
 }
 
-/// Squared distances, as Neighbor says, of the points k, k + 1, ... of a packet.
+/// Returns the squared distances, as defined for Neighbor, of the points k, k + 1, ... of a packet.
 template <class D, typename T>
 HWY_INLINE V<D> packet_squares(D d, const PointPacket<T>& packet, const Coordinates& center, std::size_t k) {
   return sum_of_squares<D>(hn::Sub(load_as_double(d, packet.at(0, k)), hn::Set(d, center.x)),
@@ -143,7 +147,8 @@ HWY_INLINE V<D> packet_squares(D d, const PointPacket<T>& packet, const Coordina
                            hn::Sub(load_as_double(d, packet.at(2, k)), hn::Set(d, center.z)));
 }
 
-/// The points of a packet within the limit; writes all squared distances if `squares` is not null.
+/// Returns, as bits, the points of a packet within the limit. Writes all squared distances if `squares` is
+/// not null.
 template <typename T>
 HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordinates& center, double limit,
                                      double* squares) {
@@ -157,33 +162,37 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
   return bits;
 }
 
-constexpr std::size_t kMostAtStart = 64;  // bits
+constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 
-/// Calls visit.take(packet) for the packets whose boxes are not too far, and before that visit.look(number)
-/// for the groups that such a box is in, but not for those it starts with; true as soon as one of them says
-/// so. It starts at the lowest level of at most 64 boxes: asking those side by side takes less time than
-/// finding out above which groups of them are near.
+/// Walks down a tree. Calls visit.visit_packet(packet) for each packet whose box may have a point within the
+/// limit. Before the boxes of a group are visited, calls visit.test_group(group) if any of them may have one,
+/// except for the groups at the start. Returns true as soon as one of these calls returns true, else false at
+/// the end.
 ///
-/// The lowest bit of visit.first(group), if there is one, is the box that is visited before the group's
-/// others, near or not. Those come in their order.
+/// The walk starts at the lowest level with at most 64 boxes: testing them all takes less time than finding
+/// out on the levels above which of their groups are near.
+///
+/// The lowest bit of visit.preferred_box(group), if any, is the box that is visited before the others of the
+/// group, near or not. The others follow in their order.
 template <typename Visit>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {
-    std::size_t first;   // what bit 0 stands for
-    std::uint64_t bits;  // still to be visited
+    std::size_t first;   // item of bit 0
+    std::uint64_t bits;  // items still to be visited
   };
-  Open open[BoxLevels::kMostLevels];
+  Open open[BoxLevels::kMaxLevels];
   std::size_t level = boxes.levels - 1;
-  while (level > 0 && boxes.below[level - 1] <= kMostAtStart)
+  while (level > 0 && boxes.child_counts[level - 1] <= kMaxStartBoxes)
     --level;
   const std::size_t start = level;
   std::uint64_t next = 0;
   open[level] = {0, 0};
-  for (std::size_t first = 0; first < boxes.below[level]; first += kTreeWidth) {
+  for (std::size_t first = 0; first < boxes.child_counts[level]; first += kTreeWidth) {
     const BoxGroup& group = boxes.groups[boxes.first[level] + first / kTreeWidth];
-    const std::uint64_t near = near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth));
+    const std::uint64_t near =
+        near_boxes(group, probe, HWY_MIN(boxes.child_counts[level] - first, kTreeWidth));
     open[level].bits |= near << first;
-    next |= std::uint64_t{visit.first(group)} << first;
+    next |= std::uint64_t{visit.preferred_box(group)} << first;
   }
   for (;;) {
     while (next == 0) {
@@ -195,15 +204,15 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
     open[level].bits &= ~(std::uint64_t{1} << k);
     next = 0;
     if (level == 0) {
-      if (visit.take(item)) return true;
+      if (visit.visit_packet(item)) return true;
       continue;
     }
     --level;
     const std::size_t number = boxes.first[level] + item, first = item * kTreeWidth;
     const BoxGroup& group = boxes.groups[number];
-    next = visit.first(group);
-    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
-    if (open[level].bits != 0 && visit.look(number)) return true;
+    next = visit.preferred_box(group);
+    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.child_counts[level] - first, kTreeWidth))};
+    if (open[level].bits != 0 && visit.test_group(number)) return true;
   }
 }
 

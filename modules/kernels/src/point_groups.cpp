@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Records to groups. Two loads and a transpose per packet: the copy is bound by memory, not by shuffles.
+// Copies points to groups: a few loads and a transpose per packet. The copy is limited by memory, not by
+// shuffles.
 
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 
 #include "preconditions.h"
 #include "references.h"
@@ -14,7 +15,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "gather-inl.h"
+#include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -26,7 +27,7 @@ void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
   for_layout(points, [&]<Layout layout, typename T>() {
     T point[3];
     load_point(points, pad, point);
-    gather<layout, false>(points, point, reinterpret_cast<T*>(groups));
+    copy_to_groups<layout, false>(points, point, reinterpret_cast<T*>(groups));
   });
 }
 
@@ -40,7 +41,8 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 namespace {
 
-// The last valid point, from which the end of the last group is not far; the last one if none is valid.
+// Returns the index of the last valid point, which is mostly near the end; of the last point if none is
+// valid.
 std::size_t padding_point(const PointView& points) {
   for (std::size_t i = points.count; i-- > 0;) {
     if (is_valid(load_point(points, i))) return i;
@@ -63,7 +65,7 @@ void PointGroups::assign(const PointView& points, UsableIsa isa) {
   require_in_memory(points);
   const std::size_t points_per_group = kGroupBytes / size_of(points.scalar);
   const std::size_t groups = (points.count + points_per_group - 1) / points_per_group;
-  if (groups > groups_.capacity()) groups_.clear();  // nothing to carry over into new memory
+  if (groups > groups_.capacity()) groups_.clear();  // so that resize() copies no old contents
   groups_.resize(groups);
   size_ = points.count;
   scalar_ = points.scalar;

@@ -8,17 +8,17 @@
 
 namespace pcl_bv {
 
-void require_at_most(std::size_t most, std::size_t count, const char* what) {
-  if (count <= most) return;
-  throw std::invalid_argument("at most " + std::to_string(most) + ' ' + what + " at a time, not " +
-                              std::to_string(count));
+void require_at_most(std::size_t maximum, std::size_t count, const char* what) {
+  if (count <= maximum) return;
+  throw std::invalid_argument(std::to_string(count) + ' ' + what + " are too many; at most " +
+                              std::to_string(maximum) + " are allowed");
 }
 
-void require_in_memory(const PointView& points, std::size_t most) {
-  require_at_most(most, points.count, "points");
+void require_in_memory(const PointView& points, std::size_t maximum) {
+  require_at_most(maximum, points.count, "points");
   if (points.source != nullptr || (points.data == nullptr && points.count > 0)) {
     throw std::invalid_argument(
-        "kernels take points that are in memory: LoadedPoints brings a source's there");
+        "the points are not in memory; load them with LoadedPoints before calling a kernel");
   }
 }
 
@@ -30,15 +30,17 @@ void require_origin(const PointView& points, const Coordinates& origin) {
   throw std::invalid_argument("the origin must be a valid point of the view's scalar type");
 }
 
-void require_distances(const PointView& points, const DistanceCenter& center, std::size_t most) {
-  require_in_memory(points, most);
+void require_distances(const PointView& points, const DistanceCenter& center, std::size_t maximum) {
+  require_in_memory(points, maximum);
   if (points.scalar == ScalarType::float64 || center.scale == 1) return;
-  throw std::invalid_argument("distances of float points have scale 1, not " + std::to_string(center.scale));
+  throw std::invalid_argument("DistanceCenter::scale must be 1 for float points, not " +
+                              std::to_string(center.scale));
 }
 
-void require_bounds(const PointView& block, const KeptBounds& kept) {
-  if (block.scalar == ScalarType::float32 && kept.bounds != nullptr) return;
-  throw std::invalid_argument("list_reaching() needs the bounds that a scan of float points leaves");
+void require_scan_bounds(const PointView& block, const ScanBounds& scanned) {
+  if (block.scalar == ScalarType::float32 && scanned.bounds != nullptr) return;
+  throw std::invalid_argument(
+      "list_distant_by_bounds() needs a block of floats and the bounds that scan_octants() wrote for it");
 }
 
 }  // namespace pcl_bv

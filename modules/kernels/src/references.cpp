@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The references but for that of supports. Compiled with -O3 -fno-tree-vectorize, so that they stay what
-// benchmarks call scalar.
+// The scalar references except that of the supports. Compiled with -O3 -fno-tree-vectorize, so that they are
+// what benchmarks call scalar.
 
 #include "references.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "distance_squared.h"
 #include "region_tests.h"
 #include "run_extremes.h"
-#include "square.h"
 
 namespace pcl_bv {
 namespace {
 
-// call.operator()<T>() with the type of the coordinates.
+// Calls call.operator()<T>() with the view's scalar type.
 template <typename Call>
 auto for_scalar(const PointView& points, const Call& call) {
   if (points.scalar == ScalarType::float64) return call.template operator()<double>();
   return call.template operator()<float>();
 }
 
-// Writes those of the first `points` positions for which `listed` holds; returns how many.
+// Writes the positions below `points` for which listed(position) holds. Returns their number.
 template <typename Listed>
 std::size_t list_if(std::size_t points, std::uint32_t* positions, const Listed& listed) {
   std::size_t count = 0;
@@ -41,8 +41,8 @@ bool is_inside(const T (&p)[3], const HalfSpaces& inside) {
   if ((x * x + y * y) + z * z < static_cast<T>(inside.squared_ball)) return true;
   for (std::size_t k = 0; k < inside.count; ++k) {
     const HalfSpace& h = inside.planes[k];
-    const T reach = (static_cast<T>(h.x) * x + static_cast<T>(h.y) * y) + static_cast<T>(h.z) * z;
-    if (!(reach < static_cast<T>(h.limit))) return false;
+    const T projection = (static_cast<T>(h.x) * x + static_cast<T>(h.y) * y) + static_cast<T>(h.z) * z;
+    if (!(projection < static_cast<T>(h.limit))) return false;
   }
   return inside.count > 0;
 }
@@ -84,9 +84,9 @@ RegionState state_in_body(const RegionTest<T>& test, const T (&q)[3]) {
   if (test.shape == RegionShape::ball) return state_of(along(q, q), test.square_inner, test.square_outer);
   T excess = -std::numeric_limits<T>::infinity(), squares = 0;
   for (const SlabTest<T>& slab : test.slabs) {
-    const T reach = std::abs(along(slab.axis, q));
-    const T part = std::max(reach - slab.core, T(0)) * slab.weight;
-    excess = std::max(excess, reach - slab.slab);
+    const T projection = std::abs(along(slab.axis, q));
+    const T part = std::max(projection - slab.core, T(0)) * slab.weight;
+    excess = std::max(excess, projection - slab.slab);
     squares += part * part;
   }
   const RegionState flat = state_of(excess, -test.error, test.error);
@@ -97,33 +97,34 @@ RegionState state_in_body(const RegionTest<T>& test, const T (&q)[3]) {
 
 template <typename T>
 RegionState state_in_planes(const RegionTest<T>& test, const T (&q)[3]) {
-  const T doubt = ((std::abs(q[0]) + std::abs(q[1])) + std::abs(q[2])) * test.slope;
+  const T error_bound = ((std::abs(q[0]) + std::abs(q[1])) + std::abs(q[2])) * test.slope;
   RegionState state = RegionState::inside;
   for (const PlaneTest<T>& plane : test.planes) {
-    const T reach = along(plane.normal, q);
-    if (reach - doubt > plane.outer) return RegionState::outside;
-    if (!(reach + doubt <= plane.inner)) state = RegionState::unclear;
+    const T projection = along(plane.normal, q);
+    if (projection - error_bound > plane.outer) return RegionState::outside;
+    if (!(projection + error_bound <= plane.inner)) state = RegionState::unclear;
   }
   return state;
 }
 
 template <typename T>
 RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
-  const bool by_head = !test.vague && test.shape != RegionShape::box && test.shape != RegionShape::planes;
+  const bool by_head =
+      !test.undecidable && test.shape != RegionShape::box && test.shape != RegionShape::planes;
   T q[3];
   for (std::size_t k = 0; k < 3; ++k) {
     q[k] = p[k] - test.head[k];
-    const bool in_box = by_head ? test.shape == RegionShape::ball || std::abs(q[k]) <= test.reach[k]
+    const bool in_box = by_head ? test.shape == RegionShape::ball || std::abs(q[k]) <= test.max_offset[k]
                                 : p[k] >= test.low[k] && p[k] <= test.high[k];
     if (!in_box) return RegionState::outside;
     q[k] -= test.tail[k];
   }
-  if (test.vague) return RegionState::unclear;
+  if (test.undecidable) return RegionState::unclear;
   if (test.shape == RegionShape::box) return RegionState::inside;
   return test.shape == RegionShape::planes ? state_in_planes(test, q) : state_in_body(test, q);
 }
 
-// `test` says which region is the k-th one.
+// test(k) is the k-th region.
 template <typename T, typename Test>
 RegionState state_of_point(const RegionTestsOf<T>& all, std::size_t count, const Test& test,
                            const T (&p)[3]) {
@@ -139,11 +140,11 @@ RegionState state_of_point(const RegionTestsOf<T>& all, std::size_t count, const
   return result;
 }
 
-// Lets the point compete if it matters.
+// Updates the maximum of the point's octant if the point is valid and not nearer than the limit.
 void compete(const Coordinates& p, OctantScan& scan) {
-  const double d2 = square(p, scan.center);
+  const double d2 = distance_squared(p, scan.center);
   if (!(d2 >= scan.limit) || !is_valid(p)) return;
-  double& best = scan.greatest[octant(p, scan.center)];
+  double& best = scan.max_squared[octant(p, scan.center)];
   best = std::max(best, d2);
 }
 
@@ -177,7 +178,7 @@ void chosen_states_reference(const PointView& points, const RegionTests::Prepare
                              const ChosenRegions& chosen, std::uint8_t* states) {
   for_scalar(points, [&]<typename T>() {
     const RegionTestsOf<T>& all = regions.of<T>();
-    const auto test = [&](std::size_t k) -> const RegionTest<T>& { return all.regions[chosen.places[k]]; };
+    const auto test = [&](std::size_t k) -> const RegionTest<T>& { return all.regions[chosen.indices[k]]; };
     for (std::size_t i = 0; i < points.count; ++i) {
       T p[3];
       load_point(points, i, p);
@@ -240,12 +241,13 @@ Moments block_moments_reference(const PointView& block) {
     if (out.count == 0) out.origin = p;
     ++out.count;
   }
-  if (out.count > 0) sum_with_room(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
+  if (out.count > 0)
+    sum_without_underflow(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
   return out;
 }
 
 double squared_distance(const Coordinates& p, const DistanceCenter& center) {
-  return square(p, center);
+  return distance_squared(p, center);
 }
 
 std::size_t octant(const Coordinates& p, const DistanceCenter& center) {
@@ -256,18 +258,19 @@ std::size_t octant(const Coordinates& p, const DistanceCenter& center) {
 }
 
 void scan_octants_reference(const PointView& block, OctantScan& scan) {
-  scan.greatest.fill(-1);
+  scan.max_squared.fill(-1);
   for_scalar(block, [&]<typename T>() {
     for (std::size_t i = 0; i < block.count; ++i)
       compete(load_as<T>(block, i), scan);
   });
 }
 
-// Bounds only spare work: there are none here.
-std::size_t list_reaching_reference(const PointView& block, const KeptBounds& /*kept*/,
-                                    const DistanceCenter& center, double limit, std::uint32_t* positions) {
+// The bounds only save work: the reference ignores them.
+std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& /*scanned*/,
+                                             const DistanceCenter& center, double limit,
+                                             std::uint32_t* positions) {
   return list_if(block.count, positions,
-                 [&](std::size_t i) { return square(load_as<float>(block, i), center) >= limit; });
+                 [&](std::size_t i) { return distance_squared(load_as<float>(block, i), center) >= limit; });
 }
 
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
@@ -275,7 +278,7 @@ std::size_t list_distant_reference(const PointView& points, const DistanceCenter
   return for_scalar(points, [&]<typename T>() {
     return list_if(points.count, positions, [&](std::size_t i) {
       const Coordinates p = load_as<T>(points, i);
-      return square(p, center) >= limit && is_valid(p);
+      return distance_squared(p, center) >= limit && is_valid(p);
     });
   });
 }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scalar references: plain loops that say what the vectors of each kernel must agree with.
+// The scalar references: plain loops that define the result of each kernel.
 #pragma once
 
-#include "nearest_kept.h"
+#include "nearest_set.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
@@ -19,7 +19,7 @@ namespace pcl_bv {
 
 AxisExtents axis_extents_reference(const PointView& points);
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const ReachedSupports& reached, ChunkSupports& out);
+                              const SupportBounds& bounds, ChunkSupports& out);
 SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
                                    const std::array<Direction, 3>& axes);
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
@@ -30,28 +30,29 @@ void chosen_states_reference(const PointView& points, const RegionTests::Prepare
                              const ChosenRegions& chosen, std::uint8_t* states);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
-/// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.
+/// Writes the points as groups; point number `pad` (if there is any) fills the rest of the last group.
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
-std::size_t list_reaching_reference(const PointView& block, const KeptBounds& kept,
-                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
+std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& scanned,
+                                             const DistanceCenter& center, double limit,
+                                             std::uint32_t* positions);
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
                                    FloatFilter filter, std::uint32_t* positions);
 
 bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit);
 void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
                             std::vector<Neighbor>& found);
-void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept);
+void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestSet& kept);
 void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept);
 
 void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 Moments block_moments_reference(const PointView& block);
 
-/// Calls sum(moments) with the exponents that doubles may need, until the sums are not too small.
+/// Calls sum(moments) with growing exponents until the sum of squares is large enough; for floats once.
 template <typename Sum>
-void sum_with_room(ScalarType scalar, Moments& moments, const Sum& sum) {
+void sum_without_underflow(ScalarType scalar, Moments& moments, const Sum& sum) {
   for (moments.exponent = 0;; moments.exponent += 500) {
     sum(moments);
     const double squares = (moments.product[0] + moments.product[3]) + moments.product[5];

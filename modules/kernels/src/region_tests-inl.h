@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a region says of a packet of points, for the target being compiled.
+// Tests a packet of points against a region, for the target being compiled.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_REGION_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -24,8 +24,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Tests between two looks whether the others can still change anything.
-constexpr std::size_t kBetweenLooks = 4;
+// Number of tests between two checks whether further tests can change anything.
+constexpr std::size_t kTestsPerCheck = 4;
 
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE hn::Mask<D> lanes_in_box(D d, const T (&low)[3], const T (&high)[3], V<D> x, V<D> y, V<D> z) {
@@ -41,31 +41,31 @@ HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
                  hn::Mul(hn::Set(d, n[2]), z));
 }
 
-// Those that judge say which lanes are inside and which outside; of lanes that are not asked that means
-// nothing. Two masks, since vectors of SVE cannot be members.
+// The classify functions return which lanes are inside and which are outside; the results of lanes that need
+// no test are meaningless. Two masks instead of a struct, since SVE vectors cannot be members.
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
-                              hn::Mask<D>& outside) {
+HWY_INLINE void classify_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
+                                 hn::Mask<D>& outside) {
   inside = hn::Le(squares, hn::Set(d, test.square_inner));
   outside = hn::Gt(squares, hn::Set(d, test.square_outer));
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
-                           hn::Mask<D>& outside) {
-  judge_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
+HWY_INLINE void classify_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
+                              hn::Mask<D>& outside) {
+  classify_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE V<D> square_beyond(D d, const SlabTest<T>& slab, V<D> reach) {
-  const auto beyond = hn::Max(hn::Sub(reach, hn::Set(d, slab.core)), hn::Zero(d));
+HWY_INLINE V<D> square_beyond(D d, const SlabTest<T>& slab, V<D> projection) {
+  const auto beyond = hn::Max(hn::Sub(projection, hn::Set(d, slab.core)), hn::Zero(d));
   const auto weighted = hn::Mul(beyond, hn::Set(d, slab.weight));
   return hn::Mul(weighted, weighted);
 }
 
 template <bool slabs_only, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
-                           hn::Mask<D>& outside) {
+HWY_INLINE void classify_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
+                              hn::Mask<D>& outside) {
   const auto& [a, b, c] = test.slabs;
   const auto along_a = hn::Abs(along(d, a.axis, x, y, z));
   const auto along_b = hn::Abs(along(d, b.axis, x, y, z));
@@ -79,67 +79,68 @@ HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> 
     const auto squares = hn::Add(hn::Add(square_beyond(d, a, along_a), square_beyond(d, b, along_b)),
                                  square_beyond(d, c, along_c));
     hn::Mask<D> round_inside, round_outside;
-    judge_squares(d, test, squares, round_inside, round_outside);
+    classify_squares(d, test, squares, round_inside, round_outside);
     inside = hn::And(inside, round_inside);
     outside = hn::Or(outside, round_outside);
   }
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y, V<D> z,
-                             hn::Mask<D>& inside, hn::Mask<D>& outside) {
-  const auto doubt = hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
-  inside = asked;
-  outside = hn::AndNot(asked, asked);
+HWY_INLINE void classify_planes(D d, const RegionTest<T>& test, hn::Mask<D> tested, V<D> x, V<D> y, V<D> z,
+                                hn::Mask<D>& inside, hn::Mask<D>& outside) {
+  const auto error_bound =
+      hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
+  inside = tested;
+  outside = hn::AndNot(tested, tested);
   for (std::size_t k = 0; k < test.planes.size();) {
-    const std::size_t end = HWY_MIN(k + kBetweenLooks, test.planes.size());
+    const std::size_t end = HWY_MIN(k + kTestsPerCheck, test.planes.size());
     for (; k < end; ++k) {
       const PlaneTest<T>& plane = test.planes[k];
-      const auto reach = along(d, plane.normal, x, y, z);
-      inside = hn::And(inside, hn::Le(hn::Add(reach, doubt), hn::Set(d, plane.inner)));
-      outside = hn::Or(outside, hn::Gt(hn::Sub(reach, doubt), hn::Set(d, plane.outer)));
+      const auto projection = along(d, plane.normal, x, y, z);
+      inside = hn::And(inside, hn::Le(hn::Add(projection, error_bound), hn::Set(d, plane.inner)));
+      outside = hn::Or(outside, hn::Gt(hn::Sub(projection, error_bound), hn::Set(d, plane.outer)));
     }
-    if (hn::AllFalse(d, hn::AndNot(outside, asked))) break;
+    if (hn::AllFalse(d, hn::AndNot(outside, tested))) break;
   }
 }
 
-// Adds what one region says of the `near` lanes. Those that are inside of another one are asked, too: a
-// processor that need not wait for that answer takes 0.8 of the time where most packets are in several boxes
+// Adds the result of one region for the `near` lanes. Lanes inside another region are tested, too: without
+// the wait for that other result the processor takes 0.8 of the time if most packets are in several boxes
 // (AVX-512).
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<D> x, V<D> y, V<D> z,
                             hn::Mask<D>& inside, hn::Mask<D>& unclear) {
-  auto asked = near;
-  if (test.shape == RegionShape::box || test.shape == RegionShape::planes || test.vague) {
-    asked = hn::And(asked, lanes_in_box(d, test.low, test.high, x, y, z));
-    if (test.shape == RegionShape::box) inside = hn::Or(inside, asked);
-    if (test.vague) unclear = hn::Or(unclear, asked);
-    if (test.shape == RegionShape::box || test.vague) return;
+  auto tested = near;
+  if (test.shape == RegionShape::box || test.shape == RegionShape::planes || test.undecidable) {
+    tested = hn::And(tested, lanes_in_box(d, test.low, test.high, x, y, z));
+    if (test.shape == RegionShape::box) inside = hn::Or(inside, tested);
+    if (test.undecidable) unclear = hn::Or(unclear, tested);
+    if (test.shape == RegionShape::box || test.undecidable) return;
   }
   x = hn::Sub(x, hn::Set(d, test.head[0]));
   y = hn::Sub(y, hn::Set(d, test.head[1]));
   z = hn::Sub(z, hn::Set(d, test.head[2]));
-  if (test.shape == RegionShape::slabs || test.shape == RegionShape::body) {
-    asked = hn::And(hn::And(asked, hn::Le(hn::Abs(x), hn::Set(d, test.reach[0]))),
-                    hn::And(hn::Le(hn::Abs(y), hn::Set(d, test.reach[1])),
-                            hn::Le(hn::Abs(z), hn::Set(d, test.reach[2]))));
+  if (test.shape == RegionShape::slabs || test.shape == RegionShape::rounded) {
+    tested = hn::And(hn::And(tested, hn::Le(hn::Abs(x), hn::Set(d, test.max_offset[0]))),
+                     hn::And(hn::Le(hn::Abs(y), hn::Set(d, test.max_offset[1])),
+                             hn::Le(hn::Abs(z), hn::Set(d, test.max_offset[2]))));
   }
-  if (hn::AllFalse(d, asked)) return;
+  if (hn::AllFalse(d, tested)) return;
   x = hn::Sub(x, hn::Set(d, test.tail[0]));
   y = hn::Sub(y, hn::Set(d, test.tail[1]));
   z = hn::Sub(z, hn::Set(d, test.tail[2]));
   hn::Mask<D> in, out;
   if (test.shape == RegionShape::ball) {
-    judge_ball(d, test, x, y, z, in, out);
+    classify_ball(d, test, x, y, z, in, out);
   } else if (test.shape == RegionShape::slabs) {
-    judge_body<true>(d, test, x, y, z, in, out);
-  } else if (test.shape == RegionShape::body) {
-    judge_body<false>(d, test, x, y, z, in, out);
+    classify_body<true>(d, test, x, y, z, in, out);
+  } else if (test.shape == RegionShape::rounded) {
+    classify_body<false>(d, test, x, y, z, in, out);
   } else {
-    judge_planes(d, test, asked, x, y, z, in, out);
+    classify_planes(d, test, tested, x, y, z, in, out);
   }
-  inside = hn::Or(inside, hn::And(asked, in));
-  unclear = hn::Or(unclear, hn::AndNot(hn::Or(in, out), asked));
+  inside = hn::Or(inside, hn::And(tested, in));
+  unclear = hn::Or(unclear, hn::AndNot(hn::Or(in, out), tested));
 }
 
 template <Layout layout, class D>
@@ -162,7 +163,8 @@ HWY_INLINE void store_states(D d, hn::Mask<D> inside, hn::Mask<D> unclear, std::
   }
 }
 
-/// The states of points by `test_packet(d, near, x, y, z, inside, unclear)`, which adds what regions say.
+/// Writes the states of the points. test_packet(d, near, x, y, z, inside, unclear) adds the results of the
+/// regions for a packet.
 template <Layout layout, typename T, typename TestPacket>
 HWY_INLINE void states_by(const PointView& points, const RegionTestsOf<T>& all, std::uint8_t* states,
                           const TestPacket& test_packet) {
@@ -171,7 +173,7 @@ HWY_INLINE void states_by(const PointView& points, const RegionTestsOf<T>& all, 
   std::fill_n(states, points.count, std::uint8_t{0});  // outside
   for (std::size_t i = 0; i < points.count; i += lanes) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     const auto near = lanes_in_box(d, all.low, all.high, x, y, z);
     if (hn::AllFalse(d, near)) continue;
     auto inside = hn::AndNot(near, near), unclear = inside;

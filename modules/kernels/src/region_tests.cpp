@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the thresholds lie, docs/numerics.md derives.
+// The thresholds are derived in docs/numerics.md.
 
 #include "region_tests.h"
 
@@ -15,12 +15,12 @@
 namespace pcl_bv {
 namespace {
 
-// Relative to |q|_1, or to a radius: what T's roundings take, and what the caller's numbers may lack.
+// Error relative to |q|_1 or to a radius: of rounding in T, and of the caller's numbers.
 template <typename T>
-constexpr double kSlope = 16 * (sizeof(T) == 4 ? 0x1p-24 : kU) + 0x1p-42;
+constexpr double kSlope = 16 * (sizeof(T) == 4 ? 0x1p-24 : kUnitRoundoff) + 0x1p-42;
 
 template <typename T>
-constexpr double kLeast = static_cast<double>(std::numeric_limits<T>::denorm_min());
+constexpr double kSmallestDenormal = static_cast<double>(std::numeric_limits<T>::denorm_min());
 
 template <typename T>
 T up(double x) {
@@ -48,12 +48,12 @@ void set_box(const ConvexRegion& region, RegionTest<T>& test) {
   }
 }
 
-// The farthest |q| in the box, by coordinate.
-double reach(const ConvexRegion& region, std::size_t k) {
+// Returns the largest |q| in the box along an axis.
+double max_offset(const ConvexRegion& region, std::size_t k) {
   return std::max(region.center[k] - region.low[k], region.high[k] - region.center[k]);
 }
 
-// Returns what a distance is off by wherever the point is.
+// Sets the centre. Returns the part of the error of a distance that does not depend on the point.
 template <typename T>
 double set_center(const ConvexRegion& region, RegionTest<T>& test) {
   double lost = 0;
@@ -61,20 +61,22 @@ double set_center(const ConvexRegion& region, RegionTest<T>& test) {
     test.head[k] = static_cast<T>(region.center[k]);
     const double rest = region.center[k] - static_cast<double>(test.head[k]);
     test.tail[k] = static_cast<T>(rest);
-    test.reach[k] = up<T>((reach(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kLeast<T>);
+    test.max_offset[k] =
+        up<T>((max_offset(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kSmallestDenormal<T>);
     lost += std::abs(rest - static_cast<double>(test.tail[k])) + kSlope<T> * std::abs(rest);
   }
-  return 2 * lost + region.doubt + 16 * kLeast<T> + 0x1p-500;  // which Sphere::contains() adds to a radius
+  // Sphere::contains() adds 2^-500 to a radius.
+  return 2 * lost + region.surface_error + 16 * kSmallestDenormal<T> + 0x1p-500;
 }
 
 template <typename T>
 void set_body(const ConvexRegion& region, double off, RegionTest<T>& test) {
-  double extent = 0, place = 0;
+  double extent = 0, position = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    extent += reach(region, k);
-    place += std::abs(region.center[k]);
+    extent += max_offset(region, k);
+    position += std::abs(region.center[k]);
   }
-  test.vague = !(extent + place < kMost<T> / 16);
+  test.undecidable = !(extent + position < kMost<T> / 16);
   const double error = off + kSlope<T> * extent;
   test.error = up<T>(error);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -86,11 +88,12 @@ void set_body(const ConvexRegion& region, double off, RegionTest<T>& test) {
     slab.weight = static_cast<T>(region.weight[i]);
   }
   const double steepest = std::max({region.weight[0], region.weight[1], region.weight[2]});
-  const double doubt = 2 * steepest * error + 4 * kLeast<T>;
-  const double narrow = (region.radius - doubt) * (1 - kSlope<T>);
-  const double wide = (region.radius + doubt) * (1 + kSlope<T>);
-  test.square_inner = narrow > 0 ? down<T>(narrow * narrow * (1 - 0x1p-50) - 8 * kLeast<T>) : T(-1);
-  test.square_outer = up<T>(wide * wide * (1 + 0x1p-50) + 8 * kLeast<T>);
+  const double error_bound = 2 * steepest * error + 4 * kSmallestDenormal<T>;
+  const double narrow = (region.radius - error_bound) * (1 - kSlope<T>);
+  const double wide = (region.radius + error_bound) * (1 + kSlope<T>);
+  test.square_inner =
+      narrow > 0 ? down<T>(narrow * narrow * (1 - 0x1p-50) - 8 * kSmallestDenormal<T>) : T(-1);
+  test.square_outer = up<T>(wide * wide * (1 + 0x1p-50) + 8 * kSmallestDenormal<T>);
 }
 
 template <typename T>

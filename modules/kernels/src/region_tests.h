@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Regions in the points' own type, with the errors that rounding asks for.
+// Regions in the points' scalar type, with margins for rounding errors.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace pcl_bv {
 template <typename T>
 struct PlaneTest {
   T normal[3];
-  T inner, outer;  ///< Inside up to the inner one, outside above the outer one.
+  T inner, outer;  ///< Inside if n . q is at most `inner`, outside if it exceeds `outer`.
 };
 
 template <typename T>
@@ -25,20 +25,20 @@ struct SlabTest {
 template <typename T>
 struct RegionTest {
   RegionShape shape;
-  bool vague;  ///< Too large for sums of T: whatever is in the box is unclear.
+  bool undecidable;  ///< Coordinates are too large for sums in T: all points in the box are unclear.
   T low[3], high[3];
-  T head[3], tail[3];  ///< The centre: rounded, and what that left.
-  T reach[3];          ///< From the head to the farther side of the box.
+  T head[3], tail[3];  ///< The centre rounded to T, and the remainder.
+  T max_offset[3];     ///< Largest |p - head| in the box, by axis.
   SlabTest<T> slabs[3];
-  T error;  ///< Of distances along axes.
-  T square_inner, square_outer;
-  T slope;  ///< Of planes: what a point's |q|_1 adds to the error.
+  T error;                       ///< Error bound of distances along axes.
+  T square_inner, square_outer;  ///< For ball and rounded: squared radii, as `inner` and `outer` of a plane.
+  T slope;                       ///< For planes: the error bound grows by this times |q|_1 of the point.
   std::vector<PlaneTest<T>> planes;
 };
 
 template <typename T>
 struct RegionTestsOf {
-  T low[3], high[3];  ///< A box around all.
+  T low[3], high[3];  ///< A box around all regions.
   std::vector<RegionTest<T>> regions;
 };
 

@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// What Min and Max do with a NaN differs from set to set.
+// Compares explicitly: Min and Max treat a NaN differently from set to set.
 template <class D>
 HWY_INLINE void grow(D, V<D> v, V<D>& low, V<D>& high) {
   low = hn::IfThenElse(hn::Lt(v, low), v, low);
@@ -43,7 +43,7 @@ RunExtremes<T> extremes_of(const PointView& points, std::size_t begin) {
     } else {
       T pad[3];
       load_point(points, i, pad);
-      load_few(d, points, i, points.count - i, pad, x, y, z);
+      load_padded(d, points, i, points.count - i, pad, x, y, z);
     }
     grow(d, x, low_x, high_x);
     grow(d, y, low_y, high_y);

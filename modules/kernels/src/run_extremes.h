@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The minimum and maximum of a run before it is converted to a RunBox.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +12,14 @@
 
 namespace pcl_bv {
 
-/// A RunBox in the points' own type.
+/// A RunBox in the points' own scalar type.
 template <typename T>
 struct RunExtremes {
   static constexpr T kMost = std::numeric_limits<T>::infinity();
   T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
 
-  // Never -0: which of the two zeros is kept depends on the order.
+  // Returns the box. Adding 0 turns -0 into +0: which zero a minimum returns depends on the order of the
+  // points.
   RunBox box() const {
     RunBox box;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each block is laid out as groups first, with the origin, which changes no extreme, in the place of invalid
-// points and past the end: then all loads are alike, and the block stays in the first-level cache.
+// Each block is first copied to groups; the origin replaces invalid points and fills the last group, which
+// changes no extreme, since its projection is 0. So all loads are alike, and the block stays in the
+// first-level cache.
 
 #include "pcl_bv/kernels/slab_extents.h"
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "preconditions.h"
 #include "references.h"
 #include "targets.h"
@@ -16,7 +17,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "gather-inl.h"
+#include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -70,7 +71,7 @@ SlabExtents extents_of(const PointView& points, const Coordinates& origin,
   const T pad[3] = {static_cast<T>(origin.x), static_cast<T>(origin.y), static_cast<T>(origin.z)};
   for (std::size_t b = 0; b < block_count(points.count); ++b) {
     const PointView block = block_of(points, b);
-    gather<layout, true>(block, pad, groups);
+    copy_to_groups<layout, true>(block, pad, groups);
     grow_over_groups(groups, block.count, origin, axes, result);
   }
   return result;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FIND-k-DOP of the paper (Figure 2), once in the source, compiled for every instruction set.
+// FIND-k-DOP (Karlsson, Winberg and Larsson 2010, Figure 2): one source, compiled for every instruction set.
 
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/points/chunks.h"
 #include "references.h"
 #include "support_plan.h"
 #include "targets.h"
@@ -14,8 +14,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "lanes-inl.h"
-#include "reach-inl.h"
+#include "lane_projections-inl.h"
+#include "projection_extremes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Position of a direction of kCubeDirections among those of a set, or -1.
+// Returns the index in a set of a direction of kCubeDirections, or -1.
 constexpr int slot(DirectionSet set, std::size_t direction) {
   for (std::size_t k = 0; k < direction_count(set); ++k) {
     if (cube_direction(set, k) == direction) return static_cast<int>(k);
@@ -31,8 +31,8 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   return -1;
 }
 
-// The 13 projections of a packet, with the sums x + y and x - y shared. Named variables, not arrays: vectors
-// of SVE have no size that the compiler knows.
+// The 13 projections of a packet share the sums x + y and x - y. Named variables instead of arrays: the
+// compiler does not know the size of SVE vectors.
 // clang-format off
 #define PCL_BV_EACH_DIRECTION(DO)                                                                 \
   DO(0, x) DO(1, y) DO(2, z)                                                                      \
@@ -42,27 +42,27 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
 // clang-format on
 
 #define PCL_BV_DECLARE(i, projection)             \
-  [[maybe_unused]] auto low##i = no_low_reach(d); \
-  [[maybe_unused]] auto high##i = no_high_reach(d);
+  [[maybe_unused]] auto low##i = zero_minimum(d); \
+  [[maybe_unused]] auto high##i = zero_maximum(d);
 
-#define PCL_BV_STEP(i, projection)         \
-  if constexpr (slot(set, i) >= 0) {       \
-    const V<D> p = projection;             \
-    low##i = reach_lower(d, low##i, p);    \
-    high##i = reach_higher(d, high##i, p); \
+#define PCL_BV_STEP(i, projection)           \
+  if constexpr (slot(set, i) >= 0) {         \
+    const V<D> p = projection;               \
+    low##i = update_minimum(d, low##i, p);   \
+    high##i = update_maximum(d, high##i, p); \
   }
 
-#define PCL_BV_STORE(i, projection)                                           \
-  if constexpr (slot(set, i) >= 0) {                                          \
-    hn::Store(low_reach(d, low##i), d, reach + 2 * slot(set, i) * n);         \
-    hn::Store(high_reach(d, high##i), d, reach + (2 * slot(set, i) + 1) * n); \
+#define PCL_BV_STORE(i, projection)                                                         \
+  if constexpr (slot(set, i) >= 0) {                                                        \
+    hn::Store(minimum_magnitude(d, low##i), d, projections + 2 * slot(set, i) * n);         \
+    hn::Store(maximum_projection(d, high##i), d, projections + (2 * slot(set, i) + 1) * n); \
   }
 
-// What each lane of a block reaches at each end: lanes(d) numbers per end, ends after one another. Returns
-// whether all points are valid; if not, `reach` means nothing. With `masked`, invalid points are replaced by
-// the centre, which reaches 0, and counted.
+// Computes the maximum projection of each lane of a block for each support: lanes(d) numbers per support,
+// support after support. Returns whether all points are valid; if not, `projections` is meaningless. With
+// `masked`, invalid points are replaced by the centre, whose projection is 0, and counted.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
-bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
+bool project_lanes(D d, const PointView& block, const T* center, T* projections, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   [[maybe_unused]] auto total = hn::Zero(d);
@@ -82,23 +82,24 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
     return true;
   }
   dropped = 0;
-  const T room = room_around<T>(center);
-  return all_within(d, room, low0, high0) && all_within(d, room, low1, high1) &&
-         all_within(d, room, low2, high2) && sum_is_finite(d, total);
+  const T distance = valid_distance<T>(center);
+  return all_within(d, distance, low0, high0) && all_within(d, distance, low1, high1) &&
+         all_within(d, distance, low2, high2) && sum_is_finite(d, total);
 }
 
-// The pass over a chunk's blocks; returns how many points were dropped.
+// Passes over the blocks of a chunk. Returns the number of dropped points.
 template <Layout layout, DirectionSet set, typename T>
-std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneReach<T>& reach) {
+std::size_t project_blocks(const PointView& chunk, const T* center, const LaneProjections<T>& projections) {
   const Tag<T> d;
   std::size_t dropped = 0;
-  bool clean = true;  // where there was an invalid point there will be more
-  T* out = reach.values;
-  for (std::size_t begin = 0; begin < chunk.count; begin += reach.block_points, out += reach.per_block) {
-    const PointView block = chunk.slice(begin, HWY_MIN(reach.block_points, chunk.count - begin));
+  bool clean = true;  // where one point is invalid, others follow
+  T* out = projections.values;
+  for (std::size_t begin = 0; begin < chunk.count;
+       begin += projections.block_points, out += projections.per_block) {
+    const PointView block = chunk.slice(begin, HWY_MIN(projections.block_points, chunk.count - begin));
     std::size_t bad = 0;
-    if (!clean || !reach_of_block<layout, set, false>(d, block, center, out, bad)) {
-      reach_of_block<layout, set, true>(d, block, center, out, bad);
+    if (!clean || !project_lanes<layout, set, false>(d, block, center, out, bad)) {
+      project_lanes<layout, set, true>(d, block, center, out, bad);
       clean = bad == 0;
     }
     dropped += bad;
@@ -107,43 +108,44 @@ std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneR
 }
 
 template <Layout layout, DirectionSet set, typename T>
-void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
-  Spread spread;
-  if (!central_point(chunk, spread.center)) {
+void supports_of_chunk(const PointView& chunk, const SupportBounds& bounds, ChunkSupports& out) {
+  CenteredExtent extent;
+  if (!central_point(chunk, extent.center)) {
     out.dropped = chunk.count;
     return;
   }
-  const T c[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
-                  static_cast<T>(spread.center.z)};
-  constexpr std::size_t ends = 2 * direction_count(set);
-  // 104 KiB for floats, 208 for doubles, whatever the vectors.
-  HWY_ALIGN T values[kChunkPoints / kPackets * ends];
-  const LaneReach<T> reach(values, ends, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
-  out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
+  const T c[3] = {static_cast<T>(extent.center.x), static_cast<T>(extent.center.y),
+                  static_cast<T>(extent.center.z)};
+  constexpr std::size_t supports = 2 * direction_count(set);
+  // A 26-DOP takes 104 KiB for floats and 208 KiB for doubles, whatever the width of vectors.
+  HWY_ALIGN T values[kChunkPoints / kPackets * supports];
+  const LaneProjections<T> projections(values, supports,
+                                       packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
+  out.dropped = project_blocks<layout, set>(chunk, c, projections);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    spread.greatest[axis] = HWY_MAX(greatest_reach(reach, 2 * axis, chunk.count),
-                                    greatest_reach(reach, 2 * axis + 1, chunk.count));
+    extent.max_magnitude[axis] = HWY_MAX(max_over_lanes(projections, 2 * axis, chunk.count),
+                                         max_over_lanes(projections, 2 * axis + 1, chunk.count));
   }
-  search_ends<layout>(chunk, SupportDirections::of(set), reach, spread, reached, nullptr, out);
+  search_supports<layout>(chunk, SupportDirections::of(set), projections, extent, bounds, nullptr, out);
 }
 
 template <DirectionSet set>
-void supports_of(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
+void supports_of(const PointView& chunk, const SupportBounds& bounds, ChunkSupports& out) {
   for_layout(chunk,
-             [&]<Layout layout, typename T>() { supports_of_chunk<layout, set, T>(chunk, reached, out); });
+             [&]<Layout layout, typename T>() { supports_of_chunk<layout, set, T>(chunk, bounds, out); });
 }
 
-void cube_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+void cube_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& bounds,
                    ChunkSupports& out) {
   switch (*set.cube) {
     case DirectionSet::dop6:
-      return supports_of<DirectionSet::dop6>(chunk, reached, out);
+      return supports_of<DirectionSet::dop6>(chunk, bounds, out);
     case DirectionSet::dop14:
-      return supports_of<DirectionSet::dop14>(chunk, reached, out);
+      return supports_of<DirectionSet::dop14>(chunk, bounds, out);
     case DirectionSet::dop18:
-      return supports_of<DirectionSet::dop18>(chunk, reached, out);
+      return supports_of<DirectionSet::dop18>(chunk, bounds, out);
     case DirectionSet::dop26:
-      return supports_of<DirectionSet::dop26>(chunk, reached, out);
+      return supports_of<DirectionSet::dop26>(chunk, bounds, out);
   }
 }
 
@@ -157,9 +159,9 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                   const ReachedSupports& reached, ChunkSupports& out) {
+                   const SupportBounds& bounds, ChunkSupports& out) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(cube_supports, &chunk_supports_reference);
-  kTable[isa](chunk, set, reached, out);
+  kTable[isa](chunk, set, bounds, out);
 }
 
 }  // namespace pcl_bv

@@ -42,7 +42,7 @@ void SupportDirections::add(const Direction& direction) {
   }
   const Direction size = magnitudes(direction);
   const double largest = std::max({size[0], size[1], size[2]});
-  // Sums say whether a component is a NaN, which a maximum may lose.
+  // The maximum may lose a NaN; the sum does not.
   if (!(largest >= 1e-30 && largest <= 1e30) || !std::isfinite((size[0] + size[1]) + size[2])) {
     throw std::invalid_argument("direction " + std::to_string(count) +
                                 " must be finite with its largest component from 1e-30 to 1e30");
@@ -55,25 +55,25 @@ void SupportDirections::add(const Direction& direction) {
   ++count;
 }
 
-Direction SupportDirections::end_direction(std::size_t end) const {
-  return opposite_if(end % 2 == 0, exact[end / 2]);
+Direction SupportDirections::support_direction(std::size_t support) const {
+  return opposite_if(support % 2 == 0, exact[support / 2]);
 }
 
-Direction SupportDirections::scaled_end_direction(std::size_t end) const {
-  return opposite_if(end % 2 == 0, scaled[end / 2]);
+Direction SupportDirections::scaled_support_direction(std::size_t support) const {
+  return opposite_if(support % 2 == 0, scaled[support / 2]);
 }
 
-void keep_farther(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
+void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
   if (!other.found) return;
-  // Many equal points (a cloud of one value, dead beams) need no arithmetic.
+  // Many equal points (a cloud of one value, beams without a return) need no arithmetic.
   const int order = !best.found                 ? 1
                     : other.point == best.point ? 0
                                                 : compare_along(direction, other.point, best.point);
   if (order > 0 || (order == 0 && other.index < best.index)) best = other;
 }
 
-double surely_reached(const SupportDirections& set, std::size_t end, const Coordinates& point) {
-  const Direction scaled = set.scaled_end_direction(end);
+double projection_lower_bound(const SupportDirections& set, std::size_t support, const Coordinates& point) {
+  const Direction scaled = set.scaled_support_direction(support);
   return dot3(scaled, point) - double_error(scaled, point);
 }
 

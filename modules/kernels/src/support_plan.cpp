@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The bounds that docs/numerics.md derives.
+// The error bounds are derived in docs/numerics.md.
 
 #include "support_plan.h"
 
@@ -11,15 +11,15 @@
 #include <cstring>
 #include <limits>
 
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/points/chunks.h"
 #include "preconditions.h"
 
 namespace pcl_bv {
-// Of eight points the one nearest to their mean. At an end where the centre is the farthest point, zero is
-// what every lane reaches, and all points have to be looked at: 0.4 us for 300.
+// Takes, of eight points, the one nearest to their mean. A centre that is itself a support point makes the
+// maximum 0, which every lane has; then all points have to be compared: 0.4 us for 300.
 bool central_point(const PointView& points, Coordinates& center) {
   constexpr std::size_t samples = 8;
   std::array<Coordinates, samples> sample;
@@ -49,19 +49,19 @@ bool central_point(const PointView& points, Coordinates& center) {
   return false;
 }
 
-SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread,
+SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const CenteredExtent& extent,
                          ScalarType scalar)
-    : scaled_(set.scaled[direction]), center_(spread.center), is_float_(scalar == ScalarType::float32) {
-  const double unit = is_float_ ? 0x1p-24 : kU;
+    : scaled_(set.scaled[direction]), center_(extent.center), is_float_(scalar == ScalarType::float32) {
+  const double unit = is_float_ ? 0x1p-24 : kUnitRoundoff;
   const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
   const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
-  const auto& s = spread.greatest;
+  const auto& s = extent.max_magnitude;
   const auto flat = [&](std::size_t axis) { return set.exact[direction][axis] == 0 || s[axis] == 0; };
-  constant_ = flat(0) && flat(1) && flat(2);  // p - c is 0 only if p is c
+  constant_ = flat(0) && flat(1) && flat(2);  // p - c rounds to 0 only if p is c
   size_ = dot3(magnitudes(scaled_), s);
-  overflow_ = !(size_ <= 0.99 * greatest);  // of infinite spreads it may be NaN
+  overflow_ = !(size_ <= 0.99 * greatest);  // size_ may be NaN for infinite extents
   if (set.cube) {
-    // Only additions. A single term cannot swap two points, since x - c is monotone.
+    // Projections need additions only. Those of one term keep the order of points, since x - c is monotone.
     const double terms = taxicab3(scaled_);
     error_ = 4 * unit * size_;
     pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size_;
@@ -71,19 +71,19 @@ SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, co
   }
 }
 
-bool SupportPlan::reaches(bool high, double top, double reached) const {
-  if (reached == -kInfinity) return true;
+bool SupportPlan::may_exceed(bool high, double top, double bound) const {
+  if (bound == -kInfinity) return true;
   const double offset = dot3(scaled_, center_);
   const double error = error_ + 0x1p-49 * size_ + double_error(scaled_, center_);
-  return !(top + (high ? offset : -offset) + error < reached);
+  return !(top + (high ? offset : -offset) + error < bound);
 }
 
-EndSearch SupportPlan::of(bool high, double top, double reached) const {
-  if (constant_) return {EndSearch::Kind::every, 0};
-  if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // sums say nothing
-  if (!reaches(high, top, reached)) return {EndSearch::Kind::none, 0};
+SupportCandidates SupportPlan::of(bool high, double top, double bound) const {
+  if (constant_) return {SupportCandidates::Kind::every, 0};
+  if (overflow_) return {SupportCandidates::Kind::some, -kInfinity};  // overflowing sums decide nothing
+  if (!may_exceed(high, top, bound)) return {SupportCandidates::Kind::none, 0};
   const double threshold = top - pair_error_;
-  return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
+  return {SupportCandidates::Kind::some, is_float_ ? float_down(threshold) : threshold};
 }
 
 SupportPoint first_valid_point(const PointView& points) {
@@ -109,29 +109,31 @@ T loaded(const std::byte* from) {
 }  // namespace
 
 template <typename T>
-SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
-                            const RoundedFilter& filter)
-    : points_(points), direction_(set.end_direction(end)), threshold_(static_cast<T>(filter.threshold)) {
-  const Direction scaled = set.scaled_end_direction(end);
+ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const SupportDirections& set,
+                                          std::size_t support, const RoundedFilter& filter)
+    : points_(points),
+      direction_(set.support_direction(support)),
+      threshold_(static_cast<T>(filter.threshold)) {
+  const Direction scaled = set.scaled_support_direction(support);
   const Coordinates& center = filter.center;
   for (std::size_t axis = 0; axis < 3; ++axis)
     scaled_[axis] = static_cast<T>(scaled[axis]);
   center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
 
-// Of each 64 points first which pass, as bits: a branch for each point costs more than its arithmetic.
-// `address` gives where a point's x is, `gap` the bytes from there to y and on to z.
+// Finds, for 64 points at a time, which pass, as bits: a branch per point costs more than its arithmetic.
+// `address` returns the address of a point's x; y is `gap` bytes after x, z `gap` bytes after y.
 template <typename T>
 template <typename Address>
-void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
-                                  std::size_t step, std::size_t last, SupportPoint& best) const {
+void ExactSupportSearch<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
+                                         std::size_t step, std::size_t last, SupportPoint& best) const {
   const T a = scaled_[0], b = scaled_[1], c = scaled_[2];
   const T x = center_[0], y = center_[1], z = center_[2];
   const T threshold = threshold_;
   const auto passes = [&](std::size_t i) {
     const std::byte* p = address(i);
     const T sum = (a * (loaded<T>(p) - x) + b * (loaded<T>(p + gap) - y)) + c * (loaded<T>(p + 2 * gap) - z);
-    return !(sum < threshold);  // an overflown sum may be NaN
+    return !(sum < threshold);  // an overflowing sum may be NaN
   };
   for (std::size_t begin = first; begin < last; begin += 64 * step) {
     std::uint64_t passing = 0;
@@ -144,14 +146,14 @@ void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::
 }
 
 template <typename T>
-void SupportLook<T>::compete(std::size_t i, SupportPoint& best) const {
+void ExactSupportSearch<T>::compete(std::size_t i, SupportPoint& best) const {
   const Coordinates point = load_point(points_, i);
-  if (is_valid(point)) keep_farther(direction_, {true, point, points_.index(i)}, best);
+  if (is_valid(point)) keep_larger_projection(direction_, {true, point, points_.index(i)}, best);
 }
 
 template <typename T>
-void SupportLook<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
-                                SupportPoint& best) const {
+void ExactSupportSearch<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
+                                       SupportPoint& best) const {
   if (first >= last) return;
   if (points_.order == PointOrder::records && points_.indices == nullptr) {
     const auto address = [data = points_.data, stride = points_.stride](std::size_t i) {
@@ -164,15 +166,15 @@ void SupportLook<T>::operator()(std::size_t first, std::size_t step, std::size_t
   }
 }
 
-template class SupportLook<float>;
-template class SupportLook<double>;
+template class ExactSupportSearch<float>;
+template class ExactSupportSearch<double>;
 
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                    const ReachedSupports& reached, ChunkSupports& out) {
+                    const SupportBounds& bounds, ChunkSupports& out) {
   require_in_memory(chunk, kChunkPoints);
   require_at_most(kMaxSupportDirections, set.count, "directions");
   out = ChunkSupports();
-  (set.cube ? cube_supports : own_supports)(isa, chunk, set, reached, out);
+  (set.cube ? cube_supports : general_supports)(isa, chunk, set, bounds, out);
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the vectors are told before their pass over points, and what follows from it.
+// Error bounds of the float pass over points, and the exact comparison of the points that may be supports.
 #pragma once
 
 #include <array>
@@ -18,72 +18,75 @@ Direction magnitudes(const Vector& v) {
   return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
 }
 
-/// How far the double dot product of a scaled direction and a point may be off: its own rounding, that of the
-/// direction's tiny components, underflow.
+/// Bounds the error of a dot product in double of a scaled direction and a point: its own rounding, the
+/// rounding of the direction's tiny components, and underflow.
 inline double double_error(const Direction& scaled, const Coordinates& p) {
   return (0x1p-50 * dot3(magnitudes(scaled), magnitudes(p)) + 0x1p-1074 * taxicab3(p)) + kSmallestNormal;
 }
 
-/// A valid point amid the others, to which projections are relative: then zero is reached at every end, and
-/// rounding errors are those of the extent, not of the place (UTM). False if there is no valid point.
+/// Finds a valid point in the middle of the others; the kernels project relative to it. Then no support is
+/// below 0, and rounding errors depend on the extent of the points, not on their position (UTM). Returns
+/// false if no point is valid.
 bool central_point(const PointView& points, Coordinates& center);
 
-/// What the pass over some points saw.
-struct Spread {
+/// The centre and the extent of the points that a pass has projected.
+struct CenteredExtent {
   Coordinates center{};
-  std::array<double, 3> greatest{};  ///< Magnitudes of p - center, as rounded.
+  std::array<double, 3> max_magnitude{};  ///< Largest magnitudes of p - center, as rounded.
 };
 
-/// What is left to look at for one end.
-struct EndSearch {
+/// Which points must be compared exactly for one support.
+struct SupportCandidates {
   enum class Kind {
-    none,   ///< The end cannot beat `reached`.
+    none,   ///< No point: the support cannot exceed its bound.
     every,  ///< All valid points have exactly the same projection.
     some    ///< The points whose rounded projection is at least the threshold.
   };
   Kind kind = Kind::none;
-  double threshold = 0;  ///< A value of the view's scalar type.
+  double threshold = 0;  ///< Of the view's scalar type.
 };
 
-/// What follows for the two ends of a direction. Keeps the set and the spread.
+/// The searches that follow for the two supports of a direction. Stores references to the set and the extent.
 class SupportPlan {
  public:
-  SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread, ScalarType scalar);
+  SupportPlan(const SupportDirections& set, std::size_t direction, const CenteredExtent& extent,
+              ScalarType scalar);
 
-  /// `top` is the greatest rounded projection of p - center at the end, `reached` as ReachedSupports has it.
-  EndSearch of(bool high, double top, double reached) const;
+  /// Returns the search for the maximum if `high`, else for the minimum. `top` is the largest rounded
+  /// projection of p - center on that side, `bound` the value of SupportBounds.
+  SupportCandidates of(bool high, double top, double bound) const;
 
  private:
-  bool reaches(bool high, double top, double reached) const;
+  bool may_exceed(bool high, double top, double bound) const;
 
   const Direction& scaled_;
   const Coordinates& center_;
   bool is_float_;
   bool constant_;
   bool overflow_;
-  double size_;        // what a projection of p - center can be
-  double error_;       // of such a projection
-  double pair_error_;  // of the difference of two
+  double size_;        // bound of a projection of p - center
+  double error_;       // bound of its error
+  double pair_error_;  // bound of the error of the difference of two
 };
 
-/// Which points are worth an exact look: those whose rounded projection, relative to `center` and in the
-/// view's scalar type, is at least `threshold` (a value of that type).
+/// Selects the points that are compared exactly: those whose rounded projection, relative to `center` and in
+/// the view's scalar type, is at least `threshold` (a value of that type).
 struct RoundedFilter {
   Coordinates center;
   double threshold;
 };
 
-/// The valid point with the smallest index: what competes for an end at which all are equal.
+/// Returns the valid point with the smallest index: the support if all projections are equal.
 SupportPoint first_valid_point(const PointView& points);
 
-/// An exact look at points of one end. T is the scalar of the points. Keeps the points.
+/// Compares points exactly for one support. T is the points' scalar type. Stores a reference to the points.
 template <typename T>
-class SupportLook {
+class ExactSupportSearch {
  public:
-  SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
-              const RoundedFilter& filter);
+  ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t support,
+                     const RoundedFilter& filter);
 
-  /// Lets `best` compete with those valid points first, first + step, ... below `last` that pass the filter.
+  /// Updates `best` with the valid points among first, first + step, ... below `last` that pass the filter.
   void operator()(std::size_t first, std::size_t step, std::size_t last, SupportPoint& best) const;
 
  private:
@@ -98,10 +101,10 @@ class SupportLook {
   std::array<T, 3> scaled_, center_;
 };
 
-/// The kernels behind chunk_supports(): for the directions of the cube and for others.
+/// The kernels of chunk_supports(): for the directions of the cube and for others.
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                   const ReachedSupports& reached, ChunkSupports& out);
-void own_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const ReachedSupports& reached, ChunkSupports& out);
+                   const SupportBounds& bounds, ChunkSupports& out);
+void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                      const SupportBounds& bounds, ChunkSupports& out);
 
 }  // namespace pcl_bv

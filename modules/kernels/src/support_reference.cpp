@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scalar reference: one point at a time into local accumulators, along the cube's directions with the paper's
-// shared sums x + y and x - y, then a second look at the blocks that can hold a support point. Compiled with
-// -O3 -fno-tree-vectorize, so that it stays what benchmarks call scalar.
+// Scalar reference of the supports. Projects one point at a time into local accumulators, on the cube's
+// directions with the shared sums x + y and x - y; then inspects again the blocks that can hold a support
+// point. Compiled with -O3 -fno-tree-vectorize, so that it is what benchmarks call scalar.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "references.h"
 
 namespace pcl_bv {
@@ -19,9 +19,9 @@ template <typename T>
 constexpr T limit = sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max())
                                    : static_cast<T>(1e100);
 
-// The projections along the cube's directions, in the arithmetic of the points.
+// Projects on the cube's directions, in the points' scalar type.
 template <DirectionSet set>
-struct AlongCube {
+struct CubeProjections {
   static constexpr std::size_t count = direction_count(set);
 
   template <typename T>
@@ -49,8 +49,8 @@ struct AlongCube {
   }
 };
 
-// Along any directions, in double; first along the axes, for the magnitudes.
-struct AlongOwn {
+// Projects on any directions, in double; first on the axes, whose extremes give the magnitudes.
+struct GeneralProjections {
   const SupportDirections& set;
   std::size_t count = 3 + set.count;
 
@@ -63,64 +63,66 @@ struct AlongOwn {
   }
 };
 
-// Least and greatest projection of one block's valid points.
+// Minimum and maximum projections of the valid points of a block.
 template <typename T>
 struct Block {
   T low[3 + kMaxSupportDirections] = {};
   T high[3 + kMaxSupportDirections] = {};
 
-  double reach(std::size_t end) const { return end % 2 == 0 ? -low[end / 2] : high[end / 2]; }
+  double support_value(std::size_t support) const {
+    return support % 2 == 0 ? -low[support / 2] : high[support / 2];
+  }
 };
 
-template <typename T, typename Along, typename Load>
-std::size_t project_block(std::size_t points, const Load& load, const Along& along, Block<T>& out) {
+template <typename T, typename Project, typename Load>
+std::size_t project_block(std::size_t points, const Load& load, const Project& project, Block<T>& out) {
   T low[3 + kMaxSupportDirections];
   T high[3 + kMaxSupportDirections];
-  std::fill_n(low, along.count, std::numeric_limits<T>::infinity());
-  std::fill_n(high, along.count, -std::numeric_limits<T>::infinity());
+  std::fill_n(low, project.count, std::numeric_limits<T>::infinity());
+  std::fill_n(high, project.count, -std::numeric_limits<T>::infinity());
   std::size_t dropped = 0;
   for (std::size_t i = 0; i < points; ++i) {
     T v[3];
     load(i, v);
     const T x = std::abs(v[0]), y = std::abs(v[1]), z = std::abs(v[2]);
-    // One test for nearly all: a sum that is small enough has valid terms.
+    // One test for nearly all points: if the sum is small enough, its terms are valid.
     if (!(x + y + z <= limit<T>)&&!(x <= limit<T> && y <= limit<T> && z <= limit<T>)) {
       ++dropped;
       continue;
     }
     T p[3 + kMaxSupportDirections];
-    along(v[0], v[1], v[2], p);
-    for (std::size_t k = 0; k < along.count; ++k) {
+    project(v[0], v[1], v[2], p);
+    for (std::size_t k = 0; k < project.count; ++k) {
       low[k] = p[k] < low[k] ? p[k] : low[k];
       high[k] = p[k] > high[k] ? p[k] : high[k];
     }
   }
-  std::copy_n(low, along.count, out.low);
-  std::copy_n(high, along.count, out.high);
+  std::copy_n(low, project.count, out.low);
+  std::copy_n(high, project.count, out.high);
   return dropped;
 }
 
-// T may be double for points that are floats.
-template <typename T, typename Along>
-std::size_t project_block(const PointView& points, const Along& along, Block<T>& out) {
+// T may be double for float points.
+template <typename T, typename Project>
+std::size_t project_block(const PointView& points, const Project& project, Block<T>& out) {
   const bool stored = points.scalar == (sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64);
   if (stored && points.order == PointOrder::records && points.indices == nullptr) {
     const auto load = [data = points.data, stride = points.stride](std::size_t i, T(&v)[3]) {
       std::memcpy(v, data + stride * i, sizeof v);
     };
-    return project_block<T>(points.count, load, along, out);
+    return project_block<T>(points.count, load, project, out);
   }
   const auto load = [&](std::size_t i, T(&v)[3]) {
     const Coordinates p = load_point(points, i);
     v[0] = static_cast<T>(p.x), v[1] = static_cast<T>(p.y), v[2] = static_cast<T>(p.z);
   };
-  return project_block<T>(points.count, load, along, out);
+  return project_block<T>(points.count, load, project, out);
 }
 
-// How far the projections of two points, of coordinates up to `m` in magnitude, may be off together. Of the
-// cube: u per addition for each, and once more for the difference itself and its rounding; sums that may
-// overflow say nothing. Of others: each 3.01 * 2^-53 of the magnitudes; then what underflow may take from
-// products and from the direction's tiny components.
+// Bounds the error of the difference of the projections of two points, whose coordinates are at most `m` in
+// magnitude. Cube: u per addition for each point, and u more for the difference and its rounding; infinite if
+// sums may overflow. Other directions: 3.01 * 2^-53 of the magnitudes for each point, and the underflow of
+// products and of the direction's tiny components.
 template <typename T>
 double pair_error(const SupportDirections& set, std::size_t k, const Coordinates& m) {
   const Direction& d = set.scaled[k];
@@ -133,59 +135,60 @@ double pair_error(const SupportDirections& set, std::size_t k, const Coordinates
   return (terms == 2 ? 4.1 : 6.1) * (sizeof(T) == 4 ? 0x1p-24 : 0x1p-53) * size;
 }
 
-void search(const PointView& block, const SupportDirections& set, std::size_t end, double threshold,
+void search(const PointView& block, const SupportDirections& set, std::size_t support, double threshold,
             SupportPoint& best) {
-  const Direction exact = set.end_direction(end), d = set.scaled_end_direction(end);
+  const Direction exact = set.support_direction(support), d = set.scaled_support_direction(support);
   for (std::size_t i = 0; i < block.count; ++i) {
     const Coordinates p = load_point(block, i);
     if (!is_valid(p) || (d[0] * p.x + d[1] * p.y) + d[2] * p.z < threshold) continue;
-    keep_farther(exact, {true, p, block.index(i)}, best);
+    keep_larger_projection(exact, {true, p, block.index(i)}, best);
   }
 }
 
-// `first` is the number of the end 0 among those of the blocks.
-template <typename T, typename Along>
-void supports(const PointView& chunk, const SupportDirections& set, const Along& along, std::size_t first,
-              const ReachedSupports& reached, ChunkSupports& out) {
+// `first` is the number of the first support of `set` in a Block: 6 for GeneralProjections, which projects on
+// the three axes first.
+template <typename T, typename Project>
+void supports(const PointView& chunk, const SupportDirections& set, const Project& project, std::size_t first,
+              const SupportBounds& bounds, ChunkSupports& out) {
   Block<T> blocks[kChunkPoints / kBlockPoints];
   const std::size_t count = block_count(chunk.count);
   for (std::size_t b = 0; b < count; ++b)
-    out.dropped += project_block(block_of(chunk, b), along, blocks[b]);
+    out.dropped += project_block(block_of(chunk, b), project, blocks[b]);
   if (out.dropped == chunk.count) return;
-  const auto top = [&](std::size_t end) {
-    double greatest = blocks[0].reach(end);
+  const auto top = [&](std::size_t support) {
+    double greatest = blocks[0].support_value(support);
     for (std::size_t b = 1; b < count; ++b)
-      greatest = std::max(greatest, blocks[b].reach(end));
+      greatest = std::max(greatest, blocks[b].support_value(support));
     return greatest;
   };
   const auto magnitude = [&](std::size_t axis) {
     return std::max(std::abs(top(2 * axis)), std::abs(top(2 * axis + 1)));
   };
   const Coordinates greatest{magnitude(0), magnitude(1), magnitude(2)};
-  for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    const double reach = top(first + end), error = pair_error<T>(set, end / 2, greatest);
-    if (reach + error < reached[end]) continue;
-    const double threshold = std::isinf(error) ? -error : reach - error;
+  for (std::size_t support = 0; support < 2 * set.count; ++support) {
+    const double maximum = top(first + support), error = pair_error<T>(set, support / 2, greatest);
+    if (maximum + error < bounds[support]) continue;
+    const double threshold = std::isinf(error) ? -error : maximum - error;
     for (std::size_t b = 0; b < count; ++b) {
-      if (blocks[b].reach(first + end) >= threshold)
-        search(block_of(chunk, b), set, end, threshold, out.ends[end]);
+      if (blocks[b].support_value(first + support) >= threshold)
+        search(block_of(chunk, b), set, support, threshold, out.supports[support]);
     }
   }
 }
 
 template <DirectionSet cube>
-void supports_of(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+void supports_of(const PointView& chunk, const SupportDirections& set, const SupportBounds& bounds,
                  ChunkSupports& out) {
   if (chunk.scalar == ScalarType::float32)
-    return supports<float>(chunk, set, AlongCube<cube>(), 0, reached, out);
-  supports<double>(chunk, set, AlongCube<cube>(), 0, reached, out);
+    return supports<float>(chunk, set, CubeProjections<cube>(), 0, bounds, out);
+  supports<double>(chunk, set, CubeProjections<cube>(), 0, bounds, out);
 }
 
 template <typename T>
 AxisExtents axis_extents_of(const PointView& points) {
   Block<T> block;
   AxisExtents out;
-  out.dropped = project_block(points, AlongCube<DirectionSet::dop6>(), block);
+  out.dropped = project_block(points, CubeProjections<DirectionSet::dop6>(), block);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     out.low[axis] = block.low[axis] + 0.0;
     out.high[axis] = block.high[axis] + 0.0;
@@ -196,17 +199,17 @@ AxisExtents axis_extents_of(const PointView& points) {
 }  // namespace
 
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const ReachedSupports& reached, ChunkSupports& out) {
-  if (!set.cube) return supports<double>(chunk, set, AlongOwn{set}, 6, reached, out);
+                              const SupportBounds& bounds, ChunkSupports& out) {
+  if (!set.cube) return supports<double>(chunk, set, GeneralProjections{set}, 6, bounds, out);
   switch (*set.cube) {
     case DirectionSet::dop6:
-      return supports_of<DirectionSet::dop6>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop6>(chunk, set, bounds, out);
     case DirectionSet::dop14:
-      return supports_of<DirectionSet::dop14>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop14>(chunk, set, bounds, out);
     case DirectionSet::dop18:
-      return supports_of<DirectionSet::dop18>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop18>(chunk, set, bounds, out);
     case DirectionSet::dop26:
-      return supports_of<DirectionSet::dop26>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop26>(chunk, set, bounds, out);
   }
 }
 

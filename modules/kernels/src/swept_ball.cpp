@@ -11,7 +11,7 @@ namespace pcl_bv {
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
     : from(start), radius(r) {
-  // Boxes and points beyond 2^60 times the cloud's size: there floats tell nothing.
+  // Floats are not precise enough for boxes and points beyond 2^60 times the size of the cloud.
   constexpr double kFar = 0x1p60;
   const int exponent =
       std::ilogb(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
@@ -21,17 +21,17 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
   unit = {slope[0] / length, slope[1] / length, slope[2] / length};
   double size = 1 + radius * boxes.scale;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double place = (from[k] - boxes.origin[k]) * boxes.scale;
-    size += std::abs(place);
-    origin[k] = static_cast<float>(std::clamp(place, -kFar, kFar));
-    // A slope below 2^-40 is taken for that: it moves a place by no more than pad.
+    const double position = (from[k] - boxes.origin[k]) * boxes.scale;
+    size += std::abs(position);
+    origin[k] = static_cast<float>(std::clamp(position, -kFar, kFar));
+    // A slope below 2^-40 is replaced by 2^-40: this moves a position by less than the margin.
     inverse[k] =
         static_cast<float>(1 / (slope[k] < 0 ? std::min(slope[k], -0x1p-40) : std::max(slope[k], 0x1p-40)));
   }
   time = std::ldexp(boxes.scale, exponent);
-  pad = static_cast<float>(radius * boxes.scale + 0x1p-16 * size);
+  margin = static_cast<float>(radius * boxes.scale + 0x1p-16 * size);
   if (size < kFar && std::isfinite(time) && time > 0x1p-960) return;
-  pad = std::numeric_limits<float>::infinity();
+  margin = std::numeric_limits<float>::infinity();
   time = 1;
 }
 

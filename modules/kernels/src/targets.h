@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What Highway compiles, and how a target is found by name. Include before any Highway header.
+// Highway's targets that are compiled, and the lookup of a kernel by instruction set. Include before any
+// Highway header.
 #pragma once
 
 // SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference; the specialised targets repeat the general
-// ones. From 1.0.5 on Highway's NEON asks for AES instructions, which a Raspberry Pi 4 lacks and no kernel
-// uses.
+// ones. From version 1.0.5 on, Highway's NEON target requires AES instructions, which a Raspberry Pi 4 lacks
+// and no kernel uses.
 #define HWY_DISABLED_TARGETS                                                                                \
   (HWY_SSE2 | HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3_ZEN4 | HWY_AVX3_SPR | PCL_BV_NEON_WITH_AES | HWY_SVE_256 | \
    HWY_SVE2_128)
-#define HWY_BROKEN_EMU128 1  // where there is no SIMD, our scalar reference serves
+#define HWY_BROKEN_EMU128 1  // without SIMD the scalar reference runs
 
 #include <hwy/detect_targets.h>
 
@@ -23,7 +24,7 @@
 #define PCL_BV_NEON_WITH_AES 0
 #define PCL_BV_CHOOSE_NEON HWY_CHOOSE_NEON
 #endif
-// Targets that an older Highway does not know.
+// Targets unknown to older versions of Highway.
 #if !defined(HWY_SSE2)
 #define HWY_SSE2 0
 #endif
@@ -39,11 +40,11 @@
 
 #include <cstddef>
 
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 
 namespace pcl_bv {
 
-/// One function per Isa, in the order of the enumeration; null where the target is not compiled.
+/// One function per Isa, in the order of the enumeration; null if the target is not compiled.
 template <typename Function>
 struct KernelTable {
   Function* entries[8];
@@ -54,7 +55,8 @@ KernelTable(std::nullptr_t, Function*, Others...) -> KernelTable<Function>;
 
 }  // namespace pcl_bv
 
-/// The table of a function that each HWY_NAMESPACE of this file but N_SCALAR defines; use inside HWY_ONCE.
+/// The table of a function that each HWY_NAMESPACE of this file except N_SCALAR defines. Use it inside
+/// HWY_ONCE.
 #define PCL_BV_KERNEL_TABLE(function, reference)                                                         \
   {                                                                                                      \
     nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \

@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The box that the centre is in is the likeliest to have a point near it, and the soonest known: a question
-// to 10^5 points takes a sixth less than in the boxes' order.
+// Visits the box that contains the centre first: it is the likeliest to have a point near the centre, and is
+// known soonest. A query to 10^5 points takes a sixth less time than in the order of the boxes.
 template <typename T>
 struct AnyPoint {
   const BoxLevels& boxes;
@@ -30,11 +30,13 @@ struct AnyPoint {
   double limit;
   const BoxProbe& probe;
 
-  std::uint32_t first(const BoxGroup& group) const { return boxes_around(group, probe); }
-  bool look(std::size_t group) const {
-    return probe.inner >= boxes.least_reached[group] && surely_near(boxes.groups[group], probe);
+  std::uint32_t preferred_box(const BoxGroup& group) const { return boxes_around(group, probe); }
+  bool test_group(std::size_t group) const {
+    return probe.inner >= boxes.min_side_radius[group] && contains_near_point(boxes.groups[group], probe);
   }
-  bool take(std::size_t packet) const { return near_points(packets[packet], center, limit, nullptr) != 0; }
+  bool visit_packet(std::size_t packet) const {
+    return near_points(packets[packet], center, limit, nullptr) != 0;
+  }
 };
 
 template <typename T>
@@ -52,20 +54,20 @@ bool any_in_ball(const PackedTree& tree, const Coordinates& center, double limit
 template <typename T>
 struct EachPoint {
   const std::vector<PointPacket<T>>& packets;
-  const std::vector<std::int32_t>& numbers;
+  const std::vector<std::int32_t>& indices;
   const Coordinates& center;
   double limit;
   std::vector<Neighbor>& found;
 
-  std::uint32_t first(const BoxGroup&) const { return 0; }
-  bool look(std::size_t) const { return false; }
-  bool take(std::size_t packet) const {
+  std::uint32_t preferred_box(const BoxGroup&) const { return 0; }
+  bool test_group(std::size_t) const { return false; }
+  bool visit_packet(std::size_t packet) const {
     HWY_ALIGN double squares[kTreeWidth];
-    const std::int32_t* const names = numbers.data() + packet * kTreeWidth;
+    const std::int32_t* const packet_indices = indices.data() + packet * kTreeWidth;
     for (std::uint32_t bits = near_points(packets[packet], center, limit, squares); bits != 0;
          bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      found.push_back({names[lane], squares[lane]});
+      found.push_back({packet_indices[lane], squares[lane]});
     }
     return false;
   }
@@ -75,7 +77,7 @@ template <typename T>
 void list_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
              double limit, std::vector<Neighbor>& found) {
   const BoxProbe probe(tree.boxes, center, limit);
-  walk(tree.boxes, probe, EachPoint<T>{packets, tree.numbers, center, limit, found});
+  walk(tree.boxes, probe, EachPoint<T>{packets, tree.indices, center, limit, found});
 }
 
 void list_in_ball(const PackedTree& tree, const Coordinates& center, double limit,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The way through a tree that has the nearest box first.
+// Walks through a tree depth first, the nearest box of each group first.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_TREE_DESCENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -22,11 +22,11 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// A group's boxes that are still to be visited, and how far they are.
+// The boxes of a group that are still to be visited, and their bounds.
 struct OpenGroup {
   HWY_ALIGN float bounds[kTreeWidth];
   std::uint32_t bits;
-  std::size_t first;  // what box 0 holds
+  std::size_t first;  // item of box 0
 };
 
 HWY_INLINE std::uint32_t bits_within(const float* bounds, float limit) {
@@ -37,7 +37,8 @@ HWY_INLINE std::uint32_t bits_within(const float* bounds, float limit) {
   return bits;
 }
 
-// Opens a group and takes the nearest of its boxes; kTreeWidth if none is near.
+// Opens a group. Removes its nearest box from `open` and returns it; returns kTreeWidth if none is within
+// `limit`.
 template <typename Bound>
 HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, float limit, std::size_t level,
                                   std::size_t item, OpenGroup& open) {
@@ -51,7 +52,7 @@ HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, fl
     least = hn::Min(least, bounds);
   }
   const float nearest = hn::GetLane(hn::MinOfLanes(d, least));
-  const std::uint32_t there = (1U << HWY_MIN(boxes.below[level] - open.first, kTreeWidth)) - 1;
+  const std::uint32_t there = (1U << HWY_MIN(boxes.child_counts[level] - open.first, kTreeWidth)) - 1;
   open.bits = 0;
   if (!(nearest <= limit)) return kTreeWidth;
   const auto k = static_cast<std::size_t>(std::countr_zero(bits_within(open.bounds, nearest) & there));
@@ -59,7 +60,7 @@ HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, fl
   return k;
 }
 
-// The nearest of those that are left; kTreeWidth if none is near.
+// Removes the nearest of the remaining boxes and returns it; returns kTreeWidth if none is within `limit`.
 HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
   const std::uint32_t near = open.bits == 0 ? 0 : open.bits & bits_within(open.bounds, limit);
   std::size_t nearest = kTreeWidth;
@@ -73,12 +74,12 @@ HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
   return nearest;
 }
 
-/// Calls take(packet), depth first and nearest box first, for the packets whose boxes' bounds are at most
-/// `limit`, which take may lower. bound(d, group, k) gives those of the boxes k, k + 1, ... of a group; of
-/// boxes that the group lacks infinity or the least of the others'.
+/// Calls take(packet), depth first and nearest box first, for the packets whose boxes have a bound of at most
+/// `limit`, which take() may lower. bound(d, group, k) returns the bounds of the boxes k, k + 1, ... of a
+/// group; for unused boxes it must return infinity or the smallest bound of the used ones.
 template <typename Bound, typename Take>
 HWY_INLINE void descend(const BoxLevels& boxes, const Bound& bound, const float& limit, const Take& take) {
-  OpenGroup open[BoxLevels::kMostLevels];
+  OpenGroup open[BoxLevels::kMaxLevels];
   const std::size_t top = boxes.levels - 1;
   std::size_t level = top, k = open_group(boxes, bound, limit, level, 0, open[level]);
   for (;;) {

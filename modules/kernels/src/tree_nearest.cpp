@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "nearest_kept.h"
+#include "nearest_set.h"
 #include "pcl_bv/kernels/packed_tree.h"
 #include "references.h"
 #include "targets.h"
@@ -22,17 +22,17 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
 template <typename T>
-HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
-                             const Coordinates& center, NearestKept& kept) {
+HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* indices,
+                             const Coordinates& center, NearestSet& kept) {
   HWY_ALIGN double squares[kTreeWidth];
   for (std::uint32_t bits = near_points(packet, center, kept.limit(), squares); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    if (squares[lane] <= kept.limit()) kept.offer({numbers[lane], squares[lane]});
+    if (squares[lane] <= kept.limit()) kept.offer({indices[lane], squares[lane]});
   }
 }
 
 template <typename T>
-HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
+HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* indices,
                              const Coordinates& center, NearestOne& kept) {
   const Doubles d;
   HWY_ALIGN double squares[kTreeWidth];
@@ -40,12 +40,12 @@ HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* n
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
     const auto square = packet_squares(d, packet, center, k);
     hn::Store(square, d, squares + k);
-    least = hn::IfThenElse(hn::Lt(square, least), square, least);  // Min of a NaN may be NaN
+    least = hn::IfThenElse(hn::Lt(square, least), square, least);  // Min with a NaN may be NaN
   }
   const double nearest = hn::GetLane(hn::MinOfLanes(d, least));
   if (!(nearest <= kept.limit())) return;
   for (std::size_t lane = 0; lane < kTreeWidth; ++lane) {
-    if (squares[lane] == nearest) kept.offer({numbers[lane], nearest});
+    if (squares[lane] == nearest) kept.offer({indices[lane], nearest});
   }
 }
 
@@ -58,8 +58,8 @@ void nearest_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packe
       [&](Floats d, const BoxGroup& group, std::size_t k) { return nearest_squares(d, group, probe, k); },
       probe.outer,
       [&](std::size_t packet) {
-        offer_packet(packets[packet], tree.numbers.data() + packet * kTreeWidth, center, kept);
-        probe.narrow(kept.limit());
+        offer_packet(packets[packet], tree.indices.data() + packet * kTreeWidth, center, kept);
+        probe.set_limit(kept.limit());
       });
 }
 
@@ -72,7 +72,7 @@ void nearest_to(const PackedTree& tree, const Coordinates& center, Kept& kept) {
   }
 }
 
-void list_nearest(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {
+void list_nearest(const PackedTree& tree, const Coordinates& center, NearestSet& kept) {
   nearest_to(tree, center, kept);
 }
 
@@ -92,7 +92,7 @@ namespace pcl_bv {
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_nearest, &list_nearest_reference);
-  NearestKept kept(most, limit, found);
+  NearestSet kept(most, limit, found);
   if (tree.count == 0 || most == 0) return;
   kTable[isa](tree, center, kept);
   kept.finish();

@@ -10,26 +10,28 @@
 namespace pcl_bv {
 namespace {
 
-// A lower bound of the squared distance between a place and box k of a group, in the unit of the items.
+// Returns a lower bound of the squared distance between a query point and box k of a group, in the unit of
+// the items.
 double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k, const Coordinates& center) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double place = (center[axis] - boxes.origin[axis]) * boxes.scale;
-    const double gap = std::max(group.low[axis][k] - place, place - group.high[axis][k]);
-    const double sure = (gap - 0x1p-50 * std::abs(place)) / boxes.scale;
-    if (sure > 0) sum += sure * sure;
+    const double position = (center[axis] - boxes.origin[axis]) * boxes.scale;
+    const double gap = std::max(group.low[axis][k] - position, position - group.high[axis][k]);
+    const double lower_bound = (gap - 0x1p-50 * std::abs(position)) / boxes.scale;
+    if (lower_bound > 0) sum += lower_bound * lower_bound;
   }
   return sum * (1 - 0x1p-40);
 }
 
-// Calls take(packet) for the packets in boxes of which near(group, k) holds; ends where it returns true.
+// Calls take(packet) for each packet below an item if near(group, k) holds for all boxes in between. Stops
+// and returns true as soon as take() returns true.
 template <typename Near, typename Take>
 bool visit_packets(const BoxLevels& boxes, std::size_t level, std::size_t item, const Near& near,
                    const Take& take) {
   if (level == 0) return take(item);
   const std::size_t first = item * kTreeWidth;
   const BoxGroup& group = boxes.groups[boxes.first[level - 1] + item];
-  for (std::size_t k = 0; k < kTreeWidth && first + k < boxes.below[level - 1]; ++k) {
+  for (std::size_t k = 0; k < kTreeWidth && first + k < boxes.child_counts[level - 1]; ++k) {
     if (near(group, k) && visit_packets(boxes, level - 1, first + k, near, take)) return true;
   }
   return false;
@@ -42,8 +44,8 @@ Coordinates point_of(const PackedTree& tree, std::size_t packet, std::size_t lan
   return tree.scalar == ScalarType::float32 ? of(tree.floats[packet]) : of(tree.doubles[packet]);
 }
 
-// Calls take(Neighbor) for all points whose squared distance is at most limit(), which take may lower; ends
-// where it returns true.
+// Calls take(Neighbor) for all points whose squared distance is at most limit(), which take() may lower.
+// Stops and returns true as soon as take() returns true.
 template <typename Limit, typename Take>
 bool visit_ball(const PackedTree& tree, const Coordinates& center, const Limit& limit, const Take& take) {
   const auto near = [&](const BoxGroup& group, std::size_t k) {
@@ -55,7 +57,7 @@ bool visit_ball(const PackedTree& tree, const Coordinates& center, const Limit& 
       const Coordinates p = point_of(tree, packet, lane);
       const double x = p.x - center.x, y = p.y - center.y, z = p.z - center.z;
       const double square = (x * x + y * y) + z * z;
-      if (square <= limit() && take(Neighbor{tree.numbers[first + lane], square})) return true;
+      if (square <= limit() && take(Neighbor{tree.indices[first + lane], square})) return true;
     }
     return false;
   });
@@ -71,12 +73,12 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
       });
 }
 
-// When the ball enters box k of a group, and infinity where it does not.
+// Returns the time at which the ball enters box k of a group; infinity if it does not.
 float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float to_low = (group.low[axis][k] - ball.pad - ball.origin[axis]) * ball.inverse[axis];
-    const float to_high = (group.high[axis][k] + ball.pad - ball.origin[axis]) * ball.inverse[axis];
+    const float to_low = (group.low[axis][k] - ball.margin - ball.origin[axis]) * ball.inverse[axis];
+    const float to_high = (group.high[axis][k] + ball.margin - ball.origin[axis]) * ball.inverse[axis];
     enter = std::max(enter, std::min(to_low, to_high));
     leave = std::min(leave, std::max(to_low, to_high));
   }
@@ -87,8 +89,8 @@ bool is_near_line(const Coordinates& p, const SweptBall& ball) {
   const double x = p.x - ball.from.x, y = p.y - ball.from.y, z = p.z - ball.from.z;
   const double u = y * ball.unit.z - z * ball.unit.y, v = z * ball.unit.x - x * ball.unit.z,
                w = x * ball.unit.y - y * ball.unit.x;
-  const double far =
-      SweptBall::kDoubt * ((std::abs(x) + std::abs(y)) + std::abs(z)) + (ball.radius + SweptBall::kLeast);
+  const double far = SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) +
+                     (ball.radius + SweptBall::kAbsoluteMargin);
   return (u * u + v * v) + w * w <= far * far;
 }
 
@@ -109,7 +111,7 @@ void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, d
       });
 }
 
-void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {
+void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestSet& kept) {
   visit_nearest(tree, center, kept);
 }
 

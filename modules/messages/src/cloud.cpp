@@ -21,7 +21,7 @@ struct Datatype {
   std::uint32_t size;
 };
 
-// By sensor_msgs/PointField's numbers, less one.
+// Index: the datatype of sensor_msgs/PointField minus 1.
 constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
                                 {'I', 4}, {'U', 4}, {'F', 4}, {'F', 8}};
 
@@ -29,17 +29,16 @@ constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
   throw MessageError("the cloud " + what);
 }
 
-// Where the points are.
+// Positions of the points in the data.
 struct Layout {
   std::size_t width = 0, height = 0;
-  std::uint64_t row = 0;  // bytes from one row to the next
+  std::uint64_t row_bytes = 0;  // from one row to the next
 
   std::size_t points() const { return width * height; }
 };
 
-// Drivers write all kinds of numbers into row_step, which repeats what width and point_step say, and leave
-// the height of an unorganised cloud at 0: where the data are just as many as the points need, the data
-// decide.
+// Tolerates two errors of drivers: a wrong row_step (which is redundant for rows without padding), and height
+// 0 for an unorganised cloud. Both are ignored if the data has exactly the bytes that the points need.
 Layout layout_of(const msg::PointCloud2& cloud) {
   const std::uint64_t width = cloud.width, step = cloud.point_step, size = cloud.data.size;
   const std::uint64_t packed = width * step;  // below 2^64
@@ -48,7 +47,8 @@ Layout layout_of(const msg::PointCloud2& cloud) {
   const std::string shape = std::to_string(width) + " x " + std::to_string(height) + " points of " +
                             std::to_string(step) + " bytes";
   if (step == 0) refuse("has " + shape);
-  if (size / packed < height) refuse("announces " + shape + ", but has " + std::to_string(size) + " bytes");
+  if (size / packed < height)
+    refuse("should have " + shape + ", but has only " + std::to_string(size) + " bytes");
   const auto fits = [&](std::uint64_t row) { return row >= packed && height - 1 <= (size - packed) / row; };
   const bool exact = size % packed == 0 && size / packed == height;
   if (height > 1 && !exact && !fits(cloud.row_step))
@@ -57,19 +57,19 @@ Layout layout_of(const msg::PointCloud2& cloud) {
   return {width, height, height == 1 || exact ? packed : cloud.row_step};
 }
 
-// What is wrong with a field that reaches out of the record, or is of no type; empty if nothing is.
+// Returns what is wrong with a field: its type is unknown, or it exceeds the record. Empty if it is valid.
 std::string problem_of(const msg::PointField& field, std::uint32_t count, std::uint32_t point_step) {
   if (field.datatype < 1 || field.datatype > std::size(kDatatypes))
     return "is of datatype " + std::to_string(field.datatype) + ", not 1 to 8";
   const std::uint64_t bytes = std::uint64_t{count} * kDatatypes[field.datatype - 1].size;
   if (field.offset > point_step || bytes > point_step - field.offset)
-    return "reaches beyond the point_step of " + std::to_string(point_step);
+    return "exceeds the point_step of " + std::to_string(point_step) + " bytes";
   return {};
 }
 
 using Coordinates3 = std::array<const msg::PointField*, 3>;
 
-// X where there is no x, as some writers have it.
+// Finds the fields x, y and z, or X, Y and Z, which some writers use instead. Throws MessageError.
 Coordinates3 coordinates_of(const msg::PointCloud2& cloud) {
   Coordinates3 found{};
   const auto named = [&](const char* name) -> const msg::PointField* {
@@ -99,8 +99,8 @@ PointField element_of(const msg::PointField& field, std::string name, std::uint3
   return {std::move(name), type, size, count, field.offset};
 }
 
-// Where a field lies in the message's record and how it becomes one of ours.
-struct Move {
+// A field of the message's record, and the field of the new record that it becomes.
+struct FieldConversion {
   PointField from, to;
 };
 
@@ -115,13 +115,13 @@ double number_at(const std::byte* bytes, const PointField& field) {
   return field.size == 1 ? as(std::uint8_t{}) : field.size == 2 ? as(std::uint16_t{}) : as(std::uint32_t{});
 }
 
-void copy_element(const std::byte* from, bool swap, const Move& move, std::byte* to) {
+void copy_element(const std::byte* from, bool swap, const FieldConversion& conversion, std::byte* to) {
   std::byte bytes[8];
-  std::memcpy(bytes, from, move.from.size);
-  if (swap) std::reverse(bytes, bytes + move.from.size);
-  if (move.from.type == move.to.type && move.from.size == move.to.size) {
-    std::memcpy(to, bytes, move.to.size);
-  } else if (const double value = number_at(bytes, move.from); move.to.size == 8) {
+  std::memcpy(bytes, from, conversion.from.size);
+  if (swap) std::reverse(bytes, bytes + conversion.from.size);
+  if (conversion.from.type == conversion.to.type && conversion.from.size == conversion.to.size) {
+    std::memcpy(to, bytes, conversion.to.size);
+  } else if (const double value = number_at(bytes, conversion.from); conversion.to.size == 8) {
     std::memcpy(to, &value, 8);
   } else {
     const auto narrow = static_cast<float>(value);
@@ -129,7 +129,7 @@ void copy_element(const std::byte* from, bool swap, const Move& move, std::byte*
   }
 }
 
-// What coordinates become: 4 if float32 holds each, else 8.
+// Returns the size of the new coordinates: 4 if float32 represents all values of their types exactly, else 8.
 std::uint32_t coordinate_size(const Coordinates3& xyz) {
   const bool wide = std::any_of(xyz.begin(), xyz.end(), [](const msg::PointField* field) {
     const auto [type, size] = kDatatypes[field->datatype - 1];
@@ -138,25 +138,25 @@ std::uint32_t coordinate_size(const Coordinates3& xyz) {
   return wide ? 8 : 4;
 }
 
-// The fields that can be read, and a line about the others.
+// The fields that can be read, and a note about those that cannot.
 struct Selection {
-  std::vector<Move> moves;
+  std::vector<FieldConversion> conversions;
   std::string note;
   std::size_t left_out = 0;
 
   void leave_out(const msg::PointField& field, const std::string& problem) {
-    constexpr std::size_t most = 3;  // in one line
-    if (++left_out <= most)
+    constexpr std::size_t max_named = 3;  // fields that the note names
+    if (++left_out <= max_named)
       note += (note.empty() ? "" : "; ") + ("field " + in_quotes(field.name)) + " is left out: it " + problem;
-    if (left_out == most + 1) note += "; and others";
+    if (left_out == max_named + 1) note += "; and others";
   }
 };
 
 Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) {
   Selection selection;
-  // Colours often stand in one place under two names; more than that is no record of points, and would be
-  // long.
-  const std::size_t most = 2 * std::size_t{cloud.point_step};
+  // Limits the new record to twice the old one. Overlapping fields are allowed, since a colour often has two
+  // names, but a damaged message could repeat the whole record many times.
+  const std::size_t max_bytes = 2 * std::size_t{cloud.point_step};
   const std::uint32_t size = coordinate_size(xyz);
   std::size_t bytes = 0, offset = 0;
   for (const msg::PointField* const field : xyz)
@@ -170,7 +170,7 @@ Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) 
       const std::size_t own = std::size_t{count} * kDatatypes[field.datatype - 1].size;
       if (field.name == "x" || field.name == "y" || field.name == "z") {
         problem = "occurs twice";
-      } else if (bytes + own > most) {
+      } else if (bytes + own > max_bytes) {
         problem = "would make the fields longer than two records";
       } else {
         bytes += own;
@@ -190,33 +190,33 @@ Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) 
     if (coordinate) std::tie(to.type, to.size) = std::pair('F', size);
     to.offset = offset;
     offset += to.bytes();
-    selection.moves.push_back({from, to});
+    selection.conversions.push_back({from, to});
   }
   return selection;
 }
 
-void set_fields(RawCloud& cloud, const std::vector<Move>& moves) {
+void set_fields(RawCloud& cloud, const std::vector<FieldConversion>& conversions) {
   cloud.fields.clear();
   cloud.point_step = 0;
-  for (const Move& move : moves) {
-    cloud.fields.push_back(move.to);
-    cloud.point_step += move.to.bytes();
+  for (const FieldConversion& conversion : conversions) {
+    cloud.fields.push_back(conversion.to);
+    cloud.point_step += conversion.to.bytes();
   }
 }
 
-// A filter that has nothing left publishes a cloud without points, and often without fields.
+// Returns a cloud without points. A filter that removes all points often publishes no fields, too.
 RawCloud cloud_without_points(const msg::PointCloud2& cloud) {
   RawCloud made = make_cloud({});
   try {
-    set_fields(made, select_fields(cloud, coordinates_of(cloud)).moves);
-  } catch (const MessageError&) {  // it keeps x, y and z as float32
+    set_fields(made, select_fields(cloud, coordinates_of(cloud)).conversions);
+  } catch (const MessageError&) {  // keep x, y and z as float32
   }
   return made;
 }
 
 }  // namespace
 
-std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
+std::optional<PointView> view_points(const msg::PointCloud2& cloud) {
   const Layout layout = layout_of(cloud);
   if (layout.points() == 0) return PointView();
   const auto [x, y, z] = coordinates_of(cloud);
@@ -224,7 +224,7 @@ std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
   const bool floats = type == 'F' && x->datatype == y->datatype && x->datatype == z->datatype;
   const bool side_by_side =
       std::uint64_t{x->offset} + size == y->offset && std::uint64_t{y->offset} + size == z->offset;
-  const bool rows = layout.row == std::uint64_t{layout.width} * cloud.point_step;
+  const bool rows = layout.row_bytes == std::uint64_t{layout.width} * cloud.point_step;
   if (!floats || !side_by_side || !rows || cloud.is_bigendian) return std::nullopt;
   PointView view;
   view.data = cloud.data.data + x->offset;
@@ -235,13 +235,13 @@ std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
   return view;
 }
 
-std::string unread_fields(const msg::PointCloud2& cloud) {
+std::string skipped_fields_note(const msg::PointCloud2& cloud) {
   if (layout_of(cloud).points() == 0) return {};
   return select_fields(cloud, coordinates_of(cloud)).note;
 }
 
-std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud) {
-  if (!points_in_place(cloud) || cloud.is_bigendian) return std::nullopt;
+std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud) {
+  if (!view_points(cloud) || cloud.is_bigendian) return std::nullopt;
   std::vector<PointField> fields;
   for (const msg::PointField& field : cloud.fields) {
     if (field.datatype < 1 || field.datatype > std::size(kDatatypes)) continue;
@@ -260,16 +260,17 @@ RawCloud raw_cloud_of(const msg::PointCloud2& cloud) {
   made.note = selection.note;
   made.width = layout.width;
   made.height = layout.height;
-  set_fields(made, selection.moves);
+  set_fields(made, selection.conversions);
   made.data.resize(points * made.point_step);
   std::byte* to = made.data.data();
   for (std::size_t i = 0; i < points; ++i, to += made.point_step) {
     const std::byte* const record =
-        cloud.data.data + i / layout.width * layout.row + i % layout.width * cloud.point_step;
-    for (const Move& move : selection.moves) {
-      for (std::uint32_t k = 0; k < move.from.count; ++k)
-        copy_element(record + move.from.offset + std::size_t{k} * move.from.size, cloud.is_bigendian, move,
-                     to + move.to.offset + std::size_t{k} * move.to.size);
+        cloud.data.data + i / layout.width * layout.row_bytes + i % layout.width * cloud.point_step;
+    for (const FieldConversion& conversion : selection.conversions) {
+      for (std::uint32_t k = 0; k < conversion.from.count; ++k)
+        copy_element(record + conversion.from.offset + std::size_t{k} * conversion.from.size,
+                     cloud.is_bigendian, conversion,
+                     to + conversion.to.offset + std::size_t{k} * conversion.to.size);
     }
   }
   update_packed_xyz(made);

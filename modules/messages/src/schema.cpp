@@ -11,7 +11,7 @@
 namespace pcl_bv {
 namespace {
 
-// Types are named with their package, which ROS allows everywhere.
+// Definitions by type name. Types within a definition have their package, too, which ROS allows everywhere.
 constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
     {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
     {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
@@ -102,11 +102,11 @@ std::string_view definition(std::string_view name) {
   const auto* const found = std::find_if(std::begin(kDefinitions), std::end(kDefinitions),
                                          [&](const auto& entry) { return entry.first == name; });
   if (found == std::end(kDefinitions))
-    throw std::invalid_argument("'" + std::string(name) + "' is no type with a definition here");
+    throw std::invalid_argument("unknown message type '" + std::string(name) + "'");
   return found->second;
 }
 
-// The types that a definition names, and theirs, each once.
+// Appends the types that a definition uses, directly or indirectly, each once.
 void collect(std::string_view name, std::vector<std::string_view>& names) {
   std::string_view text = definition(name);
   while (!text.empty()) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Expansions are exact but where products have errors below 2^-1074, which doubles can have: there rationals
-// decide, a thousand times slower.
+// Expansions are exact unless the error of a product is below 2^-1074, the smallest positive double. In that
+// case rational arithmetic decides, which is a thousand times slower.
 
 #include "pcl_bv/numeric/exact_dot.h"
 
@@ -34,7 +34,7 @@ double rounded_up(const Rational& exact) {
   return rounded;
 }
 
-// Bits of the mantissa from the first to the last that is set, or more (denormal numbers).
+// Number of significant mantissa bits, from the leading to the last set bit. Too large for denormal numbers.
 int width(double value) {
   const std::uint64_t fraction = std::bit_cast<std::uint64_t>(value) & 0xF'FFFF'FFFF'FFFFU;
   return fraction == 0 ? 1 : 53 - std::countr_zero(fraction);
@@ -46,7 +46,8 @@ bool is_exact(double product, double a, double b) {
   return (wide == 1 || other == 1 || wide + other <= 53) && std::abs(product) >= 0x1p-960;
 }
 
-// Three products and two sums, which are off by at most 3.01 * 2^-53 of the sum of magnitudes.
+// A projection in plain double: three products and two sums. value() is off by at most 3.01 * 2^-53 of
+// magnitude().
 struct Rounded {
   Rounded(const Direction& n, const Coordinates& p) : x(n[0] * p.x), y(n[1] * p.y), z(n[2] * p.z) {}
 
@@ -60,26 +61,27 @@ struct Rounded {
   double x, y, z;
 };
 
-// Apart, as what expansions and rationals need of the stack would cost the usual case half its time. Of
-// magnitudes that all are tiny, powers of two make products that are exact.
+// Not inlined: the stack that expansions and rationals need would considerably slow down the usual case of
+// compare_along(). If all magnitudes are tiny, scaling by a power of two keeps the products exact.
 [[gnu::noinline]] int compare_exactly(const Direction& n, const Coordinates& p, const Coordinates& q,
                                       double magnitude) {
   const double scale = magnitude < 0x1p-400 ? 0x1p500 : 1;
   const Coordinates scaled{scale * p.x, scale * p.y, scale * p.z};
   const Coordinates other{-scale * q.x, -scale * q.y, -scale * q.z};
   const Expansion exact = Expansion().add_dot(n, scaled).add_dot(n, other);
-  return exact.certain() ? exact.sign() : (exact_dot(n, p) - exact_dot(n, q)).sign();
+  return exact.is_lossless() ? exact.sign() : (exact_dot(n, p) - exact_dot(n, q)).sign();
 }
 
 [[gnu::noinline]] double project_exactly_up(const Direction& n, const Coordinates& p) {
   const Expansion exact = Expansion().add_dot(n, p);
-  return (exact.certain() ? exact.up() : rounded_up(exact_dot(n, p))) + 0.0;
+  return (exact.is_lossless() ? exact.up() : rounded_up(exact_dot(n, p))) + 0.0;
 }
 
 }  // namespace
 
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q) {
-  // Along an axis the coordinates tell: of a wall all points tie.
+  // Along a coordinate axis comparing coordinates suffices. That is the common case of ties: all points of a
+  // wall.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) continue;
     const int order = (p[axis] > q[axis]) - (p[axis] < q[axis]);
@@ -88,11 +90,12 @@ int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q
   const Rounded a(n, p);
   const Rounded b(n, q);
   const double difference = a.value() - b.value();
-  // The smallest normal covers products that underflow.
-  const double doubt = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
-  if (difference > doubt) return 1;
-  if (difference < -doubt) return -1;
-  // Floats times integers, or times powers of two: a tie takes 20 ns, not 48.
+  // kSmallestNormal covers products that underflow.
+  const double error_bound = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
+  if (difference > error_bound) return 1;
+  if (difference < -error_bound) return -1;
+  // Products of floats with small integers or powers of two are exact. Such a tie takes 20 ns here, 48 ns by
+  // expansions.
   if (a.has_exact_products(n, p) && b.has_exact_products(n, q)) return compare(a.sum(), b.sum());
   return compare_exactly(n, p, q, a.magnitude() + b.magnitude());
 }

@@ -19,8 +19,9 @@ ExactSum exact_sum(double x, double y, double z) {
   return {head.sum, head.error, errors.error};
 }
 
-// tail + rest is at most half a step of head and a tiny bit, and its rounded sum has its exact sign, so that
-// sign alone says on which side of head the exact value lies, never farther than the next double.
+// |tail + rest| exceeds half a step of head at most slightly, and its rounded sum has the sign of the exact
+// one. So the sign tells on which side of head the exact value lies, and the next double on that side bounds
+// the value.
 double round_down(const ExactSum& sum) {
   const double below = sum.tail + sum.rest;
   return (below < 0.0 ? next_down(sum.head) : sum.head) + 0.0;

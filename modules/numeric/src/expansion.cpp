@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kLossyProduct = 0x1p-960;
 
-// Terms that do not overlap, of growing magnitude.
-class Parts {
+// A non-overlapping expansion, parts ordered by increasing magnitude.
+class ExpansionParts {
  public:
-  Parts(const double* terms, std::size_t count) {
+  ExpansionParts(const double* terms, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
       add(terms[i]);
   }
@@ -49,12 +49,30 @@ class Parts {
     return parts_[size_ - 1] > 0 ? 1 : -1;
   }
 
+  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS),
+  // so that each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41
+  // such parts.
+  void compress() {
+    if (size_ == 0) return;
+    std::size_t lowest = size_ - 1;
+    double rounded = parts_[lowest];
+    for (std::size_t i = size_ - 1; i-- > 0;) {
+      const auto [sum, error] = two_sum(rounded, parts_[i]);
+      if (error != 0) parts_[lowest--] = sum;
+      rounded = error != 0 ? error : sum;
+    }
+    parts_[lowest] = rounded;
+    std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(lowest),
+              parts_.begin() + static_cast<std::ptrdiff_t>(size_), parts_.begin());
+    size_ -= lowest;
+  }
+
  private:
-  std::array<double, 33> parts_;  // the terms and the one that up() adds
+  std::array<double, Expansion::capacity + 1> parts_;  // the terms, and one more that up() adds
   std::size_t size_ = 0;
 };
 
-// Smallest double not below head + low.
+// Returns the smallest double >= head + low.
 double sum_up(double head, double low) {
   const auto [sum, error] = two_sum(head, low);
   return error > 0 ? next_up(sum) : sum;
@@ -81,39 +99,42 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
-// Sums of differences have more terms, of which few are left.
+// Sums of differences can have more terms than there is capacity for. compress() always leaves free capacity.
 void Expansion::compact() {
-  const Parts parts(terms_.data(), size_);
+  ExpansionParts parts(terms_.data(), size_);
+  parts.compress();
   size_ = 0;
   head_ = low_ = magnitude_ = 0;
   for (std::size_t i = 0; i < parts.size(); ++i)
     add(parts[i]);
 }
 
-// 32 errors of 2^-53 of the magnitude at most were added up with 32 errors of 2^-53 of themselves: 2^-96. What
-// a product below 2^-960 lost is less than that, unless the magnitude is small too. NaN there, and near the
-// largest double, where sums become infinite on the wrong side.
-double Expansion::missing() const {
+// Bounds the difference between the sum and head_ + low_. low_ is the sum of at most 44 errors, each at most
+// 2^-53 of the magnitude; adding them up made 44 errors of at most 2^-53 of their sum. Together that is
+// 44^2 2^-106 < 2^-95 of the magnitude. A product below 2^-960 lost less than that if the magnitude exceeds
+// 2^-900. The result is NaN for smaller magnitudes, and near the largest double, where partial sums may
+// overflow: then no comparison with it holds and the expansion decides.
+double Expansion::error_bound() const {
   return magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
 }
 
 double Expansion::value() const {
-  return Parts(terms_.data(), size_).value();
+  return ExpansionParts(terms_.data(), size_).value();
 }
 
 int Expansion::sign() const {
-  if (std::abs(head_) > std::abs(low_) + missing()) return head_ > 0 ? 1 : -1;
-  return Parts(terms_.data(), size_).sign();
+  if (std::abs(head_) > std::abs(low_) + error_bound()) return head_ > 0 ? 1 : -1;
+  return ExpansionParts(terms_.data(), size_).sign();
 }
 
 double Expansion::up() const {
-  const double least = sum_up(head_, low_ - missing());
-  if (least == sum_up(head_, low_ + missing())) return least;
-  Parts parts(terms_.data(), size_);
+  const double least = sum_up(head_, low_ - error_bound());
+  if (least == sum_up(head_, low_ + error_bound())) return least;
+  ExpansionParts parts(terms_.data(), size_);
   double result = parts.value();
   if (parts.size() <= 1 && !lossy_) return result;
   if (!std::isfinite(result)) return kInfinity;
-  // value() is one of the two doubles beside the sum, or the sum itself.
+  // value() is the sum itself or one of the two neighbouring doubles.
   parts.add(-result);
   if (parts.sign() > 0) result = next_up(result);
   return lossy_ ? next_up(result + kSmallestNormal) : result;

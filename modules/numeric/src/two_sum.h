@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The error-free transformation that all exact sums are made of (Knuth). Needs -ffp-contract=off and round to
-// nearest, so it is for sources only: public headers are compiled with their user's flags.
+// TwoSum (Knuth): the error-free addition that all exact sums are built from. Needs -ffp-contract=off and
+// rounding to nearest. Include it in .cpp files only: public headers are compiled with the user's flags.
 #pragma once
 
 namespace pcl_bv {

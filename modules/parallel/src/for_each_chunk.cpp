@@ -17,7 +17,8 @@
 namespace pcl_bv::internal {
 namespace {
 
-// Hands out chunks and keeps the exception of the lowest one that failed, whichever thread met it first.
+// Hands out chunk numbers. If bodies fail, stores the exception of the lowest failed chunk, whichever thread
+// caught it.
 class ChunkQueue {
  public:
   ChunkQueue(std::size_t chunks, const std::function<void(std::size_t)>& body)
@@ -50,12 +51,12 @@ class ChunkQueue {
   std::size_t failed_chunk_ = 0;
 };
 
-// ThreadSanitizer does not understand libgomp's barriers and would report races that are none: under it,
-// OpenMP policies run on our own threads.
+// ThreadSanitizer does not understand libgomp's barriers and would report false races. Under it, OpenMP
+// policies run on the library's own threads.
 #if defined(__SANITIZE_THREAD__)
-constexpr bool kOpenMpIsUnderstood = false;
+constexpr bool kUseOpenMp = false;
 #else
-constexpr bool kOpenMpIsUnderstood = true;
+constexpr bool kUseOpenMp = true;
 #endif
 
 void work_with_openmp(ChunkQueue& queue, unsigned threads) {
@@ -63,13 +64,15 @@ void work_with_openmp(ChunkQueue& queue, unsigned threads) {
   queue.work();
 }
 
-// What the tasks of an executor share with the call. They own it, since they may come when the call is over.
+// State shared by a parallel call and the tasks of its executor. The tasks share ownership, because the
+// executor may call them after the parallel call has returned.
 class TaskQueue {
  public:
   explicit TaskQueue(ChunkQueue& queue) : queue_(&queue) {}
 
-  // A task. A body may wait for its thread's executor, which runs other tasks there meanwhile: those leave
-  // the work to others, since the body that waits may be using buffers of its thread.
+  // The body of a task. It does nothing on a thread that is already inside a parallel call: a body may wait
+  // for the executor of its thread, and the executor may run this task there meanwhile, while the waiting
+  // body still uses its thread's buffers.
   void help() {
     if (ParallelRegion::inside()) return;
     const std::shared_lock working(mutex_, std::try_to_lock);
@@ -78,7 +81,7 @@ class TaskQueue {
     queue_->work();
   }
 
-  // Waits for the tasks that have begun, and lets none begin any more.
+  // Waits for the tasks that have begun. Tasks called later do nothing.
   void close() {
     const std::lock_guard lock(mutex_);
     queue_ = nullptr;
@@ -108,7 +111,7 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
   ChunkQueue queue(chunks, body);
   if (threads == 1) {
     queue.work();
-  } else if (kOpenMpIsUnderstood && std::holds_alternative<OpenMP>(policy)) {
+  } else if (kUseOpenMp && std::holds_alternative<OpenMP>(policy)) {
     work_with_openmp(queue, threads);
   } else if (const auto* executor = std::get_if<Executor>(&policy)) {
     work_with_executor(queue, *executor, threads);
@@ -122,16 +125,16 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 
 namespace pcl_bv {
 
-AwakeThreads::AwakeThreads(const ParallelPolicy& policy) {
+SpinningThreads::SpinningThreads(const ParallelPolicy& policy) {
   const unsigned threads = std::holds_alternative<Threads>(policy) ? thread_count(policy) : 1;
   if (threads == 1 || internal::ParallelRegion::inside()) return;
   internal::WorkerPool& pool = internal::WorkerPool::instance();
-  pool.stay_awake(threads - 1);
+  pool.start_spinning(threads - 1);
   pool_ = &pool;
 }
 
-AwakeThreads::~AwakeThreads() {
-  if (pool_ != nullptr) internal::WorkerPool::let_sleep(static_cast<internal::WorkerPool*>(pool_));
+SpinningThreads::~SpinningThreads() {
+  if (pool_ != nullptr) internal::WorkerPool::stop_spinning(static_cast<internal::WorkerPool*>(pool_));
 }
 
 }  // namespace pcl_bv

@@ -16,7 +16,7 @@ unsigned thread_count(const ParallelPolicy& policy) {
   const auto or_all = [](unsigned threads, auto all) {
     return threads != 0 ? threads : static_cast<unsigned>(all());
   };
-  // OpenMP's threads are bound to what their caller is bound to.
+  // OpenMP's threads inherit the processor affinity of the calling thread, hence omp_get_num_procs().
   if (const auto* openmp = std::get_if<OpenMP>(&policy)) return or_all(openmp->threads, omp_get_num_procs);
   if (const auto* threads = std::get_if<Threads>(&policy))
     return or_all(threads->threads, internal::process_processors);

@@ -14,7 +14,8 @@
 namespace pcl_bv::internal {
 namespace {
 
-// Of the main thread, whose number is the process's. False beyond 1024 processors, which the set cannot hold.
+// Returns the processors of the main thread, whose thread id is the process id. Fails on machines with more
+// than 1024 processors, which a cpu_set_t cannot represent.
 bool main_thread_processors(cpu_set_t& set) {
   return ::sched_getaffinity(::getpid(), sizeof set, &set) == 0;
 }
@@ -32,7 +33,7 @@ unsigned process_processors() {
   return static_cast<unsigned>(main_thread_processors(set) ? CPU_COUNT(&set) : omp_get_num_procs());
 }
 
-int own_processor() {
+int current_processor() {
   return ::sched_getcpu();
 }
 
@@ -43,14 +44,14 @@ void avoid_processor(int avoided, std::vector<std::thread>& threads) {
     ::pthread_setaffinity_np(thread.native_handle(), sizeof set, &set);
 }
 
-void schedule_as_process(int avoided) {
+void adopt_main_thread_scheduling(int avoided) {
   cpu_set_t set;
   if (processors_without(avoided, set)) ::sched_setaffinity(0, sizeof set, &set);
   const int policy = ::sched_getscheduler(::getpid()) & ~SCHED_RESET_ON_FORK;
   const bool ordinary = policy == SCHED_BATCH || policy == SCHED_IDLE;
   const sched_param none{};
   ::sched_setscheduler(0, ordinary ? policy : SCHED_OTHER, &none);
-  // Linux keeps one nice value for each thread, and 0 is the calling one.
+  // On Linux each thread has its own nice value; id 0 is the calling thread.
   const id_t main_thread = static_cast<id_t>(::getpid());
   ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, main_thread));
 }

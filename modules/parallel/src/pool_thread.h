@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What threads of our own are to the system: the process's, not the first caller's. A new thread inherits
-// processors, scheduling and blocked signals of the thread that starts it, which may be a driver's thread
-// pinned to one core with real-time priority.
+// Scheduling attributes of the pool's threads. By default a thread inherits processors, scheduling policy and
+// signal mask from the thread that starts it, which may be a driver's thread, pinned to one core with
+// real-time priority. Pool threads take them from the process's main thread instead.
 #pragma once
 
 #include <csignal>
@@ -12,24 +12,26 @@
 
 namespace pcl_bv::internal {
 
-/// Processors that the main thread may use, at least 1: `taskset` and cgroups count, and so does a main
-/// thread that pins itself; what other threads do to themselves does not.
+/// Returns the number of processors that the main thread may use, at least 1. `taskset`, cpusets and the main
+/// thread's own affinity limit it; the affinity of other threads does not.
 unsigned process_processors();
 
-/// The processor that the calling thread runs on; negative if the system does not say.
-int own_processor();
+/// Returns the processor that the calling thread runs on; negative if the system does not report it.
+int current_processor();
 
-/// Keeps threads from a processor where the main thread may use others; a negative one is none.
+/// Excludes processor `avoided` from the affinity of `threads`, unless it is the main thread's only
+/// processor. A negative `avoided` excludes none.
 void avoid_processor(int avoided, std::vector<std::thread>& threads);
 
-/// Gives the calling thread the processors but the avoided one, as above, the policy and the nice value of
-/// the main thread; the ordinary policy where the main thread is real-time. What the system refuses stays as
-/// it is.
-void schedule_as_process(int avoided);
+/// Gives the calling thread the main thread's processors without `avoided` (as avoid_processor() does), the
+/// main thread's nice value and its scheduling policy; SCHED_OTHER if the main thread is real-time.
+/// Attributes that the system refuses to set stay unchanged.
+void adopt_main_thread_scheduling(int avoided);
 
-/// While it lives threads are started with all signals blocked, so that handlers run on the host's threads.
-/// But a fault is always handled by the thread that commits it: were its signal blocked, the process would
-/// end without the host's handler.
+/// Blocks signals in the calling thread while the object lives, so that threads started meanwhile inherit the
+/// mask and signal handlers run on the host's threads. Signals of faults (SIGSEGV, ...) stay unblocked: the
+/// faulting thread itself handles them, and if they were blocked, the process would end without calling the
+/// host's handler.
 class SignalsBlocked {
  public:
   SignalsBlocked();

@@ -19,19 +19,19 @@
 namespace pcl_bv::internal {
 namespace {
 
-// The process's pool, null until it is wanted. The object stays to the end of the process: others may be in
-// run(), or call it, while objects are destroyed.
+// The process's pool; null until it is first needed. It is never deleted, because other threads may be in
+// run() or call it while static objects are destroyed.
 std::atomic<WorkerPool*> current{nullptr};
 
 thread_local bool inside_region = false;
 
-// How long to wait without sleeping: longer than what a frame's stages do between two parallel calls.
-constexpr std::chrono::milliseconds kPatience{2};
+// How long to spin before sleeping: longer than the pause between two parallel calls of a frame's stages.
+constexpr std::chrono::milliseconds kSpinTime{2};
 
-// Waits without sleeping until it is true; says whether it is.
+// Spins until the condition holds, at most for kSpinTime. Returns whether it holds.
 template <typename Condition>
 bool spin_until(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kSpinTime;
   for (unsigned i = 1; !condition(); ++i) {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -43,14 +43,15 @@ bool spin_until(const Condition& condition) {
   return true;
 }
 
-// A child has none of the pool's threads, one of them may have held the lock, and its condition variables
-// count them as waiting. So the child leaves that pool untouched and makes its own when it wants one.
-void begin_anew_in_child() {
+// A forked child has none of the pool's threads, the pool's lock may be held by one of them, and its
+// condition variables still count them as waiting. So the child never touches that pool and makes a new one
+// when needed.
+void reset_in_child() {
   current = nullptr;
   inside_region = false;
 }
 
-[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, begin_anew_in_child);
+[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, reset_in_child);
 
 void end_pool() {
   if (WorkerPool* const pool = current) pool->end();
@@ -75,7 +76,7 @@ WorkerPool& WorkerPool::instance() {
   if (pool != nullptr) return *pool;
   auto fresh = std::make_unique<WorkerPool>();
   if (!current.compare_exchange_strong(pool, fresh.get())) return *pool;
-  std::atexit(end_pool);  // a child has its parent's registration, too: end() may come twice
+  std::atexit(end_pool);  // a forked child inherits the registration: end() may be called twice
   return *fresh.release();
 }
 
@@ -89,7 +90,7 @@ void WorkerPool::end() {
     thread.join();
 }
 
-// The system may refuse a thread: then there are fewer.
+// If the system refuses a thread, the pool continues with fewer.
 void WorkerPool::start(unsigned threads) {
   const SignalsBlocked blocked;
   try {
@@ -99,41 +100,45 @@ void WorkerPool::start(unsigned threads) {
   }
 }
 
-// Systems that gather threads on few processors, to save power or to pack virtual machines, wake a helper on
-// its caller's own: there it waits for that one to stop, milliseconds, while others are idle.
-void WorkerPool::avoid(int processor) {
+// Some systems place threads on few processors, to save power or to pack virtual machines. They wake a helper
+// on its caller's processor, where it waits for milliseconds until the caller stops, while other processors
+// are idle.
+void WorkerPool::exclude_processor(int processor) {
   if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
 }
 
-WorkerPool::Task* WorkerPool::wanting() {
+WorkerPool::Task* WorkerPool::find_open_task() {
   const auto found =
       std::find_if(tasks_.begin(), tasks_.end(), [](const Task* task) { return task->wanted > 0; });
   return found == tasks_.end() ? nullptr : *found;
 }
 
-// Waits without sleeping for the next task; false if it takes too long, or nobody wants that any more. A
-// thread that sleeps takes 25 us to wake, as long as a stage of a frame may be.
-bool WorkerPool::look_out(std::unique_lock<std::mutex>& lock) {
-  const std::uint64_t seen = offers_;
-  ++looking_out_;
+// Spins until the next task is offered. Returns false if none was offered in time or if no SpinningThreads is
+// left. Spinning pays because a sleeping thread takes 25 us to wake, as long as a stage of a frame may take.
+bool WorkerPool::spin_for_task(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t seen = run_count_;
+  ++spinning_;
   lock.unlock();
-  spin_until([&] { return offers_ != seen || awake_ == 0; });
+  spin_until([&] { return run_count_ != seen || spin_requests_ == 0; });
   lock.lock();
-  --looking_out_;
-  return offers_ != seen;
+  --spinning_;
+  return run_count_ != seen;
 }
 
 void WorkerPool::serve() {
   const ParallelRegion region;
   std::unique_lock lock(mutex_);
-  schedule_as_process(avoided_);
+  adopt_main_thread_scheduling(avoided_);
   for (;;) {
-    Task* task = wanting();
-    while (task == nullptr && !ended_ && awake_ > 0 && looking_out_ < lookouts_ && look_out(lock))
-      task = wanting();
+    Task* task = find_open_task();
+    while (task == nullptr && !ended_ && spin_requests_ > 0 && spinning_ < max_spinning_ &&
+           spin_for_task(lock))
+      task = find_open_task();
     if (task == nullptr) {
-      const std::uint64_t wakes = wakes_;
-      work_.wait(lock, [&] { return ended_ || wakes_ != wakes || (task = wanting()) != nullptr; });
+      const std::uint64_t requests = spin_request_count_;
+      work_.wait(lock, [&] {
+        return ended_ || spin_request_count_ != requests || (task = find_open_task()) != nullptr;
+      });
     }
     if (ended_) return;
     if (task == nullptr) continue;
@@ -141,28 +146,28 @@ void WorkerPool::serve() {
     ++task->active;
     lock.unlock();
     task->work();
-    if (current != this) return;  // a child forked by work(), in which there is nobody to report to
+    if (current != this) return;  // in a child forked by work(): there is no caller to notify
     lock.lock();
-    if (--task->active == 0) done_.notify_all();  // the task may be gone at once
+    if (--task->active == 0) done_.notify_all();  // after this, run() may destroy the task at any time
   }
 }
 
-void WorkerPool::stay_awake(unsigned helpers) {
+void WorkerPool::start_spinning(unsigned helpers) {
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
-    if (tasks_.empty()) avoid(own_processor());
-    lookouts_ = std::max(lookouts_, helpers);
-    ++awake_;
-    ++wakes_;
+    if (tasks_.empty()) exclude_processor(current_processor());
+    max_spinning_ = std::max(max_spinning_, helpers);
+    ++spin_requests_;
+    ++spin_request_count_;
   }
   work_.notify_all();
 }
 
-void WorkerPool::let_sleep(WorkerPool* pool) {
+void WorkerPool::stop_spinning(WorkerPool* pool) {
   if (current != pool) return;
   const std::lock_guard lock(pool->mutex_);
-  if (--pool->awake_ == 0) pool->lookouts_ = 0;
+  if (--pool->spin_requests_ == 0) pool->max_spinning_ = 0;
 }
 
 void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
@@ -171,10 +176,10 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
-    if (tasks_.empty()) avoid(own_processor());
+    if (tasks_.empty()) exclude_processor(current_processor());
     tasks_.push_back(&task);
-    ++offers_;
-    sleeping = helpers - std::min(helpers, looking_out_);
+    ++run_count_;
+    sleeping = helpers - std::min(helpers, spinning_);
   }
   for (unsigned i = 0; i < sleeping; ++i)
     work_.notify_one();
@@ -183,17 +188,17 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
     work();
   }
   if (current != this)
-    throw std::logic_error("a child forked inside a parallel call cannot finish that call");
+    throw std::logic_error("a forked child must not return from the body of a parallel call");
   std::unique_lock lock(mutex_);
   tasks_.erase(std::find(tasks_.begin(), tasks_.end(), &task));
-  if (awake_ > 0 && task.active > 0) {
+  if (spin_requests_ > 0 && task.active > 0) {
     lock.unlock();
     spin_until([&] { return task.active == 0; });
     lock.lock();
   }
   const auto done = [&] { return task.active == 0; };
-  if (done_.wait_for(lock, kPatience, done)) return;
-  avoid(-1);  // now this processor is free, and the others may not be
+  if (done_.wait_for(lock, kSpinTime, done)) return;
+  exclude_processor(-1);  // the caller now leaves its processor, while the others may be busy
   done_.wait(lock, done);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Threads that sleep between calls, whom nobody waits for unless they have begun: on a machine that is busy
-// with other things a call then takes what it takes alone, where a barrier waits for the last thread to get a
-// core.
+// A pool of threads that sleep between calls. A call waits only for threads that have begun to work. So on a
+// busy machine a call takes no longer than on one thread, whereas a barrier waits until the last thread gets
+// a core.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,8 @@
 
 namespace pcl_bv::internal {
 
-/// While it lives, this thread is inside a parallel call. Regions do not nest. A forked child is outside.
+/// Marks the calling thread as inside a parallel call while the object lives. Objects must not be nested on a
+/// thread. A forked child starts outside.
 class ParallelRegion {
  public:
   ParallelRegion();
@@ -29,47 +30,49 @@ class ParallelRegion {
 
 class WorkerPool {
  public:
-  /// The process's pool. Threads are started when they are first wanted and joined at exit; from then on
-  /// calls do without. A forked child has a pool of its own.
+  /// Returns the process's pool. Threads are started when first needed and joined at exit; calls after that
+  /// run on the calling thread alone. A forked child has a pool of its own.
   static WorkerPool& instance();
 
-  /// Runs work() here and on up to `helpers` other threads that find the time before it returns here;
-  /// then waits for those. Not inside a parallel region. Throws std::logic_error in a child that `work`
-  /// forked and that returns from it: what the other threads had begun is lost there.
+  /// Runs work() on the calling thread and on up to `helpers` pool threads that become free before the
+  /// caller's work() returns; then waits for those. Must not be called inside a parallel call. Throws
+  /// std::logic_error in a child that was forked by `work` and returns from it: the work of the other threads
+  /// is lost there.
   void run(unsigned helpers, const std::function<void()>& work);
 
-  /// From now on up to so many threads look for work without sleeping, until let_sleep() was called as often.
-  void stay_awake(unsigned helpers);
+  /// From now on up to `helpers` threads spin for new tasks instead of sleeping, until stop_spinning() has
+  /// been called as often as start_spinning().
+  void start_spinning(unsigned helpers);
 
-  /// Of the pool that is the process's, and not of its parent's.
-  static void let_sleep(WorkerPool* pool);
+  /// Ends one start_spinning(). Does nothing if `pool` is that of the parent process.
+  static void stop_spinning(WorkerPool* pool);
 
-  /// Joins the threads; calls do without from then on.
+  /// Joins the threads; later calls run on the calling thread alone.
   void end();
 
  private:
   struct Task {
     const std::function<void()>& work;
-    unsigned wanted;               // helpers that may still join
-    std::atomic<unsigned> active;  // that have joined and not left; changed with the lock
+    unsigned wanted;               // number of helpers that may still join
+    std::atomic<unsigned> active;  // number of helpers at work; changed with the lock held
   };
 
   void start(unsigned threads);
-  void avoid(int processor);
-  Task* wanting();
+  void exclude_processor(int processor);
+  Task* find_open_task();
   void serve();
-  bool look_out(std::unique_lock<std::mutex>& lock);
+  bool spin_for_task(std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable work_, done_;
   std::vector<Task*> tasks_;
   std::vector<std::thread> threads_;
   bool ended_ = false;
-  int avoided_ = -1;                         // the processor that the threads keep from; with the lock
-  unsigned looking_out_ = 0, lookouts_ = 0;  // threads that do, and may; with the lock
-  std::uint64_t wakes_ = 0;                  // calls of stay_awake(); with the lock
-  std::atomic<unsigned> awake_{0};           // those not yet ended
-  std::atomic<std::uint64_t> offers_{0};     // calls of run()
+  int avoided_ = -1;                          // processor that the threads avoid, or -1; guarded by mutex_
+  unsigned spinning_ = 0, max_spinning_ = 0;  // threads that spin, and the maximum of them; guarded by mutex_
+  std::uint64_t spin_request_count_ = 0;      // number of calls of start_spinning(); guarded by mutex_
+  std::atomic<unsigned> spin_requests_{0};    // calls of start_spinning() not yet ended by stop_spinning()
+  std::atomic<std::uint64_t> run_count_{0};   // number of calls of run()
 };
 
 }  // namespace pcl_bv::internal

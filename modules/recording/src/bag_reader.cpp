@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ROS 1's bags (http://wiki.ros.org/Bags/Format/2.0).
+// Reads ROS 1 bags (http://wiki.ros.org/Bags/Format/2.0).
 
 #include <bzlib.h>
 
@@ -19,7 +19,8 @@ namespace pcl_bv {
 namespace {
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
-  // Its best is 1 : 20 000, but of more than 8 MiB nobody has so much of the same.
+  // Limits the memory that a small file can request. bz2 can reach a ratio of 20 000, but real data of more
+  // than 8 MiB does not exceed 1000.
   if (expected > std::max<std::size_t>(8U << 20U, 1000 * size))
     throw IoError("bz2: " + std::to_string(size) + " bytes for " + std::to_string(expected));
   to.resize(expected);
@@ -31,47 +32,47 @@ void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, s
   if (status != BZ_OK || made != expected) throw IoError("bz2: not " + std::to_string(expected) + " bytes");
 }
 
-// Where a record is in the file, and its header; its data are not read.
-struct BagPlace {
+// A record in the file: its header, and position and size of its data, which are not read.
+struct BagRecordLocation {
   std::vector<std::byte> header;
-  std::uint64_t data = 0, size = 0;  // of its data
+  std::uint64_t data = 0, size = 0;
 };
 
-// Bytes of a header: names of topics and few numbers; of a chunk's, its compression and size.
+// Maximum bytes of any header (a topic's name, a few numbers) and of a chunk's header (compression, size).
 constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
 
 class BagReader final : public ChunkedReader {
  public:
   explicit BagReader(const std::filesystem::path& path) : file_(path) {
-    if (!by_index()) {
+    if (!read_index_or_warn()) {
       scan();
-      note_offsets();
+      sort_offsets();
     }
     start(std::move(found_topics_), std::move(found_parts_));
   }
 
  private:
-  // Nothing if it reaches beyond the file, or its header has more bytes than `max_header`.
-  std::optional<BagPlace> place_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
+  // Returns the record at `at`; nullopt if it exceeds the file or its header exceeds `max_header` bytes.
+  std::optional<BagRecordLocation> record_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
     const std::uint64_t size = file_.size();
     if (at + 4 > size) return std::nullopt;
     std::uint32_t length = 0;
     file_.read(at, &length, 4);
     if (length > max_header || length > size - at - 4 || size - at - 4 - length < 4) return std::nullopt;
-    BagPlace place;
-    place.header.resize(length);
-    file_.read(at + 4, place.header.data(), length);
+    BagRecordLocation location;
+    location.header.resize(length);
+    file_.read(at + 4, location.header.data(), length);
     std::uint32_t data = 0;
     file_.read(at + 4 + length, &data, 4);
-    place.data = at + 8 + length;
-    place.size = data;
-    if (data > size - place.data) return std::nullopt;
-    return place;
+    location.data = at + 8 + length;
+    location.size = data;
+    if (data > size - location.data) return std::nullopt;
+    return location;
   }
 
-  std::vector<std::byte> bytes_of(const BagPlace& place) const {
-    std::vector<std::byte> bytes(place.size);
-    if (!bytes.empty()) file_.read(place.data, bytes.data(), bytes.size());
+  std::vector<std::byte> bytes_of(const BagRecordLocation& location) const {
+    std::vector<std::byte> bytes(location.size);
+    if (!bytes.empty()) file_.read(location.data, bytes.data(), bytes.size());
     return bytes;
   }
 
@@ -83,23 +84,24 @@ class BagReader final : public ChunkedReader {
         found_topics_, {std::string(header.text("topic")), ros2_type(connection.text("type")), "ros1"});
   }
 
-  // The connections and the places of the chunks, which stand at the end. False if they do not.
-  bool by_index() {
-    std::string problem = "it was not closed";
+  // Reads the index at the file's end: connections and positions of chunks. Returns false, with a warning, if
+  // it is missing or damaged.
+  bool read_index_or_warn() {
+    std::string problem = "the recording was not closed";
     try {
-      const std::optional<BagPlace> head = place_at(kMagicBytes);
+      const std::optional<BagRecordLocation> head = record_at(kMagicBytes);
       const BagHeader header =
           head ? BagHeader(head->header.data(), head->header.size()) : BagHeader(nullptr, 0);
       const auto index = header.number<std::uint64_t>("index_pos");
       const auto chunks = header.number<std::uint32_t>("chunk_count");
       if (index >= kMagicBytes && index < file_.size() && read_index(index) &&
-          found_parts_.size() == chunks && note_offsets())
+          found_parts_.size() == chunks && sort_offsets())
         return true;
-      if (index != 0) problem = "it is not whole";
+      if (index != 0) problem = "the index is incomplete";
     } catch (const IoError& error) {
       problem = error.what();
     }
-    remark("without an index (" + problem + "): all of it was looked through");
+    add_warning("no usable index (" + problem + "): the whole file was scanned");
     found_topics_.clear();
     topic_of_.clear();
     found_parts_.clear();
@@ -108,10 +110,10 @@ class BagReader final : public ChunkedReader {
 
   bool read_index(std::uint64_t at) {
     for (; at < file_.size();) {
-      const std::optional<BagPlace> place = place_at(at);
-      if (!place) return false;
-      const BagHeader header(place->header.data(), place->header.size());
-      const std::vector<std::byte> data = bytes_of(*place);
+      const std::optional<BagRecordLocation> location = record_at(at);
+      if (!location) return false;
+      const BagHeader header(location->header.data(), location->header.size());
+      const std::vector<std::byte> data = bytes_of(*location);
       if (header.op() == BagOp::connection) note_connection(header, data.data(), data.size());
       if (header.op() == BagOp::chunk_info) {
         Part& part = found_parts_.emplace_back();
@@ -125,13 +127,13 @@ class BagReader final : public ChunkedReader {
           found_topics_[topic->second].messages += messages;
         }
       }
-      at = place->data + place->size;
+      at = location->data + location->size;
     }
     return true;
   }
 
-  // False if two chunks begin at one byte.
-  bool note_offsets() {
+  // Sorts the positions of the chunks. Returns false if two chunks have the same position.
+  bool sort_offsets() {
     offsets_.clear();
     for (const Part& part : found_parts_)
       offsets_.push_back(part.offset);
@@ -142,43 +144,43 @@ class BagReader final : public ChunkedReader {
   void scan() {
     std::vector<std::byte> raw, unpacked;
     Decompressor decompressor;
-    std::uint64_t previous = 0;  // its length may be what is damaged
+    std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagicBytes; at < file_.size();) {
-      const std::optional<BagPlace> place = place_at(at);
-      const std::optional<BagOp> op = place ? op_of(*place) : std::nullopt;
+      const std::optional<BagRecordLocation> location = record_at(at);
+      const std::optional<BagOp> op = location ? op_of(*location) : std::nullopt;
       if (!op) {
         const std::uint64_t from = std::max(previous, std::uint64_t{kMagicBytes}) + 1;
         const std::uint64_t found = find_chunk(from);
-        remark(found == file_.size() ? "the file ends within a record, at byte " + std::to_string(at)
-                                     : skipped_bytes(found > at ? at : from - 1, found));
+        add_warning(found == file_.size() ? "the file ends within a record, at byte " + std::to_string(at)
+                                          : skipped_bytes(found > at ? at : from - 1, found));
         previous = at = found;
         continue;
       }
       try {
-        const BagHeader header(place->header.data(), place->header.size());
+        const BagHeader header(location->header.data(), location->header.size());
         if (*op == BagOp::connection) {
-          const std::vector<std::byte> data = bytes_of(*place);
+          const std::vector<std::byte> data = bytes_of(*location);
           note_connection(header, data.data(), data.size());
         } else if (*op == BagOp::chunk) {
-          scan_chunk(at, unpack(*place, decompressor, raw, unpacked));
+          scan_chunk(at, unpack(*location, decompressor, raw, unpacked));
         }
       } catch (const IoError& error) {
-        remark("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+        add_warning("skipped the record at byte " + std::to_string(at) + ": " + error.what());
       }
       previous = at;
-      at = place->data + place->size;
+      at = location->data + location->size;
     }
   }
 
-  static std::optional<BagOp> op_of(const BagPlace& place) {
+  static std::optional<BagOp> op_of(const BagRecordLocation& location) {
     try {
-      return BagHeader(place.header.data(), place.header.size()).op();
+      return BagHeader(location.header.data(), location.header.size()).op();
     } catch (const IoError&) {
       return std::nullopt;
     }
   }
 
-  // Where the next chunk begins whose header says so; the file's end if there is none.
+  // Returns the position of the next chunk, found by its header's field "op", or the file's end.
   std::uint64_t find_chunk(std::uint64_t from) const {
     constexpr std::string_view mark("\x04\0\0\0op=\x05", 8);
     std::uint64_t chunk = file_.size();
@@ -193,36 +195,37 @@ class BagReader final : public ChunkedReader {
     return chunk;
   }
 
-  // Where the chunk begins whose header holds these bytes, but not before `from`; else the file's end.
+  // Returns the position of the chunk whose header contains the bytes [begin, end), searched backwards down
+  // to `from`; the file's end if there is none.
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
-    const std::uint64_t least = std::max(from, begin - std::min(begin, kMaxChunkHeader));
-    for (std::uint64_t at = begin; at-- > least;) {
-      const std::optional<BagPlace> place = place_at(at, kMaxChunkHeader);
-      if (place && place->data > end && op_of(*place) == BagOp::chunk) return at;
+    const std::uint64_t lowest = std::max(from, begin - std::min(begin, kMaxChunkHeader));
+    for (std::uint64_t at = begin; at-- > lowest;) {
+      const std::optional<BagRecordLocation> location = record_at(at, kMaxChunkHeader);
+      if (location && location->data > end && op_of(*location) == BagOp::chunk) return at;
     }
     return file_.size();
   }
 
   void scan_chunk(std::uint64_t at, BagBytes records) {
-    const std::size_t place = found_parts_.size();
+    const std::size_t part = found_parts_.size();
     found_parts_.push_back({at, std::numeric_limits<std::int64_t>::max()});
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() == BagOp::connection) note_connection(record.header, record.data, record.size);
       if (record.header.op() != BagOp::message) continue;
-      std::int64_t& first = found_parts_[place].first_time_ns;
+      std::int64_t& first = found_parts_[part].first_time_ns;
       first = std::min(first, record.header.time("time"));
     }
   }
 
-  BagBytes unpack(const BagPlace& place, Decompressor& decompressor, std::vector<std::byte>& raw,
+  BagBytes unpack(const BagRecordLocation& location, Decompressor& decompressor, std::vector<std::byte>& raw,
                   std::vector<std::byte>& unpacked) const {
-    const BagHeader header(place.header.data(), place.header.size());
-    if (header.op() != BagOp::chunk) throw IoError("there is no chunk");
+    const BagHeader header(location.header.data(), location.header.size());
+    if (header.op() != BagOp::chunk) throw IoError("not a chunk record");
     const auto expected = header.number<std::uint32_t>("size");
     const std::string_view compression = header.text("compression");
-    raw.resize(place.size);
-    if (!raw.empty()) file_.read(place.data, raw.data(), raw.size());
+    raw.resize(location.size);
+    if (!raw.empty()) file_.read(location.data, raw.data(), raw.size());
     if (compression == "none") {
       if (expected != raw.size())
         throw IoError("it has " + std::to_string(raw.size()) + " bytes, not " + std::to_string(expected));
@@ -239,13 +242,13 @@ class BagReader final : public ChunkedReader {
   }
 
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
-    const std::optional<BagPlace> place = place_at(part_offset(part));
-    if (!place) throw IoError("it is cut");
-    // Chunks within chunks would let a small file be read for each of its entries.
+    const std::optional<BagRecordLocation> location = record_at(part_offset(part));
+    if (!location) throw IoError("it is cut");
+    // Refuse overlapping chunks: each entry of a small file's index could refer to most of the file.
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
-    if (next != offsets_.end() && place->data + place->size > *next)
-      throw IoError("it reaches into the next one");
-    BagBytes records = unpack(*place, buffers.decompressor, buffers.raw, buffers.unpacked);
+    if (next != offsets_.end() && location->data + location->size > *next)
+      throw IoError("the chunk overlaps the next one");
+    BagBytes records = unpack(*location, buffers.decompressor, buffers.raw, buffers.unpacked);
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() != BagOp::message) continue;
@@ -257,10 +260,10 @@ class BagReader final : public ChunkedReader {
   }
 
   InputFile file_;
-  std::vector<RecordedTopic> found_topics_;        // until start()
-  std::vector<Part> found_parts_;                  // until start()
-  std::vector<std::uint64_t> offsets_;             // of the chunks, ascending
-  std::map<std::uint32_t, std::size_t> topic_of_;  // by connection
+  std::vector<RecordedTopic> found_topics_;        // moved to the base class by start()
+  std::vector<Part> found_parts_;                  // moved to the base class by start()
+  std::vector<std::uint64_t> offsets_;             // positions of the chunks, ascending
+  std::map<std::uint32_t, std::size_t> topic_of_;  // index in the topics, by connection id
 };
 
 }  // namespace

@@ -42,13 +42,13 @@ bool ChunkedReader::next(RecordedMessage& message) {
     load_next();
   }
   if (loaded_.empty()) return false;
-  Loaded& from = *earliest();
+  LoadedPart& from = *earliest();
   message = from.messages[from.next++];
   return true;
 }
 
-// Of equal times that of the part which comes first in the file.
-ChunkedReader::Loaded* ChunkedReader::earliest() const {
+// Returns the loaded part with the earliest next message; of equal times the first part in the file.
+ChunkedReader::LoadedPart* ChunkedReader::earliest() const {
   const auto before = [](const auto& a, const auto& b) {
     const std::int64_t at = a->messages[a->next].log_time_ns, bt = b->messages[b->next].log_time_ns;
     return at != bt ? at < bt : a->part < b->part;
@@ -56,7 +56,7 @@ ChunkedReader::Loaded* ChunkedReader::earliest() const {
   return std::min_element(loaded_.begin(), loaded_.end(), before)->get();
 }
 
-// What next() gave is not looked at any more.
+// Releases the parts without further messages. The message that next() returned before is no longer needed.
 void ChunkedReader::release() {
   for (auto loaded = loaded_.begin(); loaded != loaded_.end();) {
     if ((*loaded)->next < (*loaded)->messages.size()) {
@@ -73,9 +73,9 @@ void ChunkedReader::load_next() {
   const Part& part = parts_[number];
   const auto is_wanted = [this](std::size_t topic) { return wanted_[topic]; };
   if (!part.topics.empty() && std::none_of(part.topics.begin(), part.topics.end(), is_wanted)) return;
-  std::unique_ptr<Loaded> loaded;
+  std::unique_ptr<LoadedPart> loaded;
   if (spare_.empty()) {
-    loaded = std::make_unique<Loaded>();
+    loaded = std::make_unique<LoadedPart>();
   } else {
     loaded = std::move(spare_.back());
     spare_.pop_back();
@@ -86,9 +86,9 @@ void ChunkedReader::load_next() {
   try {
     load(number, loaded->buffers, loaded->messages);
   } catch (const IoError& error) {
-    const bool some = !loaded->messages.empty();  // those before the damage are whole
-    remark(std::string("passed over the ") + (some ? "rest of the " : "") + "chunk at byte " +
-           std::to_string(part.offset) + ": " + error.what());
+    const bool some = !loaded->messages.empty();  // the messages before the damage are intact
+    add_warning(std::string("skipped the ") + (some ? "rest of the " : "") + "chunk at byte " +
+                std::to_string(part.offset) + ": " + error.what());
   }
   std::stable_sort(
       loaded->messages.begin(), loaded->messages.end(),

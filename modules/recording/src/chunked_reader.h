@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What formats have in common whose messages lie in chunks: chunks whose times overlap are held side by side,
-// and the earliest message of all is given.
+// Base class of readers for formats that store messages in chunks. Chunks whose times overlap are loaded at
+// the same time, so that messages can be returned in the order of time.
 #pragma once
 
 #include <memory>
@@ -20,49 +20,50 @@ class ChunkedReader : public RecordingReader {
   bool next(RecordedMessage& message) override;
 
  protected:
-  /// A chunk, or messages that lie together.
+  /// A chunk, or a run of messages outside of chunks.
   struct Part {
-    std::uint64_t offset = 0;
-    std::int64_t first_time_ns = 0;
-    std::vector<std::size_t> topics{};  ///< Of its messages; if empty, nobody says.
+    std::uint64_t offset = 0;           ///< Position in the file.
+    std::int64_t first_time_ns = 0;     ///< Time of its earliest message.
+    std::vector<std::size_t> topics{};  ///< Topics of its messages; empty if unknown.
   };
-  /// What a part's messages look into.
+  /// Memory that the messages of a loaded part refer to.
   struct Buffers {
     std::vector<std::byte> raw, unpacked;
     Decompressor decompressor;
   };
 
-  /// Called once, before anything else; parts as they lie in the file.
+  /// Sets the topics, and the parts in the order of the file. Must be called once, before all others.
   void start(std::vector<RecordedTopic> topics, std::vector<Part> parts);
 
   /// Appends the messages of a part whose topics are wanted(), in their order in the file. Throws IoError for
-  /// a part that is damaged: what comes behind those that it has appended is passed over.
+  /// a damaged part; the messages appended before the exception are used, the rest of the part is skipped.
   virtual void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) = 0;
 
+  /// Whether the topic is selected.
   bool wanted(std::size_t topic) const { return wanted_[topic]; }
   std::uint64_t part_offset(std::size_t part) const { return parts_[part].offset; }
 
  private:
-  struct Loaded {
-    std::size_t part = 0, next = 0;
-    std::vector<RecordedMessage> messages;  // by time
+  struct LoadedPart {
+    std::size_t part = 0, next = 0;         // number of the part, and of its next message
+    std::vector<RecordedMessage> messages;  // sorted by time
     Buffers buffers;
   };
 
-  Loaded* earliest() const;
+  LoadedPart* earliest() const;
   void release();
   void load_next();
 
   std::vector<RecordedTopic> topics_;
   std::vector<Part> parts_;
   std::vector<bool> wanted_;
-  std::vector<std::size_t> order_;  // of the parts, by their first times
+  std::vector<std::size_t> order_;  // numbers of the parts, sorted by first time
   std::size_t next_part_ = 0;
-  std::vector<std::unique_ptr<Loaded>> loaded_, spare_;
+  std::vector<std::unique_ptr<LoadedPart>> loaded_, spare_;
 };
 
-/// The place of the topic in the list, at its end if it is new; its messages are added to those of the same
-/// name, type and encoding, which several senders have.
+/// Returns the index of the topic in the list; appends it if it is new. If several senders have topics of the
+/// same name, type and encoding, they become one topic, and their numbers of messages are added.
 std::size_t add_topic(std::vector<RecordedTopic>& topics, const RecordedTopic& topic);
 
 }  // namespace pcl_bv

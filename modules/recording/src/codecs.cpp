@@ -17,28 +17,28 @@
 namespace pcl_bv {
 namespace {
 
-// The fastest: recording must not hold up a stream.
+// The fastest level: recording must not slow down a stream.
 constexpr int kZstdLevel = 1;
 [[noreturn]] void refuse(const char* library, const std::string& what) {
   throw IoError(std::string(library) + ": " + what);
 }
 
-// A byte of lz4 stands for at most 255.
+// One byte of lz4 decompresses to at most 255 bytes.
 void check_lz4(std::size_t size, std::size_t expected) {
   if (expected / 256 > size)
-    refuse("lz4", std::to_string(size) + " bytes do not stand for " + std::to_string(expected));
+    refuse("lz4", std::to_string(size) + " bytes cannot decompress to " + std::to_string(expected));
 }
 
 void unpack_lz4(LZ4F_dctx* context, const std::byte* data, std::size_t size, std::vector<std::byte>& to) {
   LZ4F_resetDecompressionContext(context);
   std::size_t read = 0, written = 0, hint = 1;
   while (hint != 0) {
-    std::size_t source = size - read, room = to.size() - written;
-    hint = LZ4F_decompress(context, to.data() + written, &room, data + read, &source, nullptr);
+    std::size_t source = size - read, target = to.size() - written;
+    hint = LZ4F_decompress(context, to.data() + written, &target, data + read, &source, nullptr);
     if (LZ4F_isError(hint) != 0) refuse("lz4", LZ4F_getErrorName(hint));
-    if (hint != 0 && source == 0 && room == 0) break;  // no room, or no data any more
+    if (hint != 0 && source == 0 && target == 0) break;  // no progress: `to` is full, or the data ends
     read += source;
-    written += room;
+    written += target;
   }
   if (hint != 0 || written != to.size() || read != size)
     refuse("lz4", "not a frame of " + std::to_string(to.size()) + " bytes");
@@ -101,7 +101,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
     to.resize(expected);
     return unpack_lz4(contexts_->lz4, data, size, to);
   }
-  if (expected / 64 > size) {  // more than what is usual: as much memory as comes out
+  if (expected / 64 > size) {  // unusual ratio: do not trust `expected`, let the buffer grow with the output
     decompress_zstd(data, size, to, expected);
     if (to.size() != expected) refuse("zstd", "not " + std::to_string(expected) + " bytes");
     return;
@@ -113,9 +113,10 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 }
 
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
-                                   std::size_t most) {
+                                   std::size_t max_bytes) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
-  // A few bytes may ask for a window of 128 MiB; level 19 asks for 8.
+  // Limit the window, since a few bytes can request 128 MiB: to 8 MiB (enough for level 19) for less than 1
+  // MiB of data, else to 128 MiB.
   ZSTD_DCtx_setParameter(contexts_->zstd.get(), ZSTD_d_windowLogMax, size < (1U << 20U) ? 23 : 27);
   ZSTD_inBuffer in{data, size, 0};
   std::size_t made = 0, rest = 1;
@@ -127,7 +128,7 @@ void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std:
     if (ZSTD_isError(rest) != 0) refuse("zstd", ZSTD_getErrorName(rest));
     if (in.pos == before && out.pos == made) refuse("zstd", "the frame is cut");
     made = out.pos;
-    if (made > most) refuse("zstd", "more than " + std::to_string(most) + " bytes");
+    if (made > max_bytes) refuse("zstd", "more than " + std::to_string(max_bytes) + " bytes");
   }
   to.resize(made);
 }

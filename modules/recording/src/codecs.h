@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whole blocks of bytes, compressed as recordings do: lz4 and zstd in their frame formats.
+// Compresses and decompresses blocks of recordings: lz4 and zstd, both in their frame formats.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@ namespace pcl_bv {
 
 inline constexpr Compression kCompressions[]{Compression::none, Compression::lz4, Compression::zstd};
 
-std::string_view name_of(Compression compression);  ///< "", "lz4" or "zstd", as MCAP has it.
+std::string_view name_of(Compression compression);  ///< Name in MCAP: "", "lz4" or "zstd".
 
-/// Replaces `to`. Reuse keeps the capacity and what the libraries need.
+/// Compresses blocks; compress() replaces `to`. Reuse an object (and `to`) to keep the allocated memory.
 class Compressor {
  public:
   Compressor();
@@ -30,25 +30,27 @@ class Compressor {
   std::unique_ptr<Contexts> contexts_;
 };
 
-/// Makes `to` the `expected` bytes that `data` stands for. Throws IoError, in words, if it does not stand for
-/// just as many; what is announced takes no more memory than comes of it.
+/// Decompresses blocks; reuse an object to keep the allocated memory.
 class Decompressor {
  public:
   Decompressor();
   ~Decompressor();
+  /// Replaces `to` by the decompressed data. Throws IoError if the result does not have `expected` bytes. A
+  /// large `expected` alone cannot cause a large allocation: memory is limited by what `data` can yield.
   void decompress(Compression compression, const std::byte* data, std::size_t size, std::size_t expected,
                   std::vector<std::byte>& to);
 
-  /// Frames of zstd whose length nobody said. Throws IoError if they are damaged, cut, or more than `most`.
+  /// Decompresses zstd frames of unknown length. Throws IoError if they are damaged or cut, or if the result
+  /// has more than `max_bytes` bytes.
   void decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
-                       std::size_t most = SIZE_MAX);
+                       std::size_t max_bytes = SIZE_MAX);
 
  private:
   struct Contexts;
   std::unique_ptr<Contexts> contexts_;
 };
 
-/// CRC-32 as in IEEE 802.3, which MCAP, zip and png use; of what follows `crc`.
+/// Returns the CRC-32 of IEEE 802.3 (as in MCAP, zip and png). `crc`: CRC of the preceding data.
 std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc = 0);
 
 }  // namespace pcl_bv

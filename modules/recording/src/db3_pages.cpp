@@ -12,9 +12,9 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::uint64_t kFileHeader = 100;  // in the first page
+constexpr std::uint64_t kFileHeader = 100;  // bytes at the beginning of the first page
 constexpr int kTableLeaf = 0x0D;
-constexpr std::size_t kMostColumns = 16;  // more than topics have; bounds what a damaged row costs
+constexpr std::size_t kMaxColumns = 16;  // more than either table has; limits the work for a damaged row
 
 std::uint64_t big(const std::byte* at, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -23,7 +23,7 @@ std::uint64_t big(const std::byte* at, std::size_t bytes) {
   return value;
 }
 
-// A part of a page, read from its front. Throws IoError where it ends.
+// Reads a part of a page in sequence. Throws IoError at its end.
 class PageBytes {
  public:
   PageBytes(const std::vector<std::byte>& page, std::uint64_t from, std::uint64_t to)
@@ -44,14 +44,14 @@ class PageBytes {
     }
     return value << 8U | std::to_integer<std::uint64_t>(*take(1));
   }
-  bool ends_before(std::uint64_t place) const { return at_ < place; }
+  bool ends_before(std::uint64_t position) const { return at_ < position; }
 
  private:
   const std::vector<std::byte>& page_;
   std::uint64_t at_, end_;
 };
 
-// SQLite's types of values.
+// SQLite's serial types of values.
 bool is_integer(std::uint64_t type) {
   return (type >= 1 && type <= 6) || type == 8 || type == 9;
 }
@@ -66,7 +66,7 @@ std::int64_t take_integer(PageBytes& bytes, std::uint64_t type) {
   if (type >= 8) return static_cast<std::int64_t>(type - 8);
   const std::size_t size = type <= 4 ? type : type == 5 ? 6 : 8;
   const auto value = big(bytes.take(size), size) << (64 - 8 * size);
-  return static_cast<std::int64_t>(value) >> (64 - 8 * size);  // the sign is that of the first byte
+  return static_cast<std::int64_t>(value) >> (64 - 8 * size);  // extends the sign of the first byte
 }
 
 std::string take_text(PageBytes& bytes, std::uint64_t type) {
@@ -79,7 +79,7 @@ std::string take_text(PageBytes& bytes, std::uint64_t type) {
 Db3Pages::Db3Pages(const std::filesystem::path& file) : file_(file) {
   bytes_.resize(std::min<std::uint64_t>(kFileHeader, file_.size()));
   file_.read(0, bytes_.data(), bytes_.size());
-  // Where the header is what is damaged: 4096, as rosbag2 leaves it.
+  // If the header is damaged, the page size stays 4096, the default that rosbag2 uses.
   if (bytes_.size() == kFileHeader) {
     const std::uint64_t size = big(bytes_.data() + 16, 2) == 1 ? 65'536 : big(bytes_.data() + 16, 2);
     const auto reserved = std::to_integer<std::uint64_t>(bytes_[20]);
@@ -96,7 +96,7 @@ Db3Pages::Db3Pages(const std::filesystem::path& file) : file_(file) {
                    [](const Message& a, const Message& b) { return a.id < b.id; });
   const auto same = [](const Message& a, const Message& b) {
     return a.id == b.id;
-  };  // of pages that are not used any more
+  };  // the same row can also be on a page that is no longer used
   messages_.erase(std::unique(messages_.begin(), messages_.end(), same), messages_.end());
 }
 
@@ -108,33 +108,34 @@ void Db3Pages::read_leaf(std::uint64_t page) {
   const std::uint64_t cells = big(start + 3, 2);
   if (header + 8 + 2 * cells > page_size_) return;
   file_.read(page * page_size_, bytes_.data(), bytes_.size());
-  std::vector<bool> read(page_size_);  // a damaged page may name a cell many times
+  std::vector<bool> read(page_size_);  // a damaged page may refer to a cell many times
   for (std::uint64_t i = 0; i < cells; ++i) {
     const std::uint64_t cell = big(bytes_.data() + header + 8 + 2 * i, 2);
     if (cell >= page_size_ || read[cell]) continue;
     read[cell] = true;
     try {
       read_row(page, cell);
-    } catch (const IoError&) {  // the next one may be whole
+    } catch (const IoError&) {  // skip the damaged row; the next one may be intact
     }
   }
 }
 
-// Of both tables the first column is the row's own number; the others are of these types and of no other
-// table's.
+// Recognises the rows of both tables by their column types, which no other table has: the first column is the
+// row's id (stored as NULL), then messages have integer, integer, blob, and topics have three texts.
 void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   PageBytes bytes(bytes_, cell, usable_);
   const std::uint64_t payload = bytes.varint();
   const auto id = static_cast<std::int64_t>(bytes.varint());
-  const std::uint64_t most = usable_ - 35, least = (usable_ - 12) * 32 / 255 - 23;
-  const std::uint64_t wanted = payload <= most ? payload : least + (payload - least) % (usable_ - 4);
-  const std::uint64_t local = wanted <= most ? wanted : least;
+  const std::uint64_t max_local = usable_ - 35, min_local = (usable_ - 12) * 32 / 255 - 23;
+  const std::uint64_t wanted =
+      payload <= max_local ? payload : min_local + (payload - min_local) % (usable_ - 4);
+  const std::uint64_t local = wanted <= max_local ? wanted : min_local;
   const std::uint64_t begin = bytes.at();
   PageBytes values(bytes_, begin, begin + local);
   const std::uint64_t types_end = begin + values.varint();
   std::vector<std::uint64_t> types;
   while (values.ends_before(types_end)) {
-    if (types.size() == kMostColumns) return;
+    if (types.size() == kMaxColumns) return;
     types.push_back(values.varint());
   }
   if (types.size() == 4 && types[0] == 0 && is_integer(types[1]) && is_integer(types[2]) &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One file of rosbag2's SQLite storage: the tables topics and messages.
+// Reads a .db3 file of rosbag2: a SQLite database with the tables topics and messages.
 
 #include <sqlite3.h>
 
@@ -15,16 +15,16 @@
 #include "db3_pages.h"
 #include "formats.h"
 #include "pcl_bv/io/io_error.h"
-#include "sqlite_problem.h"
+#include "sqlite_error.h"
 
 namespace pcl_bv {
 namespace {
 
-// What SQLite says, and whether it is that the file is damaged.
+// An error of SQLite.
 class DatabaseError : public IoError {
  public:
   explicit DatabaseError(sqlite3* database)
-      : IoError(sqlite_problem(database)), code_(sqlite3_errcode(database) & 0xFF) {}
+      : IoError(sqlite_error_message(database)), code_(sqlite3_errcode(database) & 0xFF) {}
   bool is_damage() const { return code_ == SQLITE_CORRUPT || code_ == SQLITE_NOTADB; }
 
  private:
@@ -33,8 +33,8 @@ class DatabaseError : public IoError {
 
 class Database {
  public:
-  // Beside a file that is still written to its journal must be read, too; where that cannot be made, as on a
-  // disc that is read-only, the file alone.
+  // Opens the file with its journal, which has the latest messages of a recording in progress. If SQLite
+  // cannot create the files for that, as on a read-only disk, opens the database file alone.
   explicit Database(const std::filesystem::path& file) {
     if (open(file, "mode=ro") && works()) return;
     if (!open(file, "mode=ro&immutable=1") || !works()) fail();
@@ -56,7 +56,7 @@ class Database {
         std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned>(c));
       uri += code;
     }
-    sqlite3* database = nullptr;  // given even where opening fails, for the reason
+    sqlite3* database = nullptr;  // set even if opening fails, to provide the reason
     const int status = sqlite3_open_v2((uri + '?' + options).c_str(), &database,
                                        SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     database_.reset(database);
@@ -69,7 +69,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-// Rows of a query. Throws IoError where the file is damaged.
+// The rows of a query. Member functions throw IoError if the file is damaged.
 class Query {
  public:
   Query(const Database& database, const std::string& sql) : database_(database) {
@@ -80,7 +80,7 @@ class Query {
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
 
-  // From the beginning, with this number in the place of the question mark.
+  // Restarts the query with this number as its parameter.
   void begin(std::int64_t number) {
     sqlite3_reset(statement_);
     sqlite3_bind_int64(statement_, 1, number);
@@ -95,7 +95,7 @@ class Query {
     const unsigned char* const text = sqlite3_column_text(statement_, column);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
   }
-  // Throws IoError where the pages that it goes on in are damaged.
+  // Throws IoError if the overflow pages of the value are damaged.
   const std::byte* blob(int column, std::size_t& size) const {
     const void* const data = sqlite3_column_blob(statement_, column);
     size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
@@ -109,8 +109,8 @@ class Query {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-// A message, by its row in the table or, where that is damaged, by its place among those that pages hold. The
-// order of the times is ours, so that an index of them, which has pages of its own, need not be whole.
+// A message. `id` is its row in the table or, for a damaged file, its index in Db3Pages::messages(). Rows are
+// sorted by time here, not by the database's index of times, which can be damaged.
 struct Row {
   std::int64_t time = 0, id = 0;
   std::size_t topic = 0;
@@ -125,8 +125,8 @@ class Db3Reader final : public RecordingReader {
       if (!error.is_damage()) throw;
       read_pages(file, error.what());
     }
-    if (of_no_topic_ > 0)
-      remark(std::to_string(of_no_topic_) + " messages of topics that are not described are passed over");
+    if (messages_without_topic_ > 0)
+      add_warning(std::to_string(messages_without_topic_) + " messages of unknown topics are skipped");
     for (const Row& row : rows_)
       ++topics_[row.topic].messages;
     std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
@@ -154,7 +154,7 @@ class Db3Reader final : public RecordingReader {
         unpack(message);
         return true;
       } catch (const IoError& error) {
-        remark(error.what() + std::string(", in the message of ") + std::to_string(row.time));
+        add_warning(error.what() + std::string(", in the message of ") + std::to_string(row.time));
       }
     }
     return false;
@@ -176,30 +176,30 @@ class Db3Reader final : public RecordingReader {
     topics_.clear();
     topic_of_.clear();
     rows_.clear();
-    of_no_topic_ = 0;
+    messages_without_topic_ = 0;
     pages_ = std::make_unique<Db3Pages>(file);
     for (const auto& [id, topic] : pages_->topics())
       add(id, topic);
-    std::int64_t place = 0;
+    std::int64_t index = 0;
     for (const Db3Pages::Message& message : pages_->messages())
-      add(message.topic, Row{message.time, place++});
+      add(message.topic, Row{message.time, index++});
     if (topics_.empty()) throw IoError(problem);
-    remark(problem + ": messages on damaged pages are passed over, " + std::to_string(rows_.size()) +
-           " are there");
+    add_warning(problem + ": " + std::to_string(rows_.size()) +
+                " messages were recovered; those on damaged pages are lost");
   }
 
   void add(std::int64_t id, const RecordedTopic& topic) { topic_of_[id] = add_topic(topics_, topic); }
   void add(std::int64_t topic, Row row) {
     const auto found = topic_of_.find(topic);
     if (found == topic_of_.end()) {
-      ++of_no_topic_;
+      ++messages_without_topic_;
       return;
     }
     row.topic = found->second;
     rows_.push_back(row);
   }
 
-  // False for one that was deleted meanwhile.
+  // Returns false if the row has been deleted meanwhile.
   bool load(const Row& row, RecordedMessage& message) {
     if (pages_) {
       pages_->load(pages_->messages()[static_cast<std::size_t>(row.id)], raw_);
@@ -213,7 +213,7 @@ class Db3Reader final : public RecordingReader {
     return true;
   }
 
-  // rosbag2 can compress each message; CDR never begins as a frame of zstd does.
+  // rosbag2 can compress each message by itself. A message in CDR never begins with the magic number of zstd.
   void unpack(RecordedMessage& message) {
     constexpr unsigned char zstd[] = {0x28, 0xB5, 0x2F, 0xFD};
     if (message.size < sizeof zstd || std::memcmp(message.data, zstd, sizeof zstd) != 0) return;
@@ -223,12 +223,12 @@ class Db3Reader final : public RecordingReader {
   }
 
   std::unique_ptr<Database> database_;
-  std::unique_ptr<Query> data_;      // after the database, which must outlive it
-  std::unique_ptr<Db3Pages> pages_;  // instead of both
+  std::unique_ptr<Query> data_;      // declared after the database, which must outlive it
+  std::unique_ptr<Db3Pages> pages_;  // used instead of both if the file is damaged
   std::vector<RecordedTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_;
-  std::uint64_t of_no_topic_ = 0;
-  std::vector<Row> rows_;  // by time, equal ones by id
+  std::uint64_t messages_without_topic_ = 0;
+  std::vector<Row> rows_;  // sorted by time, equal times by id
   std::vector<bool> wanted_;
   std::size_t next_ = 0;
   Decompressor decompressor_;

@@ -13,18 +13,19 @@ const std::vector<RecordingFormat>& recording_formats() {
   static const std::vector<RecordingFormat> formats{
       {"MCAP", [](const Path&, Start start) { return start.starts_with(mcap::kMagic); }, open_mcap},
       {"ROS 1 bag", [](const Path&, Start start) { return start.starts_with("#ROSBAG V2.0\n"); }, open_bag},
-      // Also one whose first page is damaged.
+      // The extension is enough, so that a file with a damaged first page is recognised.
       {"rosbag2's .db3",
        [](const Path& file, Start start) {
          return start.starts_with("SQLite format 3") || (file.extension() == ".db3" && !start.empty());
        },
        open_db3},
-      {"its .zstd",
+      {"rosbag2's .db3.zstd or .mcap.zstd",
        [](const Path& file, Start start) {
          return file.extension() == ".zstd" && start.starts_with("\x28\xB5\x2F\xFD");
        },
        open_zstd_file},
-      {"its folder", [](const Path& file, Start) { return is_rosbag2_folder(file); }, open_rosbag2_folder}};
+      {"rosbag2's folder", [](const Path& file, Start) { return is_rosbag2_folder(file); },
+       open_rosbag2_folder}};
   return formats;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The table of recording formats, and the function that opens each.
 #pragma once
 
 #include <filesystem>
@@ -13,25 +14,27 @@
 
 namespace pcl_bv {
 
-/// A row of the table of formats.
+/// A format of recordings.
 struct RecordingFormat {
-  std::string_view name;  ///< "MCAP"
-  bool (*knows)(const std::filesystem::path& file,
-                std::string_view start);  ///< `start`: up to 64 bytes of a file.
+  std::string_view name;  ///< Name in error messages, such as "MCAP".
+  /// Whether the file has this format. `start`: the file's first bytes, up to 64.
+  bool (*matches)(const std::filesystem::path& file, std::string_view start);
   std::unique_ptr<RecordingReader> (*open)(const std::filesystem::path& file);
 };
 
+/// All formats, in the order in which they are tried.
 const std::vector<RecordingFormat>& recording_formats();
 
 std::unique_ptr<RecordingReader> open_db3(const std::filesystem::path& file);
 bool is_rosbag2_folder(const std::filesystem::path& folder);
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const std::filesystem::path& folder);
-/// A file of another format that is compressed whole.
+/// Opens a file of another format that is compressed as a whole.
 std::unique_ptr<RecordingReader> open_zstd_file(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
 
-/// "sensor_msgs/PointCloud2", as ROS 1 has it, with ROS 2's "/msg/".
+/// Returns the type name in ROS 2's spelling: "sensor_msgs/PointCloud2" (ROS 1) becomes
+/// "sensor_msgs/msg/PointCloud2".
 std::string ros2_type(std::string_view type);
 
 }  // namespace pcl_bv

@@ -12,24 +12,26 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// The records of the summary. Throws IoError if it is not whole.
+// Returns the records of the summary, empty if there is none. Throws IoError if file or summary are damaged.
 std::vector<std::byte> read_summary(const InputFile& file) {
   const std::uint64_t size = file.size();
-  if (size < kMagic.size() + kFileEnd) throw IoError("it is cut");
+  if (size < kMagic.size() + kFileEnd) throw IoError("the file is truncated");
   const std::vector<std::byte> end = bytes_at(file, size - kFileEnd, kFileEnd);
-  if (std::memcmp(end.data() + kFooterBytes, kMagic.data(), kMagic.size()) != 0) throw IoError("it is cut");
+  if (std::memcmp(end.data() + kFooterBytes, kMagic.data(), kMagic.size()) != 0)
+    throw IoError("the file is truncated");
   Fields fields(end.data(), kFooterBytes);
   const Record footer = take_record(fields);
-  if (footer.op != Op::footer) throw IoError("it has no footer");
+  if (footer.op != Op::footer) throw IoError("the file has no footer");
   Fields values = footer.fields();
   const auto start = values.number<std::uint64_t>();
-  values.number<std::uint64_t>();  // where the summary's offsets are
+  values.number<std::uint64_t>();  // position of the summary offset records, not needed
   const auto crc = values.number<std::uint32_t>();
   if (start == 0) return {};
-  if (start < kMagic.size() || start > size - kFileEnd) throw IoError("its summary lies outside");
+  if (start < kMagic.size() || start > size - kFileEnd)
+    throw IoError("the summary's offset is outside the file");
   std::vector<std::byte> summary = bytes_at(file, start, size - start);
   if (crc != 0 && crc32_of(summary.data(), summary.size() - kMagic.size() - 4) != crc)
-    throw IoError("its summary is damaged");
+    throw IoError("the summary is damaged");
   summary.resize(summary.size() - kFileEnd);
   return summary;
 }
@@ -47,7 +49,7 @@ void note_chunk(const Record& record, std::uint64_t end, Summary& summary) {
   summary.index_bytes[chunk.offset] = chunk.index_bytes;
 }
 
-// Overlapping chunks would let a short summary make the whole file be read for each of its entries.
+// Throws IoError for overlapping chunks: each entry of a short summary could refer to the whole file.
 void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   std::uint64_t end = 0;
   for (const auto& [offset, chunk] : chunks) {
@@ -56,7 +58,8 @@ void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   }
 }
 
-// Whether each channel that the summary names, or whose messages it counts or indexes, is described there.
+// Whether the index has the channel and schema of each channel that the summary's channel, statistics and
+// chunk index records refer to.
 bool describes_channels(const Summary& summary, const Index& index) {
   const auto known = [&](std::uint16_t id) {
     const auto channel = index.channels.find(id);
@@ -73,13 +76,13 @@ bool describes_channels(const Summary& summary, const Index& index) {
          });
 }
 
-// Nothing if there is no summary, or none that describes all channels.
-std::optional<Summary> by_summary(const InputFile& file, Index& index) {
+// Reads the summary. Returns nullopt if there is none, or if it does not describe all channels.
+std::optional<Summary> read_summary_index(const InputFile& file, Index& index) {
   const std::vector<std::byte> bytes = read_summary(file);
   Summary summary;
   for (Fields records(bytes.data(), bytes.size()); records.left() > 0;) {
     const Record record = take_record(records);
-    note(record, index);
+    add_schema_or_channel(record, index);
     if (record.op == Op::chunk_index) note_chunk(record, file.size(), summary);
     if (record.op == Op::statistics) take(record.fields(), summary.statistics.emplace());
   }
@@ -98,9 +101,9 @@ Fields load_part(const InputFile& file, const Part& part, Decompressor& decompre
   Fields all(raw.data(), raw.size());
   if (!part.is_chunk) return all;
   const Record record = take_record(all);
-  if (record.op != Op::chunk) throw IoError("there is no chunk");
+  if (record.op != Op::chunk) throw IoError("not a chunk record");
   Fields fields = record.fields();
-  fields.take(16);  // its times
+  fields.take(16);  // first and last time
   const auto length = fields.number<std::uint64_t>();
   const auto crc = fields.number<std::uint32_t>();
   const std::string_view name = fields.text();
@@ -115,7 +118,7 @@ Fields load_part(const InputFile& file, const Part& part, Decompressor& decompre
   } else if (size != length) {
     throw IoError("it has " + std::to_string(size) + " bytes, not " + std::to_string(length));
   }
-  if (crc != 0 && crc32_of(data, length) != crc) throw IoError("its CRC is another");
+  if (crc != 0 && crc32_of(data, length) != crc) throw IoError("its CRC does not match");
   return {data, static_cast<std::size_t>(length)};
 }
 
@@ -123,24 +126,24 @@ Index index_of(const InputFile& file) {
   char start[8] = {};
   if (file.size() >= sizeof start) file.read(0, start, sizeof start);
   if (std::string_view(start, sizeof start) != kMagic) throw IoError("does not begin as MCAP does");
-  std::string problem = "its summary does not describe all channels and chunks";
+  std::string problem = "the summary does not describe all channels and chunks";
   Index index;
   std::optional<Summary> summary;
   try {
-    summary = by_summary(file, index);
+    summary = read_summary_index(file, index);
   } catch (const IoError& error) {
     problem = error.what();
   }
   if (!summary) {
     index = Index();
-    index.warnings.add("without an index (" + problem + "): all of it was looked through");
+    index.warnings.add("no usable index (" + problem + "): the whole file was scanned");
     mcap::scan(file, Summary(), index);
     return index;
   }
-  const Unknown unknown = mcap::scan(file, *summary, index);
+  const UnindexedCounts unindexed = mcap::scan(file, *summary, index);
   const std::optional<Statistics>& counted = summary->statistics;
-  if (counted && counted->chunks == summary->chunks.size() && unknown.chunks == 0 &&
-      unknown.loose_messages == 0)
+  if (counted && counted->chunks == summary->chunks.size() && unindexed.chunks == 0 &&
+      unindexed.loose_messages == 0)
     index.messages = counted->channel_messages;
   return index;
 }

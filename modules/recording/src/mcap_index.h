@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The index of an MCAP file: its channels, and the positions of its messages.
 #pragma once
 
 #include <cstdint>
@@ -17,28 +18,29 @@
 namespace pcl_bv {
 namespace mcap {
 
-/// Where messages are: a chunk, or messages that follow each other outside of any.
+/// A part of the file with messages: a chunk, or successive messages outside of chunks.
 struct Part {
   std::uint64_t offset = 0, bytes = 0;
   std::uint64_t first_time = 0, last_time = 0;
   bool is_chunk = true;
-  std::set<std::uint16_t> channels{};  ///< Of its messages; empty if nobody says.
+  std::set<std::uint16_t> channels{};  ///< Channels of its messages; empty if unknown.
 };
 
+/// The index of a file.
 struct Index {
-  std::map<std::uint16_t, Schema> schemas;
-  std::map<std::uint16_t, Channel> channels;
-  std::map<std::uint16_t, std::uint64_t> messages;  ///< By channel, if the file says.
-  std::vector<Part> parts;                          ///< As they lie in the file.
+  std::map<std::uint16_t, Schema> schemas;          ///< By id.
+  std::map<std::uint16_t, Channel> channels;        ///< By id.
+  std::map<std::uint16_t, std::uint64_t> messages;  ///< Number of messages by channel, if the file states it.
+  std::vector<Part> parts;                          ///< In the order of the file.
   WarningList warnings;
 };
 
-/// What is in a file, by a walk over its records, which passes over the chunks that the summary describes.
-/// Where the summary is missing, damaged, or lacks chunks or a channel's schema, chunks are read, too. Throws
-/// IoError if the file does not begin as MCAP does.
+/// Returns the index of a file. Walks over its records but skips the chunks that the summary describes.
+/// Chunks are read, too, if the summary is missing or damaged, or if it lacks chunks or a channel's schema.
+/// Throws IoError if the file does not begin with MCAP's magic number.
 Index index_of(const InputFile& file);
 
-/// The records of a part, which look into `raw` or `unpacked`. Throws IoError for a part that is damaged.
+/// Returns the records of a part, which refer to `raw` or `unpacked`. Throws IoError for a damaged part.
 Fields load_part(const InputFile& file, const Part& part, Decompressor& decompressor,
                  std::vector<std::byte>& raw, std::vector<std::byte>& unpacked);
 

@@ -12,15 +12,15 @@ namespace pcl_bv {
 namespace {
 
 std::int64_t signed_time(std::uint64_t time) {
-  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  return static_cast<std::int64_t>(std::min(time, most));
+  constexpr auto max_time = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(std::min(time, max_time));
 }
 
 class McapReader final : public ChunkedReader {
  public:
   explicit McapReader(const std::filesystem::path& path) : file_(path), index_(mcap::index_of(file_)) {
     std::uint64_t added = 0;
-    remark(index_.warnings, added);
+    add_warnings(index_.warnings, added);
     std::vector<RecordedTopic> topics;
     for (const auto& [id, channel] : index_.channels)
       topic_of_[id] = add_topic(topics, topic_of(channel));
@@ -53,13 +53,12 @@ class McapReader final : public ChunkedReader {
       mcap::Fields fields = record.fields();
       const auto channel = fields.number<std::uint16_t>();
       const auto topic = topic_of_.find(channel);
-      fields.number<std::uint32_t>();  // its number in the channel
+      fields.number<std::uint32_t>();  // sequence number
       RecordedMessage message;
       message.log_time_ns = signed_time(fields.number<std::uint64_t>());
       message.publish_time_ns = signed_time(fields.number<std::uint64_t>());
       if (topic == topic_of_.end() && unknown_.insert(channel).second)
-        remark("messages of channel " + std::to_string(channel) +
-               ", which is not described, are passed over");
+        add_warning("messages of unknown channel " + std::to_string(channel) + " are skipped");
       if (topic == topic_of_.end() || !wanted(topic->second)) continue;
       message.topic = topic->second;
       message.data = fields.here();
@@ -70,8 +69,8 @@ class McapReader final : public ChunkedReader {
 
   InputFile file_;
   mcap::Index index_;
-  std::map<std::uint16_t, std::size_t> topic_of_;  // by channel
-  std::set<std::uint16_t> unknown_;                // channels of messages
+  std::map<std::uint16_t, std::size_t> topic_of_;  // index in the topics, by channel id
+  std::set<std::uint16_t> unknown_;                // channels of messages that have no channel record
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// Fields in turn, by one walk for both ways.
+// Visits the fields of a record in order; used both for reading and for writing.
 template <class Visit, class S>
 void walk_schema(S& m, Visit&& visit) {
   visit(m.id, m.name, m.encoding, m.data);

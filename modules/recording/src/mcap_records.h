@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The records of MCAP (https://mcap.dev/spec): an opcode, a length, and fields, little-endian.
+// Reads and writes MCAP records (https://mcap.dev/spec): an opcode, a length, and little-endian fields.
 #pragma once
 
 #include <cstddef>
@@ -38,14 +38,14 @@ enum class Op : std::uint8_t {
   data_end = 0x0F
 };
 
-/// Opcode and length.
+/// Bytes of a record before its fields: opcode and length.
 inline constexpr std::size_t kRecordStart = 9;
-/// Of a footer with its start, and of the file's last bytes with the magic.
+/// Bytes of the whole footer record, and of the footer with the magic number at the file's end.
 inline constexpr std::size_t kFooterBytes = kRecordStart + 20, kFileEnd = kFooterBytes + 8;
-/// Fields of a message before its data.
+/// Bytes of a message's fields before its data.
 inline constexpr std::size_t kMessageStart = 22;
 
-/// Fields in turn. Throws IoError where the record ends within one.
+/// Reads the fields of a record in sequence. Throws IoError if the record ends within a field.
 class Fields {
  public:
   Fields(const std::byte* data, std::size_t size) : data_(data), size_(size) {}
@@ -71,7 +71,7 @@ class Fields {
     const auto size = number<std::uint32_t>();
     return {reinterpret_cast<const char*>(take(size)), size};
   }
-  /// A list or map, as the fields of its bytes.
+  /// Reads a list or map and returns its content as fields.
   Fields list() {
     const auto size = number<std::uint32_t>();
     return {take(size), size};
@@ -90,14 +90,14 @@ struct Record {
   Fields fields() const { return {data, size}; }
 };
 
-/// The next of several records.
+/// Reads the next record of a sequence.
 inline Record take_record(Fields& records) {
   const auto op = records.number<std::uint8_t>();
   const auto size = records.number<std::uint64_t>();
   return {static_cast<Op>(op), records.take(size), static_cast<std::size_t>(size)};
 }
 
-/// Appends records to bytes.
+/// Appends records to a vector of bytes.
 class Writer {
  public:
   explicit Writer(std::vector<std::byte>& to) : to_(to) {}
@@ -122,7 +122,7 @@ class Writer {
     number(static_cast<std::uint32_t>(text.size()));
     bytes(text.data(), text.size());
   }
-  /// A list or map that `write` appends.
+  /// Appends a list or map; write() appends its content.
   template <class Write>
   void list(Write write) {
     number(std::uint32_t{0});
@@ -130,7 +130,7 @@ class Writer {
     write();
     set(first - 4, static_cast<std::uint32_t>(to_.size() - first));
   }
-  /// Over what is there.
+  /// Overwrites the bytes at position `at`.
   template <class T>
   void set(std::size_t at, T value) {
     std::memcpy(to_.data() + at, &value, sizeof value);
@@ -141,7 +141,8 @@ class Writer {
   std::size_t begin_ = 0;
 };
 
-/// Kinds of records that are written and read; CRCs are the caller's.
+// Records that are written or read. CRCs are left to the caller.
+
 struct Schema {
   std::uint16_t id = 0;
   std::string name, encoding, data;
@@ -154,12 +155,12 @@ struct Channel {
 };
 
 struct MessageTime {
-  std::uint64_t time, offset;  ///< The latter from the beginning of the chunk.
+  std::uint64_t time, offset;  ///< Offset from the beginning of the uncompressed chunk.
 };
 
 struct ChunkIndex {
   std::uint64_t first_time = 0, last_time = 0, offset = 0, bytes = 0;
-  std::map<std::uint16_t, std::uint64_t> indexes;  ///< Where the message index of each channel is.
+  std::map<std::uint16_t, std::uint64_t> indexes;  ///< Position of the message index of each channel.
   std::uint64_t index_bytes = 0;
   std::string compression;
   std::uint64_t compressed = 0, uncompressed = 0;
@@ -185,7 +186,7 @@ void put(Writer& writer, const ChunkIndex& index);
 void put(Writer& writer, const AttachmentIndex& index);
 void put(Writer& writer, const Statistics& statistics);
 
-/// Throw IoError for a record that ends within a field; more fields than these are those of a later version.
+/// Read a record. Throw IoError if it ends within a field. Further fields (of later versions) are ignored.
 void take(Fields fields, Schema& schema);
 void take(Fields fields, Channel& channel);
 void take(Fields fields, ChunkIndex& index);

@@ -14,34 +14,34 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// Messages outside of chunks are taken together up to this.
+// Size in bytes at which a part of successive messages outside of chunks ends.
 constexpr std::uint64_t kLooseBytes = 1U << 20U;
-// Bytes that hold the fields of a chunk before its records, where its compression has a name of up to 47.
+// Bytes that are enough for a chunk's fields before its records, for compression names of up to 47 bytes.
 constexpr std::size_t kChunkStart = 96;
 
-// Walks over the records of a file, but not into the chunks that the summary describes.
+// Walks over the records of a file. Skips the content of chunks that the summary describes.
 class Scan {
  public:
   Scan(const InputFile& file, Index& index, const Summary& summary)
       : file_(file), index_(index), summary_(summary) {
     for (const auto& [offset, part] : summary.chunks)
-      unseen_.insert(offset);
+      remaining_chunks_.insert(offset);
   }
 
-  Unknown all() {
-    std::uint64_t previous = 0;  // a record whose length may be what is damaged begins here
+  UnindexedCounts run() {
+    std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagic.size(); at + kRecordStart <= file_.size();) {
       if (const auto known = summary_.chunks.find(at); known != summary_.chunks.end()) {
         loose_ = false;
         index_.parts.push_back(known->second);
-        unseen_.erase(at);
-        at = std::max(behind(*known), at + kRecordStart);  // progress, whatever the summary says
+        remaining_chunks_.erase(at);
+        at = std::max(end_of_chunk(*known), at + kRecordStart);  // moves forward even if the summary is wrong
         previous = at - 1;
         continue;
       }
       const std::vector<std::byte> start = bytes_at(file_, at, kRecordStart);
       Fields fields(start.data(), start.size());
-      // All but 0 are records: those that the specification reserves or leaves to others are skipped.
+      // Every opcode other than 0 can be a record. Reserved and private opcodes are skipped.
       const auto op = static_cast<Op>(fields.number<std::uint8_t>());
       const auto size = fields.number<std::uint64_t>();
       if (op == Op{0} || size > file_.size() - at - kRecordStart || (op == Op::chunk && !is_chunk_at(at))) {
@@ -50,35 +50,36 @@ class Scan {
         continue;
       }
       previous = op == Op::chunk ? at + kRecordStart + size - 1 : at;
-      look(op, at, size);
+      visit_record(op, at, size);
       if (op == Op::data_end) break;
       at += kRecordStart + size;
     }
-    add_rest();
+    add_remaining_chunks();
     return found_;
   }
 
  private:
-  // The message index behind a chunk is skipped if it is as long as the summary says.
-  std::uint64_t behind(const std::pair<const std::uint64_t, Part>& chunk) const {
+  // Returns the end of a chunk that the summary describes, including its message indexes if they end before
+  // the next chunk.
+  std::uint64_t end_of_chunk(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
     const auto next = summary_.chunks.upper_bound(chunk.first);
-    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
-    return end <= most && index <= most - end ? end + index : end;
+    const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
+    return end <= limit && index <= limit - end ? end + index : end;
   }
 
-  // Where the next chunk begins, known or by its own fields, which must agree with one another: the file's
-  // end if there is none. What lies before cannot be read.
+  // Returns the position of the next chunk at or after `from`: one of the summary, or one found by consistent
+  // fields. Returns the file's end if there is none. Adds a warning for the skipped bytes.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
     const auto next = summary_.chunks.lower_bound(from);
-    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
+    const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
     const std::uint64_t found =
-        find_in_file(file_, from, most, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
+        find_in_file(file_, from, limit, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
           return *bytes == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
                  is_chunk(bytes, size, file_.size() - at);
         });
-    // Where the damage is the length of a record, the next chunk may lie before its end.
+    // If the length of a record is damaged, the next chunk may begin before the record's supposed end.
     index_.warnings.add(found == file_.size()
                             ? "the file ends within a record, at byte " + std::to_string(damage)
                             : skipped_bytes(found > damage ? damage : from - 1, found));
@@ -92,7 +93,8 @@ class Scan {
     return is_chunk(bytes.data(), bytes.size(), file_.size() - at);
   }
 
-  // Also one of a compression that we do not know, so that a warning can name it.
+  // Whether a chunk begins here: its lengths must be consistent. Accepts unknown compressions, so that a
+  // warning can name them.
   static bool is_chunk(const std::byte* bytes, std::size_t size, std::uint64_t left) {
     try {
       Fields fields(bytes, size);
@@ -107,21 +109,21 @@ class Scan {
     }
   }
 
-  // Chunks that the summary knows, but that lie behind where the walk ended.
-  void add_rest() {
-    for (const std::uint64_t offset : unseen_)
+  // Adds the chunks of the summary that are behind the end of the walk.
+  void add_remaining_chunks() {
+    for (const std::uint64_t offset : remaining_chunks_)
       index_.parts.push_back(summary_.chunks.at(offset));
     std::stable_sort(index_.parts.begin(), index_.parts.end(),
                      [](const Part& a, const Part& b) { return a.offset < b.offset; });
   }
 
-  void look(Op op, std::uint64_t at, std::uint64_t size) {
+  void visit_record(Op op, std::uint64_t at, std::uint64_t size) {
     if (op == Op::message) return add_loose(at, size);
     loose_ = false;
     if (op == Op::chunk) return add_chunk(at, size);
     if (op != Op::schema && op != Op::channel) return;
     const std::vector<std::byte> record = bytes_at(file_, at + kRecordStart, size);
-    attempt(at, [&] { note({op, record.data(), record.size()}, index_); });
+    warn_on_error(at, [&] { add_schema_or_channel({op, record.data(), record.size()}, index_); });
   }
 
   void add_loose(std::uint64_t at, std::uint64_t size) {
@@ -141,48 +143,48 @@ class Scan {
     part.last_time = std::max(part.last_time, time);
   }
 
-  // Channels may be nowhere else than inside.
+  // Reads a chunk that is not in the summary. Its schemas and channels may occur only in the chunk.
   void add_chunk(std::uint64_t at, std::uint64_t size) {
     ++found_.chunks;
     Part part{at, kRecordStart + size, 0, 0};
-    attempt(at, [&] {
+    warn_on_error(at, [&] {
       Fields records = load_part(file_, part, decompressor_, raw_, unpacked_);
       part.first_time = UINT64_MAX;
-      const std::size_t place = index_.parts.size();
+      const std::size_t part_index = index_.parts.size();
       index_.parts.push_back(part);
       while (records.left() > 0) {
         const Record record = take_record(records);
-        note(record, index_);
-        if (record.op == Op::message) note_message(record.fields(), index_.parts[place]);
+        add_schema_or_channel(record, index_);
+        if (record.op == Op::message) note_message(record.fields(), index_.parts[part_index]);
       }
     });
   }
 
   static void note_message(Fields fields, Part& part) {
     part.channels.insert(fields.number<std::uint16_t>());
-    fields.number<std::uint32_t>();  // its number in the channel
+    fields.number<std::uint32_t>();  // sequence number
     const auto time = fields.number<std::uint64_t>();
     part.first_time = std::min(part.first_time, time);
     part.last_time = std::max(part.last_time, time);
   }
 
   template <class Do>
-  void attempt(std::uint64_t at, const Do& what) {
+  void warn_on_error(std::uint64_t at, const Do& what) {
     try {
       what();
     } catch (const IoError& error) {
-      index_.warnings.add("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+      index_.warnings.add("skipped the record at byte " + std::to_string(at) + ": " + error.what());
     }
   }
 
   const InputFile& file_;
   Index& index_;
   const Summary& summary_;
-  std::set<std::uint64_t> unseen_;  // of the summary's chunks
-  Unknown found_;
+  std::set<std::uint64_t> remaining_chunks_;  // positions of the summary's chunks that the walk has not met
+  UnindexedCounts found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;
-  bool loose_ = false;  // whether the last part is of messages that this one follows
+  bool loose_ = false;  // the last record was a message outside of chunks, in the last part
 };
 
 }  // namespace
@@ -193,7 +195,7 @@ std::vector<std::byte> bytes_at(const InputFile& file, std::uint64_t offset, std
   return bytes;
 }
 
-void note(const Record& record, Index& index) {
+void add_schema_or_channel(const Record& record, Index& index) {
   if (record.op == Op::schema) {
     Schema schema;
     take(record.fields(), schema);
@@ -205,8 +207,8 @@ void note(const Record& record, Index& index) {
   }
 }
 
-Unknown scan(const InputFile& file, const Summary& summary, Index& index) {
-  return Scan(file, index, summary).all();
+UnindexedCounts scan(const InputFile& file, const Summary& summary, Index& index) {
+  return Scan(file, index, summary).run();
 }
 
 }  // namespace mcap

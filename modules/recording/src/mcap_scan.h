@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Finds the chunks and messages of an MCAP file by walking over its records.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +14,27 @@
 namespace pcl_bv {
 namespace mcap {
 
-/// Chunks by where they begin. Optional: without it every chunk must be read.
+/// The content of a summary. If it is empty, scan() must read every chunk.
 struct Summary {
-  std::map<std::uint64_t, Part> chunks;
-  std::map<std::uint64_t, std::uint64_t> index_bytes;  ///< Behind a chunk.
+  std::map<std::uint64_t, Part> chunks;                ///< By position in the file.
+  std::map<std::uint64_t, std::uint64_t> index_bytes;  ///< Bytes of the message indexes behind each chunk.
   std::optional<Statistics> statistics;
 };
 
-/// What a walk has found that the summary does not know.
-struct Unknown {
+/// Numbers of messages outside of chunks, and of chunks, that are not in the summary.
+struct UnindexedCounts {
   std::uint64_t loose_messages = 0, chunks = 0;
 };
 
-/// Adds to the index all chunks and loose messages of a file, in their order, by walking over its records;
-/// the chunks that the summary describes are not read. Behind damage the walk goes on at the next chunk.
-Unknown scan(const InputFile& file, const Summary& summary, Index& index);
+/// Walks over the records of a file and adds all chunks and all messages outside of chunks to the index, in
+/// the order of the file. Chunks that the summary describes are not read. After damage the walk continues at
+/// the next chunk.
+UnindexedCounts scan(const InputFile& file, const Summary& summary, Index& index);
 
-/// Adds a schema or channel to the index, wherever it stands.
-void note(const Record& record, Index& index);
+/// Adds a schema or channel record to the index; ignores all other records.
+void add_schema_or_channel(const Record& record, Index& index);
 
+/// Reads `size` bytes of the file.
 std::vector<std::byte> bytes_at(const InputFile& file, std::uint64_t offset, std::uint64_t size);
 
 }  // namespace mcap

@@ -40,7 +40,7 @@ std::uint64_t time_of(std::int64_t nanoseconds) {
 class McapWriter::State {
  public:
   State(const std::filesystem::path& file, const Options& options)
-      : file_(opened(file, made_)), options_(options) {
+      : file_(open_or_create(file, created_path_)), options_(options) {
     Writer writer(start_);
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
     writer.begin(Op::header);
@@ -48,9 +48,9 @@ class McapWriter::State {
     writer.text("pcl_bv");
     writer.end();
   }
-  // Without a message what was there before stays.
+  // Removes a file that this object created and that has no content.
   ~State() {
-    if (!start_.empty() && !made_.empty()) ::unlink(made_.c_str());
+    if (!start_.empty() && !created_path_.empty()) ::unlink(created_path_.c_str());
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -61,12 +61,12 @@ class McapWriter::State {
     if (channels_.size() == std::numeric_limits<std::uint16_t>::max())
       throw std::length_error("a recording of more than 65535 topics");
     const auto id = static_cast<std::uint16_t>(channels_.size());
-    const auto schema_id = static_cast<std::uint16_t>(id + 1);  // 0 is none
+    const auto schema_id = static_cast<std::uint16_t>(id + 1);  // 0 means no schema
     OpenChannel& open = channels_.emplace_back();
     open.schema = {schema_id, topic.type, "ros2msg", topic.definition};
     open.channel = {id, schema_id, topic.name, "cdr", topic.metadata};
     open.channel.metadata.try_emplace("offered_qos_profiles");
-    Buffer records;  // not in a chunk: a damaged one must not cost the others their types
+    Buffer records;  // written outside of chunks: a damaged chunk must not affect the others
     Writer writer(records);
     put(writer, open.schema);
     put(writer, open.channel);
@@ -104,7 +104,7 @@ class McapWriter::State {
     Writer writer(record);
     writer.begin(Op::attachment);
     writer.number(log_time);
-    writer.number(log_time);  // of its making: not known better
+    writer.number(log_time);  // creation time: unknown
     writer.text(name);
     writer.text(media_type);
     writer.number(static_cast<std::uint64_t>(content.size()));
@@ -124,7 +124,7 @@ class McapWriter::State {
     Buffer end;
     Writer writer(end);
     writer.begin(Op::data_end);
-    writer.number(std::uint32_t{0});  // no CRC of all: each chunk has its own
+    writer.number(std::uint32_t{0});  // no CRC of the data section: each chunk has its own
     writer.end();
     append(end);
     write_summary();
@@ -132,18 +132,20 @@ class McapWriter::State {
   }
 
  private:
-  static FileDescriptor opened(const std::filesystem::path& file, std::filesystem::path& made) {
+  // Opens the file for writing. Creates it if it does not exist, and then sets `created_path`.
+  static FileDescriptor open_or_create(const std::filesystem::path& file,
+                                       std::filesystem::path& created_path) {
     constexpr int flags = O_WRONLY | O_CREAT;
     try {
       FileDescriptor fresh(file, flags | O_EXCL, 0666, "");
-      made = file;
+      created_path = file;
       return fresh;
-    } catch (const IoError&) {  // there already
+    } catch (const IoError&) {  // the file exists
       return FileDescriptor(file, flags, 0666, "");
     }
   }
 
-  // Empties the file and writes what comes before the first message. A pipe cannot be emptied.
+  // Truncates the file and writes the header and the first topics. EINVAL: a pipe, which cannot be truncated.
   void begin() {
     if (has_begun()) return;
     if (::ftruncate(file_.get(), 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
@@ -151,7 +153,7 @@ class McapWriter::State {
     start_.clear();
   }
 
-  // Whole or not at all, so that what follows, if only the summary, can still be read.
+  // Appends all bytes, or none if writing fails: later records (at least the summary) must stay readable.
   void append(const Buffer& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t wrote = ::write(file_.get(), bytes.data() + done, bytes.size() - done);
@@ -167,7 +169,7 @@ class McapWriter::State {
     at_ += bytes.size();
   }
 
-  // A chunk goes out with its indexes at once.
+  // Writes the chunk with its message indexes in one step.
   void end_chunk() {
     if (chunk_.empty()) return;
     compressor_.compress(options_.compression, chunk_.data(), chunk_.size(), compressed_);
@@ -187,7 +189,7 @@ class McapWriter::State {
         compressed_.size(), chunk_.size()};
     mcap::Statistics all = statistics_;
     put_message_indexes(writer, index, all);
-    chunk_.clear();  // also if it cannot be written: the next one is another
+    chunk_.clear();  // also if writing fails: its messages are lost
     append(out_);
     all.first_time = chunks_.empty() ? first_time_ : std::min(all.first_time, first_time_);
     all.last_time = std::max(all.last_time, last_time_);
@@ -207,7 +209,7 @@ class McapWriter::State {
     index.index_bytes = out_.size() - index.bytes;
   }
 
-  // In groups of one kind of record, and where each group is.
+  // Writes the summary: groups of records of one kind, then the position of each group.
   void write_summary() {
     Buffer summary, offsets;
     Writer writer(summary), offset_writer(offsets);
@@ -246,7 +248,7 @@ class McapWriter::State {
     append(summary);
   }
 
-  // Its CRC is of all of the summary up to itself.
+  // Appends the footer. Its CRC covers the summary and the footer's fields before the CRC.
   static void put_footer(const Buffer& summary, Writer& writer, std::uint64_t start,
                          std::uint64_t offset_start) {
     writer.begin(Op::footer);
@@ -258,10 +260,10 @@ class McapWriter::State {
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
   }
 
-  std::filesystem::path made_;  // the file, if it was not there
+  std::filesystem::path created_path_;  // path of the file if this object created it
   FileDescriptor file_;
   Options options_;
-  Buffer start_;  // the header and the first topics, until they are written
+  Buffer start_;  // header and first topics, until they are written
   std::uint64_t at_ = 0;
   std::vector<OpenChannel> channels_;
   std::vector<mcap::ChunkIndex> chunks_;
@@ -269,7 +271,7 @@ class McapWriter::State {
   mcap::Statistics statistics_;
   Compressor compressor_;
   Buffer chunk_, compressed_, out_;
-  std::uint64_t first_time_ = 0, last_time_ = 0;  // of the chunk
+  std::uint64_t first_time_ = 0, last_time_ = 0;  // of the current chunk
   bool closed_ = false;
 };
 
@@ -280,7 +282,7 @@ McapWriter::McapWriter(const std::filesystem::path& file, const Options& options
 McapWriter::~McapWriter() {
   try {
     if (state_->has_begun()) state_->close();
-  } catch (const std::exception&) {  // a destructor has nobody to tell
+  } catch (const std::exception&) {  // a destructor cannot report errors
   }
 }
 

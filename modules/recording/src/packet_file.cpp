@@ -13,19 +13,20 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::uint64_t kWindow = 1U << 20U;
-constexpr std::uint64_t kBack = 1U << 16U;  // bytes that the window keeps before its position
+constexpr std::uint64_t kLookBehind = 1U << 16U;  // bytes that the window keeps before the position at_
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // since 1970; more may overflow in nanoseconds
-// Longest packet that is accepted while searching for the next valid header.
-constexpr std::uint32_t kLongest = 1U << 20U;
-constexpr std::int64_t kNear = 24 * 3600;  // seconds between two packets, unless the next ones confirm more
+constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow as nanoseconds
+// Maximum bytes of a pcap packet, and of a pcapng block while searching for one.
+constexpr std::uint32_t kMaxPacket = 1U << 20U;
+// Maximum seconds between two packets, unless the following packets confirm a larger jump.
+constexpr std::int64_t kMaxTimeGap = 24 * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
 std::uint32_t reversed(std::uint32_t value) {
   return value << 24U | (value & 0xFF00U) << 8U | (value >> 8U & 0xFF00U) | value >> 24U;
 }
 
-// Magic numbers of pcap, and the ticks of a second.
+// A magic number of pcap, and its ticks per second.
 struct Magic {
   std::uint32_t value;
   std::int64_t ticks;
@@ -76,12 +77,12 @@ std::uint32_t PacketFile::u32(const std::byte* at) const {
   return swapped_ ? reversed(value) : value;
 }
 
-// So many bytes from here on, or null if there are not as many.
-const std::byte* PacketFile::need(std::size_t bytes) {
+// Returns the next `bytes` bytes at at_, or null if the file has fewer.
+const std::byte* PacketFile::next_bytes(std::size_t bytes) {
   const std::uint64_t at = at_;
   if (at > file_.size() || bytes > file_.size() - at) return nullptr;
   if (at < window_at_ || at + bytes > window_at_ + window_.size()) {
-    window_at_ = at - std::min(at, kBack);
+    window_at_ = at - std::min(at, kLookBehind);
     window_.resize(std::max<std::uint64_t>(at + bytes - window_at_,
                                            std::min<std::uint64_t>(kWindow, file_.size() - window_at_)));
     file_.read(window_at_, window_.data(), window_.size());
@@ -89,7 +90,7 @@ const std::byte* PacketFile::need(std::size_t bytes) {
   return window_.data() + (at - window_at_);
 }
 
-// The same without moving the window, which a search would else read again for each candidate.
+// Copies bytes at any position without moving the window: a search would move it for every candidate.
 bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const {
   if (at > file_.size() || bytes > file_.size() - at) return false;
   if (at >= window_at_ && at + bytes <= window_at_ + window_.size()) {
@@ -100,11 +101,12 @@ bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const 
   return true;
 }
 
-// Goes on at the next position where packets in a row can be; where there is none the file is cut. The length
-// of the packet before may be what is damaged, so the search begins within it.
-bool PacketFile::go_on() {
+// Moves at_ to the next position where a run of packets can begin, with a warning. Returns false, with a
+// warning that the file is cut, if there is none. The search begins within the previous packet, whose length
+// may be damaged.
+bool PacketFile::resynchronise() {
   const std::uint64_t damage = at_;
-  const bool back = previous_ && damage - *previous_ <= kBack;
+  const bool back = previous_ && damage - *previous_ <= kLookBehind;
   const std::uint64_t from = (back ? *previous_ : damage) + 1;
   for (at_ = from; at_ < file_.size(); ++at_) {
     if (!begins_packet()) continue;
@@ -116,15 +118,17 @@ bool PacketFile::go_on() {
   return false;
 }
 
-// Headers have no mark: lengths that agree with one another and with what follows, and times near the last
-// one or, of three packets, near one another.
+// Whether a packet can begin at at_. Headers have no magic number, so lengths must be consistent for a run of
+// packets. In pcap their times must also be close: two packets to the last accepted time, or three packets to
+// each other.
 bool PacketFile::begins_packet() {
-  if (need(blocks_ ? 12 : 16) == nullptr) return false;
+  if (next_bytes(blocks_ ? 12 : 16) == nullptr) return false;
   if (blocks_) return is_run(2, std::nullopt);
   return (last_seconds_ && is_run(2, last_seconds_)) || is_run(3, std::nullopt);
 }
 
-// Whether so many packets, or those up to the file's end, follow one another here.
+// Whether `packets` valid packets (or all up to the file's end) follow each other from at_ on. `seconds`:
+// time of the packet before, if known.
 bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const {
   std::uint64_t at = at_;
   for (int i = 0; i < packets && at < file_.size(); ++i) {
@@ -134,25 +138,26 @@ bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const 
   return true;
 }
 
-// 0 if there can be no packet of pcap; `seconds` becomes its time, which must be near the one before.
+// Returns the end of the pcap packet at `at`, 0 if there is none. `seconds`: time of the packet before;
+// becomes the time of this packet, which must be close.
 std::uint64_t PacketFile::end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const {
   std::byte head[16];
   if (!peek(at, sizeof head, head)) return 0;
   const std::int64_t time = u32(head);
   const std::uint32_t size = u32(head + 8), original = u32(head + 12);
-  if (size > original || original > kLongest || size > file_.size() - at - sizeof head ||
-      u32(head + 4) >= interfaces_[0].ticks || (seconds && std::abs(time - *seconds) > kNear))
+  if (size > original || original > kMaxPacket || size > file_.size() - at - sizeof head ||
+      u32(head + 4) >= interfaces_[0].ticks || (seconds && std::abs(time - *seconds) > kMaxTimeGap))
     return 0;
   seconds = time;
   return at + sizeof head + size;
 }
 
-// 0 if there can be no block of pcapng.
+// Returns the end of the pcapng block at `at`, 0 if there is none.
 std::uint64_t PacketFile::end_of_block(std::uint64_t at) const {
   std::byte head[8], end[4];
   if (!peek(at, sizeof head, head)) return 0;
   const std::uint32_t type = u32(head), length = u32(head + 4);
-  if (type < 1 || type > 6 || length < 12 || length % 4 != 0 || length > kLongest ||
+  if (type < 1 || type > 6 || length < 12 || length % 4 != 0 || length > kMaxPacket ||
       !peek(at + length - 4, sizeof end, end) || u32(end) != length)
     return 0;
   return at + length;
@@ -164,13 +169,13 @@ bool PacketFile::next(Payload& payload) {
 
 bool PacketFile::next_pcap(Payload& payload) {
   while (at_ < file_.size()) {
-    // Times may jump, as in captures that were joined, if the next packet confirms it.
-    if (need(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
-      if (!go_on()) return false;
+    // A jump of the time, as in merged captures, is accepted if the next packet confirms it.
+    if (next_bytes(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
+      if (!resynchronise()) return false;
       continue;
     }
-    const std::uint32_t size = u32(need(16) + 8);
-    const std::byte* const packet = need(std::size_t{16} + size);
+    const std::uint32_t size = u32(next_bytes(16) + 8);
+    const std::byte* const packet = next_bytes(std::size_t{16} + size);
     last_seconds_ = u32(packet);
     payload.time_ns = *last_seconds_ * kSecond + u32(packet + 4) * (kSecond / interfaces_[0].ticks);
     previous_ = at_;
@@ -184,10 +189,10 @@ bool PacketFile::next_block(Payload& payload) {
   while (at_ < file_.size()) {
     const std::uint32_t length = block_length();
     if (length == 0) {
-      if (!go_on()) return false;
+      if (!resynchronise()) return false;
       continue;
     }
-    const std::byte* const block = need(length);
+    const std::byte* const block = next_bytes(length);
     previous_ = at_;
     at_ += length;
     const std::uint32_t type = u32(block);
@@ -197,9 +202,10 @@ bool PacketFile::next_block(Payload& payload) {
   return false;
 }
 
-// 0 if it is not the one at the block's end, too: checked before so much is read.
+// Returns the length of the pcapng block at at_. Returns 0 if it differs from the copy at the block's end,
+// which is checked before the block is read.
 std::uint32_t PacketFile::block_length() {
-  const std::byte* const head = need(12);
+  const std::byte* const head = next_bytes(12);
   if (head == nullptr || (u32(head) == kSection && !begin_section(head))) return 0;
   const std::uint32_t length = u32(head + 4);
   std::byte end[4];
@@ -208,7 +214,7 @@ std::uint32_t PacketFile::block_length() {
   return length;
 }
 
-// Says the byte order of itself and what follows.
+// Reads a section header: it defines the byte order of the section and resets the interfaces.
 bool PacketFile::begin_section(const std::byte* head) {
   std::uint32_t order;
   std::memcpy(&order, head + 8, 4);
@@ -218,7 +224,8 @@ bool PacketFile::begin_section(const std::byte* head) {
   return true;
 }
 
-// Enhanced packets (6) have times, simple ones (3) none: those keep the last one.
+// Reads the payload of a packet block. Enhanced packet blocks (6) have a time; simple ones (3) keep the time
+// of the packet before.
 bool PacketFile::packet_of_block(const std::byte* block, std::uint32_t length, std::uint32_t type,
                                  Payload& payload) {
   if (type == 3 && length >= 16 && !interfaces_.empty())
@@ -241,7 +248,7 @@ void PacketFile::add_interface(const std::byte* body, std::size_t size) {
   for (std::size_t at = 8; at + 4 <= size;) {
     const std::uint16_t code = u16(body + at), length = u16(body + at + 2);
     if (code == 0 || at + 4 + length > size) break;
-    if (code == 9 && length >= 1) {  // if_tsresol: a power of ten, or of two
+    if (code == 9 && length >= 1) {  // if_tsresol: ticks per second as a power of ten or of two
       const auto power = std::to_integer<unsigned>(body[at + 4]);
       const unsigned exponent = power & 0x7FU;
       if ((power & 0x80U) != 0 && exponent <= 60) made.ticks = std::int64_t{1} << exponent;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads the UDP packets of .pcap and .pcapng captures.
 #pragma once
 
 #include <cstdint>
@@ -15,30 +16,31 @@
 
 namespace pcl_bv {
 
-/// Whether a file begins as pcap or pcapng.
+/// Whether a file with this beginning is a pcap or pcapng file.
 bool is_packet_file(std::string_view start);
 
-/// The UDP packets over IPv4 of a .pcap (either byte order, micro- or nanoseconds) or .pcapng, of links of
-/// Ethernet (also with VLAN tags), Linux' "any" (SLL, SLL2), raw IP and BSD's loopback. Fragments of IP and
-/// what is no UDP are passed over.
+/// Reads the UDP packets over IPv4 of a .pcap (either byte order, micro- or nanoseconds) or .pcapng.
+/// Supported link types: Ethernet (also with VLAN tags), Linux' "any" (SLL, SLL2), raw IP and BSD's loopback.
+/// IP fragments and packets of other protocols are skipped.
 class PacketFile {
  public:
-  /// Throws IoError if it is neither.
+  /// Throws IoError if the file is neither pcap nor pcapng.
   explicit PacketFile(const std::filesystem::path& file);
 
-  /// Good until the next call; false at the end, and where the file is cut. What is damaged is passed over.
+  /// Reads the next payload, which is valid until the next call. Returns false at the end, also of a cut
+  /// file. Damaged parts are skipped with a warning.
   bool next(Payload& payload);
 
-  /// What was not whole, a line each.
+  /// Returns the warnings about damaged parts.
   const WarningList& warnings() const { return warnings_; }
 
  private:
   struct Interface {
     unsigned link = 0;
-    std::int64_t ticks = 1'000'000;  // a second
+    std::int64_t ticks = 1'000'000;  // per second
   };
 
-  const std::byte* need(std::size_t bytes);
+  const std::byte* next_bytes(std::size_t bytes);
   bool peek(std::uint64_t at, std::size_t bytes, std::byte* to) const;
   std::uint16_t u16(const std::byte* at) const;
   std::uint32_t u32(const std::byte* at) const;
@@ -47,7 +49,7 @@ class PacketFile {
   bool packet_of_block(const std::byte* block, std::uint32_t length, std::uint32_t type, Payload& payload);
   void add_interface(const std::byte* body, std::size_t size);
   bool begin_section(const std::byte* head);
-  bool go_on();
+  bool resynchronise();
   bool begins_packet();
   bool is_run(int packets, std::optional<std::int64_t> seconds) const;
   std::uint64_t end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const;
@@ -57,8 +59,8 @@ class PacketFile {
   InputFile file_;
   std::vector<std::byte> window_;
   std::uint64_t window_at_ = 0, at_ = 0;
-  std::optional<std::uint64_t> previous_;     // where the last packet or block begins, if it ends at at_
-  std::optional<std::int64_t> last_seconds_;  // of the last packet that was accepted
+  std::optional<std::uint64_t> previous_;     // position of the packet or block that ends at at_, if known
+  std::optional<std::int64_t> last_seconds_;  // time of the last accepted packet
   bool swapped_ = false, blocks_ = false;
   std::vector<Interface> interfaces_;
   WarningList warnings_;

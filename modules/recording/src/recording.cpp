@@ -11,7 +11,7 @@
 namespace pcl_bv {
 namespace {
 
-// Of a regular file only: a pipe would wait, or lose what is read from it.
+// Returns the first 64 bytes of a regular file. Other files are not read: a pipe would block or lose data.
 std::string start_of(const std::filesystem::path& file) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(file, unknown)) return {};
@@ -25,7 +25,7 @@ std::string start_of(const std::filesystem::path& file) {
 const RecordingFormat* format_of(const std::filesystem::path& file) {
   const std::string start = start_of(file);
   for (const RecordingFormat& format : recording_formats()) {
-    if (format.knows(file, start)) return &format;
+    if (format.matches(file, start)) return &format;
   }
   return nullptr;
 }
@@ -47,7 +47,7 @@ std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& fil
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) throw IoError("no such file or folder");
   const RecordingFormat* const format = format_of(file);
-  if (format == nullptr) throw IoError("no recording that is known: " + known_formats());
+  if (format == nullptr) throw IoError("unknown recording format; known are: " + known_formats());
   return format->open(file);
 }
 

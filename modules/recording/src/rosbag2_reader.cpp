@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// rosbag2's folders: metadata.yaml and files one after the other, and files that are compressed whole.
+// Reads rosbag2's folders (metadata.yaml and one or more files), and files that are compressed as a whole.
 
 #include <unistd.h>
 
@@ -15,38 +15,39 @@
 #include "formats.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/posix_file.h"
-#include "pcl_bv/io/text_from_outside.h"
-#include "pcl_bv/io/yaml_problem.h"
+#include "pcl_bv/io/untrusted_text.h"
+#include "pcl_bv/io/yaml_error.h"
 
 namespace pcl_bv {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_member(const fs::path& file) {
+bool is_recording_file(const fs::path& file) {
   const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
   return name.extension() == ".db3" || name.extension() == ".mcap";
 }
 
-// A folder that names itself or one that holds it would be opened in itself without end.
-void require_member(const fs::path& file) {
+// Throws IoError unless the path can be a file of a recording. A folder is refused: metadata.yaml could name
+// the folder itself, which would recurse without end.
+void require_recording_file(const fs::path& file) {
   std::error_code unknown;
-  if (!is_member(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
+  if (!is_recording_file(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
     throw IoError("no .db3 or .mcap file");
 }
 
-// As one, each from its beginning to its end: a recorder begins a file where it ends the last one.
+// Reads several files one after another as one recording: a recorder begins a file where the last one ends.
 class JoinedReader final : public RecordingReader {
  public:
-  /// Remarks are what was noticed of the folder.
-  JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& remarks) {
-    for (const std::string& line : remarks)
-      remark(line);
+  /// `folder_warnings`: warnings about the folder.
+  JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& folder_warnings) {
+    for (const std::string& line : folder_warnings)
+      add_warning(line);
     std::string problem;
     for (fs::path& file : files) {
       try {
         Member member;
-        require_member(file);
+        require_recording_file(file);
         member.reader = open_recording(file);
         for (const RecordedTopic& topic : member.reader->topics())
           member.topics.push_back(add_topic(topics_, topic));
@@ -54,7 +55,7 @@ class JoinedReader final : public RecordingReader {
         files_.push_back(std::move(file));
       } catch (const IoError& error) {
         problem = file.filename().string() + ": " + error.what();
-        remark("passed over " + problem);
+        add_warning("skipped " + problem);
       }
     }
     if (members_.empty()) throw IoError(problem);
@@ -78,8 +79,8 @@ class JoinedReader final : public RecordingReader {
   bool next(RecordedMessage& message) override {
     for (; at_ < members_.size(); ++at_) {
       const bool more = members_[at_].reader->next(message);
-      remark(members_[at_].reader->warnings(), members_[at_].warnings,
-             files_[at_].filename().string() + ": ");
+      add_warnings(members_[at_].reader->warnings(), members_[at_].warnings,
+                   files_[at_].filename().string() + ": ");
       if (!more) continue;
       message.topic = members_[at_].topics[message.topic];
       return true;
@@ -90,8 +91,8 @@ class JoinedReader final : public RecordingReader {
  private:
   struct Member {
     std::unique_ptr<RecordingReader> reader;
-    std::vector<std::size_t> topics;  // of the reader's, their places in ours
-    std::uint64_t warnings = 0;       // that were passed on
+    std::vector<std::size_t> topics;  // index in topics_ of each topic of the reader
+    std::uint64_t warnings = 0;       // number of the reader's warnings that were passed on
   };
 
   std::vector<fs::path> files_;
@@ -100,17 +101,17 @@ class JoinedReader final : public RecordingReader {
   std::size_t at_ = 0;
 };
 
-// The files that metadata.yaml names.
+// Returns the files that metadata.yaml names.
 std::vector<fs::path> files_of(const fs::path& folder) {
   const fs::path metadata = folder / "metadata.yaml";
   std::vector<fs::path> files;
   try {
-    const YAML::Node root = YAML::Load(read_text_from_outside(metadata, kMaxMetadataBytes));
+    const YAML::Node root = YAML::Load(read_untrusted_text(metadata, kMaxMetadataBytes));
     for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
       files.push_back(folder /
-                      fs::path(file.as<std::string>()).filename());  // older ones have the folder, too
+                      fs::path(file.as<std::string>()).filename());  // old versions include the folder
   } catch (const YAML::Exception& error) {
-    throw IoError("metadata.yaml: " + yaml_problem(error));
+    throw IoError("metadata.yaml: " + yaml_error_message(error));
   } catch (const IoError& error) {
     throw IoError(std::string("metadata.yaml: ") + error.what());
   }
@@ -118,9 +119,9 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
-// A file that is named again would be read again, and a small metadata.yaml can name one a million times.
+// Removes repeated files, with a warning: a small metadata.yaml could name one file a million times.
 std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
-                                          std::vector<std::string>& remarks) {
+                                          std::vector<std::string>& warnings) {
   std::vector<fs::path> once;
   std::map<fs::path, std::size_t> times;
   for (const fs::path& file : files) {
@@ -128,13 +129,13 @@ std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
   }
   for (const fs::path& file : once) {
     if (times[file] > 1)
-      remarks.push_back("metadata.yaml names " + file.filename().string() + " " +
-                        std::to_string(times[file]) + " times: it is read once");
+      warnings.push_back("metadata.yaml names " + file.filename().string() + " " +
+                         std::to_string(times[file]) + " times: it is read once");
   }
   return once;
 }
 
-// Others have files of this name, too.
+// Whether the folder has a metadata.yaml of rosbag2: other programs also write files of this name.
 bool has_metadata(const fs::path& folder) {
   std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
   std::string start(1000, ' ');
@@ -142,12 +143,12 @@ bool has_metadata(const fs::path& folder) {
   return start.find("rosbag2_bagfile_information") != std::string::npos;
 }
 
-// The files of rosbag2 in a folder: NAME_0.db3, NAME_1.db3, ... or .mcap, in natural order.
-std::vector<fs::path> members_in(const fs::path& folder) {
+// Returns the .db3 and .mcap files in a folder (NAME_0.db3, NAME_1.db3, ...), in natural order.
+std::vector<fs::path> recording_files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code unknown;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown)) {
-    if (is_member(entry.path())) files.push_back(entry.path());
+    if (is_recording_file(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().native(), b.filename().native());
@@ -155,9 +156,10 @@ std::vector<fs::path> members_in(const fs::path& folder) {
   return files;
 }
 
-// Those of a folder without metadata.yaml, as after a crash. A folder of clouds may hold a recording, too.
-std::vector<fs::path> parts_in(const fs::path& folder) {
-  std::vector<fs::path> files = members_in(folder);
+// Returns the files of a recording without metadata.yaml, as after a crash. Returns none if the folder also
+// has clouds: then it is a folder of clouds.
+std::vector<fs::path> files_without_metadata(const fs::path& folder) {
+  std::vector<fs::path> files = recording_files_in(folder);
   if (files.empty()) return files;
   try {
     if (!list_clouds(folder).empty()) files.clear();
@@ -167,10 +169,10 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
   return files;
 }
 
-// A file in the folder for temporary ones that nobody else sees, gone with the process.
-class Temporary {
+// A temporary file that only this user can read; removed at destruction.
+class TemporaryFile {
  public:
-  explicit Temporary(const std::vector<std::byte>& bytes)
+  explicit TemporaryFile(const std::vector<std::byte>& bytes)
       : path_((fs::temp_directory_path() / "pcl_bv_XXXXXX").string()) {
     const int descriptor = ::mkstemp(path_.data());
     if (descriptor < 0) throw IoError(path_ + ": " + system_reason(errno));
@@ -186,9 +188,9 @@ class Temporary {
     }
     ::close(descriptor);
   }
-  ~Temporary() { ::unlink(path_.c_str()); }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
+  ~TemporaryFile() { ::unlink(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& path() const { return path_; }
 
@@ -200,32 +202,33 @@ class Temporary {
 
 bool is_rosbag2_folder(const fs::path& folder) {
   std::error_code unknown;
-  return fs::is_directory(folder, unknown) && (has_metadata(folder) || !parts_in(folder).empty());
+  return fs::is_directory(folder, unknown) &&
+         (has_metadata(folder) || !files_without_metadata(folder).empty());
 }
 
-// A recorder writes metadata.yaml last: what it says may be older than the files, or never have been
-// finished.
+// A recorder writes metadata.yaml last, so it may be older than the files or incomplete. If it cannot be
+// read, all files of the folder are used.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder))
-    return std::make_unique<JoinedReader>(parts_in(folder), std::vector<std::string>());
-  std::vector<std::string> remarks;
+    return std::make_unique<JoinedReader>(files_without_metadata(folder), std::vector<std::string>());
+  std::vector<std::string> warnings;
   std::vector<fs::path> files;
-  const std::vector<fs::path> there = members_in(folder);
+  const std::vector<fs::path> there = recording_files_in(folder);
   try {
-    files = without_repetitions(files_of(folder), remarks);
+    files = without_repetitions(files_of(folder), warnings);
   } catch (const IoError& error) {
     if (there.empty()) throw;
-    remarks.push_back(std::string(error.what()) + ": all files of the folder are read");
+    warnings.push_back(std::string(error.what()) + ": all files of the folder are read");
     files = there;
   }
   for (const fs::path& file : there) {
     if (std::find(files.begin(), files.end(), file) == files.end())
-      remarks.push_back("metadata.yaml does not name " + file.filename().string() + ": it is not read");
+      warnings.push_back(file.filename().string() + " is not in metadata.yaml and is not read");
   }
-  return std::make_unique<JoinedReader>(std::move(files), remarks);
+  return std::make_unique<JoinedReader>(std::move(files), warnings);
 }
 
-// SQLite wants a file; the name of the temporary one may go as soon as it is open.
+// Unpacks into a temporary file, which SQLite needs. It can be unlinked as soon as the reader has opened it.
 std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
   std::vector<std::byte> unpacked;
   {
@@ -234,7 +237,7 @@ std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
     input.read(0, packed.data(), packed.size());
     Decompressor().decompress_zstd(packed.data(), packed.size(), unpacked);
   }
-  const Temporary temporary(unpacked);
+  const TemporaryFile temporary(unpacked);
   return open_recording(temporary.path());
 }
 

@@ -18,15 +18,15 @@
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
-#include "sqlite_problem.h"
+#include "sqlite_error.h"
 
 namespace pcl_bv {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Schema 3, Humble's. Without synchronous writes a power cut may cost more than the last transaction; the end
-// of the process does not.
+// Schema version 3 of Humble. Writes are not synchronous: a power failure can lose more than the last
+// transaction, a crash of the process cannot.
 constexpr const char* kBegin = R"(
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = OFF;
@@ -40,16 +40,18 @@ CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timesta
 CREATE INDEX timestamp_idx ON messages (timestamp ASC);
 )";
 
-constexpr std::chrono::milliseconds kTransaction{50};
+// Minimum duration of a transaction.
+constexpr std::chrono::milliseconds kMinTransaction{50};
 
-fs::path made_folder(const fs::path& folder) {
+// Creates the folder if it does not exist, and returns its path.
+fs::path create_folder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (!fs::is_directory(folder)) throw IoError("cannot be made a folder");
+  if (!fs::is_directory(folder)) throw IoError("cannot create the folder");
   return folder;
 }
 
-// "bag", also of "bag/".
+// Returns the folder's name: "bag" for "bag" and "bag/".
 std::string name_of(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -65,14 +67,15 @@ YAML::Node nanoseconds(const char* name, std::int64_t value) {
 
 class Rosbag2Writer::State {
  public:
-  explicit State(const fs::path& folder) : folder_(made_folder(folder)), file_(name_of(folder) + "_0.db3") {
+  explicit State(const fs::path& folder) : folder_(create_folder(folder)), file_(name_of(folder) + "_0.db3") {
     if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw IoError(system_reason(errno));
   }
   ~State() { release(); }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // Replaces what is there. Not before the first message: a recording that is opened in vain costs no other.
+  // Replaces an existing recording. Called at the first message, attachment or close(), so that a writer that
+  // is never used leaves the old recording unchanged.
   void open() {
     if (database_ != nullptr) return;
     if (closed_) throw IoError("the recording is closed");
@@ -81,7 +84,7 @@ class Rosbag2Writer::State {
       fs::remove(folder_ / (file_ + more), unknown);
     fs::remove(folder_ / "metadata.yaml", unknown);
     if (sqlite3_open((folder_ / file_).c_str(), &database_) != SQLITE_OK) {
-      const std::string why = sqlite_problem(database_);
+      const std::string why = sqlite_error_message(database_);
       sqlite3_close(std::exchange(database_, nullptr));
       throw IoError(why);
     }
@@ -122,7 +125,7 @@ class Rosbag2Writer::State {
     ++topic.messages;
     first_ = std::min(first_, time);
     last_ = std::max(last_, time);
-    if (Clock::now() - begun_ >= kTransaction) commit();
+    if (Clock::now() - begun_ >= kMinTransaction) commit();
   }
 
   void attach(const std::string& name, const std::string& content) {
@@ -135,7 +138,7 @@ class Rosbag2Writer::State {
     open();
     closed_ = true;
     commit();
-    run("PRAGMA journal_mode = DELETE");  // all into the one file
+    run("PRAGMA journal_mode = DELETE");  // moves all data into the database file
     release();
     write_file_atomically(folder_ / "metadata.yaml", metadata());
   }
@@ -147,19 +150,19 @@ class Rosbag2Writer::State {
     std::uint64_t messages;
   };
 
-  [[noreturn]] void fail() const { throw IoError(sqlite_problem(database_)); }
+  [[noreturn]] void fail() const { throw IoError(sqlite_error_message(database_)); }
   void run(const char* sql) {
     if (sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
   }
   void prepare(const char* sql, sqlite3_stmt** statement) {
     if (sqlite3_prepare_v2(database_, sql, -1, statement, nullptr) != SQLITE_OK) fail();
   }
-  static void bind(sqlite3_stmt* statement, int place, const std::string& text) {
-    sqlite3_bind_text(statement, place, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
+  static void bind(sqlite3_stmt* statement, int parameter, const std::string& text) {
+    sqlite3_bind_text(statement, parameter, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
   }
   void step(sqlite3_stmt* statement) {
     const bool done = sqlite3_step(statement) == SQLITE_DONE;
-    const std::string why = done ? "" : sqlite_problem(database_);
+    const std::string why = done ? "" : sqlite_error_message(database_);
     sqlite3_reset(statement);
     if (!done) throw IoError(why);
   }
@@ -201,7 +204,7 @@ class Rosbag2Writer::State {
     }
     const auto begins = [&] {
       return nanoseconds("nanoseconds_since_epoch", messages > 0 ? first_ : 0);
-    };  // a node of its own each time: no alias
+    };  // a new node each time: yaml-cpp writes a shared node as an alias
     const auto lasts = [&] { return nanoseconds("nanoseconds", messages > 0 ? last_ - first_ : 0); };
     YAML::Node part;
     part["path"] = file_;
@@ -241,7 +244,7 @@ Rosbag2Writer::Rosbag2Writer(const fs::path& folder) : state_(std::make_unique<S
 Rosbag2Writer::~Rosbag2Writer() {
   try {
     if (state_->has_begun()) state_->close();
-  } catch (const std::exception&) {  // a destructor has nobody to tell
+  } catch (const std::exception&) {  // a destructor cannot report errors
   }
 }
 

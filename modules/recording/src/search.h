@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The search for the next valid record behind damage.
+// Searches for the next valid record after damage.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace pcl_bv {
 
-/// The first position from `from` on at which `matches(bytes, size, position)` is true, `end` if there is
-/// none. The size is at least `lookahead`, except near the end of the file.
+/// Returns the first position in [from, end) for which matches(bytes, size, position) is true, or `end`.
+/// `size` is at least `lookahead`, except near the end of the file.
 template <class Matches>
 std::uint64_t find_in_file(const InputFile& file, std::uint64_t from, std::uint64_t end,
                            std::size_t lookahead, const Matches& matches) {
-  // It begins small because the next record often follows at once, and grows for long damage.
+  // The window begins small, since the next record is often near, and grows for long damage.
   std::uint64_t window = 512;
   std::vector<std::byte> bytes;
   while (from < end) {

@@ -6,32 +6,31 @@
 namespace pcl_bv {
 namespace {
 
-// Of networks, whatever the file has.
+// Reads a number in network byte order, which does not depend on the file's byte order.
 std::size_t big16(const std::byte* at) {
   return std::to_integer<std::size_t>(at[0]) << 8U | std::to_integer<std::size_t>(at[1]);
 }
 
 }  // namespace
 
-// The payload of UDP in IPv4, whole, in what a link carries.
 bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload& payload) {
   constexpr std::size_t ipv4 = 0x0800;
   std::size_t skip = 0, protocol = ipv4;
-  if (link == 1) {
+  if (link == 1) {  // Ethernet
     skip = 14;
     for (; size >= skip; skip += 4) {
       protocol = big16(data + skip - 2);
-      if (protocol != 0x8100 && protocol != 0x88A8) break;
+      if (protocol != 0x8100 && protocol != 0x88A8) break;  // no VLAN tag
     }
-  } else if (link == 113) {
+  } else if (link == 113) {  // Linux SLL
     skip = 16;
     if (size >= skip) protocol = big16(data + 14);
-  } else if (link == 276) {
+  } else if (link == 276) {  // Linux SLL2
     skip = 20;
     if (size >= skip) protocol = big16(data);
-  } else if (link == 0) {
+  } else if (link == 0) {  // BSD loopback
     skip = 4;
-  } else if (link != 12 && link != 101 && link != 228) {
+  } else if (link != 12 && link != 101 && link != 228) {  // not raw IP
     return false;
   }
   if (size < skip + 20 || protocol != ipv4) return false;
@@ -41,13 +40,13 @@ bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload&
   if ((std::to_integer<unsigned>(ip[0]) >> 4U) != 4 || header < 20 || !whole ||
       std::to_integer<int>(ip[9]) != 17 || size < skip + header + 8)
     return false;
-  const std::size_t most = size - skip - header;
+  const std::size_t available = size - skip - header;
   std::size_t udp = big16(ip + header + 4);
-  if (udp < 8 || udp > most) udp = most;  // what is there counts
+  if (udp < 8 || udp > available) udp = available;  // invalid length: take all captured bytes
   payload.data = ip + header + 8;
   payload.size = udp - 8;
   payload.address = static_cast<std::uint32_t>(big16(ip + 12) << 16U | big16(ip + 14));
-  payload.to_port = static_cast<std::uint16_t>(big16(ip + header + 2));
+  payload.destination_port = static_cast<std::uint16_t>(big16(ip + header + 2));
   return true;
 }
 
@@ -55,7 +54,7 @@ std::string Payload::source() const {
   std::string text;
   for (unsigned shift = 32; shift > 0; shift -= 8)
     text += (text.empty() ? "" : ".") + std::to_string(address >> (shift - 8) & 0xFFU);
-  return text + ':' + std::to_string(to_port);
+  return text + ':' + std::to_string(destination_port);
 }
 
 }  // namespace pcl_bv

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Finds the UDP payload in a captured network packet.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +10,23 @@
 
 namespace pcl_bv {
 
-/// What a UDP packet carries.
+/// The payload of a UDP packet.
 struct Payload {
-  std::int64_t time_ns = 0;  ///< When it was captured, nanoseconds since 1970.
+  std::int64_t time_ns = 0;  ///< Capture time, nanoseconds since 1970.
   const std::byte* data = nullptr;
   std::size_t size = 0;
-  std::uint32_t address = 0;  ///< Of its sender.
-  std::uint16_t to_port = 0;
+  std::uint32_t address = 0;           ///< Source address.
+  std::uint16_t destination_port = 0;  ///< Destination port.
 
-  /// Equal for packets of one source(): a relay may send each packet from another port.
-  std::uint64_t key() const { return std::uint64_t{address} << 16U | to_port; }
-  std::string source() const;  ///< "192.168.1.201:2368": the port is the one that it is sent to.
+  /// Key of the sender: source address and destination port. The source port is not used, since a relay may
+  /// send each packet from another port.
+  std::uint64_t key() const { return std::uint64_t{address} << 16U | destination_port; }
+  /// The key as text, such as "192.168.1.201:2368".
+  std::string source() const;
 };
 
-/// Sets all but the time from the IPv4 packet in a frame of this link type. False for fragments and for other
-/// protocols and links.
+/// Sets all members except the time from the UDP packet in a frame of this link type. Returns false for IP
+/// fragments, other protocols and other link types.
 bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload& payload);
 
 }  // namespace pcl_bv

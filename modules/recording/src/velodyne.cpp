@@ -14,18 +14,18 @@
 namespace pcl_bv {
 namespace {
 
-// Packets of one model from one address to one port, mostly of one sensor; of a relay or a played back file
-// perhaps of several.
-struct Origin {
+// The packets of one model from one address to one port. They are usually of one sensor; those of a relay or
+// of a file that is played back can be of several.
+struct UdpSource {
   std::vector<VelodyneSensor> sensors{};
-  std::vector<std::byte> waiting{};  // a packet that none of them expects, until the next one says why
+  std::vector<std::byte> waiting{};  // a packet that no sensor expects; the next packet decides, see take()
   std::int64_t waiting_time_ns = 0;
 
   Payload waiting_packet() const { return {waiting_time_ns, waiting.data(), waiting.size()}; }
 };
 
-constexpr std::size_t kMostSensors = 8;  // of one origin
-constexpr std::size_t kMostNames = 5;    // in a line
+constexpr std::size_t kMaxSensors = 8;      // of one source
+constexpr std::size_t kMaxListedNames = 5;  // in a message
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -57,25 +57,25 @@ bool is_capture(const std::filesystem::path& file) {
 }
 
 struct VelodyneReader::State {
-  State(const std::filesystem::path& path, const std::string& sensor) : file(path), only(sensor) {
+  State(const std::filesystem::path& path, const std::string& sensor) : file(path), wanted_sensor(sensor) {
     packets.emplace(file);
-    Strangers strangers;
+    OtherPackets other_packets;
     for (Payload packet; model == nullptr && packets->next(packet);) {
       const VelodyneModel* const found = velodyne_model(packet);
-      const bool other = !only.empty() && packet.source() != only;
+      const bool other = !wanted_sensor.empty() && packet.source() != wanted_sensor;
       if (found != nullptr && !other) model = found;
-      if (found == nullptr || other) strangers.note(packet, found);
+      if (found == nullptr || other) other_packets.note(packet, found);
     }
-    if (model == nullptr) strangers.refuse(only);
+    if (model == nullptr) other_packets.refuse(wanted_sensor);
     rewind();
   }
 
-  // What a capture without the packets that are wanted has instead.
-  struct Strangers {
+  // The packets that are not used, for the error message of a capture without usable packets.
+  struct OtherPackets {
     std::vector<std::string> sensors, others;
 
     static void add(std::vector<std::string>& names, std::string name) {
-      if (names.size() < kMostNames && std::find(names.begin(), names.end(), name) == names.end())
+      if (names.size() < kMaxListedNames && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(std::move(name));
     }
     void note(const Payload& packet, const VelodyneModel* found) {
@@ -84,9 +84,10 @@ struct VelodyneReader::State {
       add(others, product < 0 ? std::to_string(packet.size) + " bytes from " + packet.source()
                               : "Velodyne's product " + std::to_string(product) + " from " + packet.source());
     }
-    [[noreturn]] void refuse(const std::string& only) const {
-      if (!only.empty() && !sensors.empty())
-        throw std::invalid_argument("no packets of a sensor at " + only + "; there are " + listed(sensors));
+    [[noreturn]] void refuse(const std::string& wanted_sensor) const {
+      if (!wanted_sensor.empty() && !sensors.empty())
+        throw std::invalid_argument("no packets of a sensor at " + wanted_sensor + "; there are " +
+                                    listed(sensors));
       const std::string all = listed(others);
       throw IoError("no packet of a VLP-16, HDL-32E or VLP-32C; UDP packets: " +
                     (all.empty() ? "none" : all));
@@ -95,7 +96,7 @@ struct VelodyneReader::State {
 
   void rewind() {
     packets.emplace(file);
-    origins.clear();
+    addresses.clear();
     sensors = 0;
     whole.clear();
     done = false;
@@ -105,98 +106,99 @@ struct VelodyneReader::State {
     Payload packet;
     if (done || !packets->next(packet)) return false;
     const VelodyneModel* const found = velodyne_model(packet);
-    if (found == nullptr || (!only.empty() && packet.source() != only)) return true;
-    auto& models = origins[packet.key()];
-    if (models.name.empty()) models.name = packet.source();
-    take(*found, packet, models.origins[found]);
+    if (found == nullptr || (!wanted_sensor.empty() && packet.source() != wanted_sensor)) return true;
+    Address& address = addresses[packet.key()];
+    if (address.name.empty()) address.name = packet.source();
+    take(*found, packet, address.sources[found]);
     return true;
   }
 
-  void take(const VelodyneModel& found, const Payload& packet, Origin& origin) {
-    VelodyneSensor* sensor = expecting(packet, origin);
-    if (!origin.waiting.empty()) {
-      const Payload earlier = origin.waiting_packet();
-      // The sensor goes on where it was: the packet between was another's. Else it has jumped.
-      if (sensor != nullptr && origin.sensors.size() < kMostSensors) {
-        const auto place = static_cast<std::size_t>(sensor - origin.sensors.data());
-        add_sensor(found, origin).add(earlier, whole);
-        sensor = &origin.sensors[place];
+  void take(const VelodyneModel& found, const Payload& packet, UdpSource& source) {
+    VelodyneSensor* sensor = expecting(packet, source);
+    if (!source.waiting.empty()) {
+      const Payload earlier = source.waiting_packet();
+      // If a sensor expects this packet, the waiting packet was of another sensor. Otherwise the azimuth has
+      // jumped, and the waiting packet was the first one after the jump.
+      if (sensor != nullptr && source.sensors.size() < kMaxSensors) {
+        const auto index = static_cast<std::size_t>(sensor - source.sensors.data());
+        add_sensor(found, source).add(earlier, whole);
+        sensor = &source.sensors[index];
       } else {
-        origin.sensors.front().finish(whole);
-        origin.sensors.front().add(earlier, whole);
-        sensor = expecting(packet, origin);
+        source.sensors.front().finish(whole);
+        source.sensors.front().add(earlier, whole);
+        sensor = expecting(packet, source);
       }
-      origin.waiting.clear();
+      source.waiting.clear();
     }
-    if (origin.sensors.empty()) sensor = &add_sensor(found, origin);
+    if (source.sensors.empty()) sensor = &add_sensor(found, source);
     if (sensor != nullptr) return sensor->add(packet, whole);
-    origin.waiting.assign(packet.data, packet.data + packet.size);
-    origin.waiting_time_ns = packet.time_ns;
+    source.waiting.assign(packet.data, packet.data + packet.size);
+    source.waiting_time_ns = packet.time_ns;
   }
 
-  static VelodyneSensor* expecting(const Payload& packet, Origin& origin) {
-    for (VelodyneSensor& sensor : origin.sensors) {
+  static VelodyneSensor* expecting(const Payload& packet, UdpSource& source) {
+    for (VelodyneSensor& sensor : source.sensors) {
       if (sensor.expects(packet)) return &sensor;
     }
     return nullptr;
   }
 
-  VelodyneSensor& add_sensor(const VelodyneModel& found, Origin& origin) {
-    if (++sensors == 2 && !several) several = warnings.lines().size();
-    return origin.sensors.emplace_back(found, sensors - 1);
+  VelodyneSensor& add_sensor(const VelodyneModel& found, UdpSource& source) {
+    if (++sensors == 2 && !warnings_before_note) warnings_before_note = warnings.lines().size();
+    return source.sensors.emplace_back(found, sensors - 1);
   }
 
-  // Made when it is read, with the sensors up to then: one line, however many they are.
-  void note_several() {
-    if (sensors <= said_sensors || sensors < 2) return;
-    said_sensors = sensors;
+  // Updates the warning about several sensors, a single line that names the sensors found so far.
+  void update_sensors_note() {
+    if (sensors <= noted_sensors || sensors < 2) return;
+    noted_sensors = sensors;
     std::vector<std::string> names;
-    for (auto it = origins.begin(); it != origins.end() && names.size() < kMostNames; ++it)
+    for (auto it = addresses.begin(); it != addresses.end() && names.size() < kMaxListedNames; ++it)
       names.push_back(it->second.name);
-    const std::size_t others = origins.size() - names.size();
-    several_line = "packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
+    const std::size_t others = addresses.size() - names.size();
+    sensors_note = "packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
                    (others > 0 ? " and " + std::to_string(others) + " others" : "") +
                    "): each frame is a revolution of one of them" +
-                   (origins.size() > 1 ? ", --topic chooses one" : "");
+                   (addresses.size() > 1 ? ", --topic chooses one" : "");
   }
 
   void finish() {
     done = true;
     const std::size_t before = whole.size();
-    for (auto& [key, address] : origins) {
-      for (auto& [found, origin] : address.origins)
-        finish(origin);
+    for (auto& [key, address] : addresses) {
+      for (auto& [found, source] : address.sources)
+        finish(source);
     }
     std::stable_sort(whole.begin() + static_cast<std::ptrdiff_t>(before), whole.end(),
                      [](const VelodyneSweep& a, const VelodyneSweep& b) { return a.stamp_ns < b.stamp_ns; });
   }
 
-  void finish(Origin& origin) {
-    if (!origin.waiting.empty()) {
-      origin.sensors.front().finish(whole);
-      origin.sensors.front().add(origin.waiting_packet(), whole);
+  void finish(UdpSource& source) {
+    if (!source.waiting.empty()) {
+      source.sensors.front().finish(whole);
+      source.sensors.front().add(source.waiting_packet(), whole);
     }
-    for (VelodyneSensor& sensor : origin.sensors)
+    for (VelodyneSensor& sensor : source.sensors)
       sensor.finish(whole);
   }
 
-  // An address and the port it sends to.
+  // A source address and destination port.
   struct Address {
     std::string name;
-    std::map<const VelodyneModel*, Origin> origins{};
+    std::map<const VelodyneModel*, UdpSource> sources{};
   };
 
   std::filesystem::path file;
-  std::string only;
+  std::string wanted_sensor;
   std::optional<PacketFile> packets;
   const VelodyneModel* model = nullptr;
-  std::map<std::uint64_t, Address> origins;
-  std::size_t sensors = 0, said_sensors = 0;
+  std::map<std::uint64_t, Address> addresses;
+  std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;                // of the packets; those of a second reading are the same
-  std::uint64_t warnings_added = 0;    // how many of the packets' are in it
-  std::optional<std::size_t> several;  // the number of warnings before several_line
-  std::string several_line;
+  WarningList warnings;              // about packets; kept by rewind(), since a second pass finds the same
+  std::uint64_t warnings_added = 0;  // number of warnings of `packets` that are in `warnings`
+  std::optional<std::size_t> warnings_before_note;  // number of warnings before sensors_note
+  std::string sensors_note;
   bool done = false;
 };
 
@@ -217,18 +219,19 @@ bool VelodyneReader::next(VelodyneSweep& sweep) {
   while (state.whole.empty() && state.read_packet()) {
   }
   if (state.whole.empty() && !state.done) state.finish();
-  state.warnings.add_new_of(state.packets->warnings(), state.warnings_added);
-  state.note_several();
+  state.warnings.append_new(state.packets->warnings(), state.warnings_added);
+  state.update_sensors_note();
   if (state.whole.empty()) return false;
   sweep = std::move(state.whole.front());
   state.whole.pop_front();
   return true;
 }
 
-std::vector<std::string> VelodyneReader::remarks() const {
+std::vector<std::string> VelodyneReader::warning_lines() const {
   std::vector<std::string> all = state_->warnings.lines();
-  if (!state_->several_line.empty())
-    all.insert(all.begin() + static_cast<std::ptrdiff_t>(*state_->several), state_->several_line);
+  if (!state_->sensors_note.empty())
+    all.insert(all.begin() + static_cast<std::ptrdiff_t>(*state_->warnings_before_note),
+               state_->sensors_note);
   return all;
 }
 

@@ -10,15 +10,15 @@
 
 namespace pcl_bv {
 
-// A sensor: of 32 returns of a block the beams in turn, and how far a firing takes.
+// A sensor model. A block has 32 returns, one of each beam in this order; a VLP-16 fires its 16 beams twice.
 struct VelodyneModel {
   std::string_view name;
-  std::uint8_t factory;  // the last byte of a packet
+  std::uint8_t product_id;  // the last byte of a packet
   std::size_t beams;
-  double metres;              // of a step of distance
-  double block_ns, laser_ns;  // from a block to the next, from a laser (or pair) to the next
-  std::array<double, kVelodyneLasers> degrees;  // up, of each beam
-  std::array<double, kVelodyneLasers> aside;    // azimuth of each beam, degrees
+  double distance_unit;       // metres
+  double block_ns, laser_ns;  // time from a block to the next, and from a laser (or pair) to the next
+  std::array<double, kVelodyneLasers> elevation;       // of each beam, degrees
+  std::array<double, kVelodyneLasers> azimuth_offset;  // of each beam, degrees
 };
 
 namespace {
@@ -57,27 +57,28 @@ constexpr VelodyneModel kModels[] = {
      {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
       1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
 
-// Azimuths are hundredths of a degree.
-constexpr std::size_t kTurn = 36'000;
-struct Turn {
+// Azimuths are in hundredths of a degree.
+constexpr std::size_t kFullCircle = 36'000;
+struct SineCosine {
   double sine, cosine;
 };
 
-const std::vector<Turn>& turns() {
+// Returns the sine and cosine of each azimuth.
+const std::vector<SineCosine>& azimuth_table() {
   static const auto all = [] {
-    std::vector<Turn> made(kTurn);
-    for (std::size_t i = 0; i < kTurn; ++i) {
+    std::vector<SineCosine> table(kFullCircle);
+    for (std::size_t i = 0; i < kFullCircle; ++i) {
       const double angle = static_cast<double>(i) / 100 * kDegree;
-      made[i] = {std::sin(angle), std::cos(angle)};
+      table[i] = {std::sin(angle), std::cos(angle)};
     }
-    return made;
+    return table;
   }();
   return all;
 }
 
-constexpr double kForgotten = 0.3e9;  // nanoseconds without a packet after which a sensor can be anywhere
-constexpr double kStrange = 6'000;    // hundredths of a degree from where it should be: another sensor
-constexpr unsigned kLate = 8;         // packets behind the end of a turn, 10 ms, until it is complete
+constexpr double kMaxPause = 0.3e9;  // nanoseconds; after longer pauses, azimuths cannot be predicted
+constexpr double kMaxPredictionError = 6'000;  // hundredths of a degree, for packets of the same sensor
+constexpr unsigned kLatePackets = 8;  // packets (10 ms) after a revolution's end until it is complete
 
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
@@ -93,19 +94,19 @@ const std::byte* return_of(const Payload& packet, std::size_t block, std::size_t
   return packet.data + kBlock * block + 4 + 3 * laser;
 }
 
-// Blocks of one firing: two of dual returns.
+// Returns the number of blocks per firing: 2 in dual return mode, else 1.
 std::size_t step_of(const Payload& packet) {
   return std::to_integer<int>(packet.data[kVelodynePacket - 2]) == 0x39 ? 2 : 1;
 }
 
-// The shorter way from one azimuth to the other, -180 to 180 degrees.
-double way_between(double from, double to) {
-  return std::remainder(to - from, static_cast<double>(kTurn));
+// Returns the signed difference of two azimuths, -180 to 180 degrees.
+double azimuth_difference(double from, double to) {
+  return std::remainder(to - from, static_cast<double>(kFullCircle));
 }
 
-// From the first firing to the last one.
-double way_within(const Payload& packet) {
-  return way_between(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
+// Returns the rotation from the packet's first firing to its last one.
+double rotation_within(const Payload& packet) {
+  return azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
 }
 
 }  // namespace
@@ -119,7 +120,7 @@ const VelodyneModel* velodyne_model(const Payload& packet) {
   const int product = velodyne_product(packet);
   const auto* const found =
       std::find_if(std::begin(kModels), std::end(kModels),
-                   [&](const VelodyneModel& model) { return model.factory == product; });
+                   [&](const VelodyneModel& model) { return model.product_id == product; });
   return found == std::end(kModels) ? nullptr : found;
 }
 
@@ -129,43 +130,46 @@ std::string_view name_of(const VelodyneModel& model) {
 
 VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
     : model_(&model), number_(number) {
-  std::array<double, kVelodyneLasers> sorted = model.degrees;
+  std::array<double, kVelodyneLasers> sorted = model.elevation;
   std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(model.beams));
   for (std::size_t i = 0; i < model.beams; ++i) {
-    ring_[i] = static_cast<std::uint32_t>(std::find(sorted.begin(), sorted.end(), model.degrees[i]) -
+    ring_[i] = static_cast<std::uint32_t>(std::find(sorted.begin(), sorted.end(), model.elevation[i]) -
                                           sorted.begin());
-    sine_[i] = std::sin(model.degrees[i] * kDegree);
-    cosine_[i] = std::cos(model.degrees[i] * kDegree);
-    aside_[i] = static_cast<std::size_t>(std::lround(100 * model.aside[i]) + static_cast<long>(kTurn));
+    sine_[i] = std::sin(model.elevation[i] * kDegree);
+    cosine_[i] = std::cos(model.elevation[i] * kDegree);
+    azimuth_offset_[i] =
+        static_cast<std::size_t>(std::lround(100 * model.azimuth_offset[i]) + static_cast<long>(kFullCircle));
   }
   sweep_.sensor = number;
 }
 
-// From the newest packet's first block to that of this one, by the number of turns that fits its time best.
-double VelodyneSensor::ahead(const Payload& packet) const {
+// Returns the rotation from the newest packet's first block to this packet's first block, with the number of
+// revolutions that fits the packet's time best.
+double VelodyneSensor::rotation_since_last(const Payload& packet) const {
   const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
-  return expected + way_between(place_ + expected, azimuth_of(packet, 0));
+  return expected + azimuth_difference(azimuth_ + expected, azimuth_of(packet, 0));
 }
 
 bool VelodyneSensor::expects(const Payload& packet) const {
   const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
-  if (!started_ || std::abs(passed) > kForgotten) return true;
-  return std::abs(ahead(packet) - speed_ * passed) <= kStrange;
+  if (!started_ || std::abs(passed) > kMaxPause) return true;
+  return std::abs(rotation_since_last(packet) - speed_ * passed) <= kMaxPredictionError;
 }
 
-// From packet to packet once there are two, which no jitter of a single one and no other rate of firing
-// changes much.
-void VelodyneSensor::learn_speed(const Payload& packet, double way) {
+// Estimates the rotation speed: from the first packet alone, then from each pair of packets with a smoothing
+// factor of 1/8, so that jitter of a single packet or another firing rate has little effect.
+void VelodyneSensor::update_speed(const Payload& packet, double rotation) {
   const std::size_t firings = kBlocks / step_of(packet) - 1;
-  if (speed_ == 0) speed_ = way_within(packet) / (static_cast<double>(firings) * model_->block_ns);
+  if (speed_ == 0) speed_ = rotation_within(packet) / (static_cast<double>(firings) * model_->block_ns);
   const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
-  if (!started_ || !(passed > 0.2e6 && passed < 5e6) || way * speed_ <= 0 || std::abs(way) > 3'000) return;
-  speed_ += (way / passed - speed_) / 8;
+  if (!started_ || !(passed > 0.2e6 && passed < 5e6) || rotation * speed_ <= 0 || std::abs(rotation) > 3'000)
+    return;
+  speed_ += (rotation / passed - speed_) / 8;
 }
 
-void VelodyneSensor::begin_turn(std::int64_t turn, std::deque<VelodyneSweep>& whole) {
-  turn_ = turn;
-  since_turn_ = 0;
+void VelodyneSensor::begin_revolution(std::int64_t revolution, std::deque<VelodyneSweep>& whole) {
+  revolution_ = revolution;
+  packets_in_revolution_ = 0;
   if (!previous_.points.empty()) whole.push_back(std::move(previous_));
   previous_ = std::exchange(sweep_, VelodyneSweep());
   sweep_.sensor = number_;
@@ -181,37 +185,38 @@ void VelodyneSensor::finish(std::deque<VelodyneSweep>& whole) {
 }
 
 void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole) {
-  if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kForgotten) finish(whole);
-  const double way = started_ ? ahead(packet) : 0;
-  learn_speed(packet, way);
+  if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kMaxPause) finish(whole);
+  const double rotation = started_ ? rotation_since_last(packet) : 0;
+  update_speed(packet, rotation);
   const std::size_t step = step_of(packet);
   const double forward = speed_ < 0 ? -1 : 1;
-  double place = started_ ? place_ + way : azimuth_of(packet, 0);
-  if (!started_) turn_ = static_cast<std::int64_t>(std::floor(place / kTurn));
-  if (!started_ || forward * way > 0) {
-    place_ = place;
+  double azimuth = started_ ? azimuth_ + rotation : azimuth_of(packet, 0);
+  if (!started_) revolution_ = static_cast<std::int64_t>(std::floor(azimuth / kFullCircle));
+  if (!started_ || forward * rotation > 0) {
+    azimuth_ = azimuth;
     last_time_ns_ = packet.time_ns;
   }
   started_ = true;
-  // The second firing of a block of a VLP-16 is half way to the next block, by this packet's first two.
-  const double half = way_between(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
+  // The second firing of a VLP-16's block is half way to the next block. The rotation per block is that
+  // between the packet's first two blocks.
+  const double half = azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
   for (std::size_t block = 0; block < kBlocks; block += step) {
-    if (block > 0) place += way_between(azimuth_of(packet, block - step), azimuth_of(packet, block));
+    if (block > 0) azimuth += azimuth_difference(azimuth_of(packet, block - step), azimuth_of(packet, block));
     for (std::size_t laser = 0; laser < kVelodyneLasers; ++laser) {
-      const double at = laser >= model_->beams ? place + half : place;
-      auto turn = static_cast<std::int64_t>(std::floor(at / kTurn));
-      if (at > place && at == static_cast<double>(turn) * kTurn) --turn;
-      if (forward * static_cast<double>(turn - turn_) > 0) begin_turn(turn, whole);
-      const bool late = turn != turn_ && !previous_.points.empty();
+      const double at = laser >= model_->beams ? azimuth + half : azimuth;
+      auto revolution = static_cast<std::int64_t>(std::floor(at / kFullCircle));
+      if (at > azimuth && at == static_cast<double>(revolution) * kFullCircle) --revolution;
+      if (forward * static_cast<double>(revolution - revolution_) > 0) begin_revolution(revolution, whole);
+      const bool late = revolution != revolution_ && !previous_.points.empty();
       VelodyneSweep& sweep = late ? previous_ : sweep_;
       if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
       const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
                           static_cast<double>(block / step) * model_->block_ns +
                           static_cast<double>(laser) * model_->laser_ns;
-      add_firing(packet, block, laser, at - std::floor(at / kTurn) * kTurn, time, sweep);
+      add_firing(packet, block, laser, at - std::floor(at / kFullCircle) * kFullCircle, time, sweep);
     }
   }
-  if (++since_turn_ < kLate || previous_.points.empty()) return;
+  if (++packets_in_revolution_ < kLatePackets || previous_.points.empty()) return;
   whole.push_back(std::exchange(previous_, VelodyneSweep()));
 }
 
@@ -226,15 +231,16 @@ void VelodyneSensor::add_firing(const Payload& packet, std::size_t block, std::s
 
 void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
                                VelodyneSweep& sweep) const {
-  const double distance = word(at) * model_->metres;
+  const double distance = word(at) * model_->distance_unit;
   if (distance == 0) return;  // no return
   const std::size_t beam = laser % model_->beams;
-  const Turn& turn = turns()[(static_cast<std::size_t>(hundredths) + aside_[beam]) % kTurn];
+  const SineCosine& azimuth =
+      azimuth_table()[(static_cast<std::size_t>(hundredths) + azimuth_offset_[beam]) % kFullCircle];
   const double level = distance * cosine_[beam];
-  sweep.points.push_back({static_cast<float>(level * turn.sine), static_cast<float>(level * turn.cosine),
-                          static_cast<float>(distance * sine_[beam]),
-                          static_cast<float>(std::to_integer<int>(at[2])), ring_[beam],
-                          static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
+  sweep.points.push_back(
+      {static_cast<float>(level * azimuth.sine), static_cast<float>(level * azimuth.cosine),
+       static_cast<float>(distance * sine_[beam]), static_cast<float>(std::to_integer<int>(at[2])),
+       ring_[beam], static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One sensor's packets, put together to sweeps.
+// Assembles the packets of one Velodyne sensor into sweeps.
 #pragma once
 
 #include <array>
@@ -18,36 +18,37 @@ inline constexpr std::size_t kVelodynePacket = 1206, kVelodyneLasers = 32;
 
 struct VelodyneModel;
 
-/// nullptr for what is no packet of a sensor that we know.
+/// Returns the model that sent the packet, null if it is not a packet of a supported model.
 const VelodyneModel* velodyne_model(const Payload& packet);
 std::string_view name_of(const VelodyneModel& model);
 
-/// The last byte of a packet that begins as those of a Velodyne do, else -1.
+/// Returns the product id (last byte) of a Velodyne packet, -1 for other packets.
 int velodyne_product(const Payload& packet);
 
-/// Packets come in nearly the order in which they were sent: some twice, some too late, some not at all.
-/// Packets are assigned by the azimuth predicted from the rotation speed and the capture times. A turn ends
-/// where azimuths pass 0 in the direction of rotation; a packet from before that goes to its own turn.
+/// One sensor. Its packets come nearly in the order in which they were sent; some are repeated, late or lost.
+/// A packet's revolution follows from its azimuth and from the azimuth that is predicted from the rotation
+/// speed and the capture times. A revolution ends where the azimuth passes 0 in the direction of rotation. A
+/// late packet still goes to the previous revolution if that is not complete.
 class VelodyneSensor {
  public:
   explicit VelodyneSensor(const VelodyneModel& model, std::size_t number);
 
   const VelodyneModel& model() const { return *model_; }
 
-  /// Whether the packet's azimuth is where this sensor should be at its time, to 60 degrees. True before the
-  /// first packet, and when nothing came for so long that nobody knows.
+  /// Whether the packet's azimuth is within 60 degrees of this sensor's predicted azimuth. Also true before
+  /// the first packet and after a pause of 0.3 s, when no prediction is possible.
   bool expects(const Payload& packet) const;
 
-  /// Adds a packet's returns; sweeps that are complete go to `whole`.
+  /// Adds a packet's returns; moves complete sweeps to `whole`.
   void add(const Payload& packet, std::deque<VelodyneSweep>& whole);
 
-  /// What there is of the last sweeps.
+  /// Moves the remaining sweeps to `whole`, complete or not.
   void finish(std::deque<VelodyneSweep>& whole);
 
  private:
-  double ahead(const Payload& packet) const;
-  void learn_speed(const Payload& packet, double way);
-  void begin_turn(std::int64_t turn, std::deque<VelodyneSweep>& whole);
+  double rotation_since_last(const Payload& packet) const;
+  void update_speed(const Payload& packet, double rotation);
+  void begin_revolution(std::int64_t revolution, std::deque<VelodyneSweep>& whole);
   void add_firing(const Payload& packet, std::size_t block, std::size_t laser, double azimuth, double time,
                   VelodyneSweep& sweep) const;
   void add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
@@ -57,13 +58,13 @@ class VelodyneSensor {
   std::size_t number_;
   std::array<std::uint32_t, kVelodyneLasers> ring_{};
   std::array<double, kVelodyneLasers> sine_{}, cosine_{};
-  std::array<std::size_t, kVelodyneLasers> aside_{};  // hundredths of a degree, a turn more
+  std::array<std::size_t, kVelodyneLasers> azimuth_offset_{};  // plus 360 degrees, in hundredths
   bool started_ = false;
-  double speed_ = 0;  // hundredths of a degree in a nanosecond; negative the other way round
-  double place_ = 0;  // of the newest packet's first block, hundredths since the beginning: turns add up
-  std::int64_t last_time_ns_ = 0, turn_ = 0;
-  VelodyneSweep sweep_, previous_;  // the latter waits for packets that come late
-  unsigned since_turn_ = 0;         // packets
+  double speed_ = 0;    // hundredths of a degree per nanosecond; negative if azimuths decrease
+  double azimuth_ = 0;  // unwrapped azimuth of the newest packet's first block, hundredths of a degree
+  std::int64_t last_time_ns_ = 0, revolution_ = 0;  // time of that packet; number of the current revolution
+  VelodyneSweep sweep_, previous_;      // the current sweep, and the last one, which waits for late packets
+  unsigned packets_in_revolution_ = 0;  // packets since the beginning of the revolution
 };
 
 }  // namespace pcl_bv

@@ -9,20 +9,21 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kListed = 10;  // warnings, so that damaged input cannot fill memory or a log
+// Maximum number of listed warnings, so that damaged input cannot fill memory or a log.
+constexpr std::size_t kMaxListed = 10;
 
 }  // namespace
 
 void WarningList::add(std::string line) {
-  if (lines_.size() < kListed) {
+  if (lines_.size() < kMaxListed) {
     lines_.push_back(std::move(line));
   } else {
     add_unlisted(1);
   }
 }
 
-void WarningList::add_new_of(const WarningList& other, std::uint64_t& added, const std::string& prefix) {
-  const std::uint64_t listed = std::min<std::uint64_t>(kListed, other.lines_.size());
+void WarningList::append_new(const WarningList& other, std::uint64_t& added, const std::string& prefix) {
+  const std::uint64_t listed = std::min<std::uint64_t>(kMaxListed, other.lines_.size());
   for (; added < listed; ++added)
     add(prefix + other.lines_[added]);
   const std::uint64_t all = listed + other.unlisted_;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The CSV columns that depend on the type of a shape: size, rotation and radius.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,29 +12,31 @@
 
 namespace pcl_bv {
 
-/// What is not there stays empty.
+/// The columns of a shape; nullopt for an empty column.
 struct CsvShape {
   std::optional<Eigen::Vector3d> size;  ///< Along the shape's own axes.
   std::optional<Eigen::Quaterniond> rotation;
   std::optional<double> radius;
 };
 
-/// A round shape of this whole height along its axis, whichever way that points: upwards the turn from z is
-/// well conditioned, and needs no singular value decomposition as Eigen's FromTwoVectors() does.
+/// Returns the columns of a cylinder or capsule of this full height. The axis is flipped to point upwards,
+/// which does not change the shape: the rotation from z to it is then well conditioned, without the singular
+/// value decomposition of Eigen's FromTwoVectors().
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
   const Eigen::Vector3d up = (axis.z() < 0 ? Eigen::Vector3d(-axis) : axis).stableNormalized();
   return {Eigen::Vector3d(2 * radius, 2 * radius, height),
           Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized(), radius};
 }
 
-/// The rotation of three axes in columns, whichever hand they are of: the shape does not change with a sign.
+/// Returns the rotation to three orthogonal axes (columns). A left-handed system is made right-handed by
+/// flipping its third axis, which does not change the shape.
 inline Eigen::Quaterniond rotation_of(Eigen::Matrix3d axes) {
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return Eigen::Quaterniond(axes);
 }
 
-/// By the numbers that a shape has, so that one more box or ball needs no line here; else its axis-aligned
-/// box.
+/// Returns the columns of a shape, selected by its member functions, so that further shapes with the same
+/// functions are supported. All other shapes give their axis-aligned box.
 template <typename Shape>
 CsvShape csv_shape(const Shape& shape) {
   if constexpr (requires { shape.half_extents(), shape.quaternion(); }) {

@@ -50,8 +50,9 @@ void append(T value, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// The count of a face's corners is a byte, as everywhere, unless a flat hull has more of them.
-bool counts_fit_a_byte(const VolumeCells& cells) {
+/// Whether the vertex count of every face fits in a byte, as is usual in .ply files. Flat hulls can have
+/// more.
+bool face_counts_fit_byte(const VolumeCells& cells) {
   return std::all_of(cells.polygons.begin(), cells.polygons.end(),
                      [](const Cell& face) { return face.vertices.size() <= 255; });
 }
@@ -65,7 +66,7 @@ std::string header(const VolumeCells& cells) {
           "property uchar red\nproperty uchar green\nproperty uchar blue\n"
           "element face " +
           std::to_string(cells.polygons.size()) + "\nproperty list " +
-          (counts_fit_a_byte(cells) ? "uchar" : "int") +
+          (face_counts_fit_byte(cells) ? "uchar" : "int") +
           " int vertex_indices\nproperty int cluster\nproperty int method\n";
   if (!cells.lines.empty()) {
     text += "element edge " + std::to_string(cells.lines.size()) +
@@ -122,7 +123,7 @@ std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster) {
     const std::size_t colour = colour_by_cluster ? owner.cluster : owner.method;
     append_vertex(cells.vertices[i], palette(static_cast<std::uint32_t>(colour)), bytes);
   }
-  const bool count_is_a_byte = counts_fit_a_byte(cells);
+  const bool count_is_a_byte = face_counts_fit_byte(cells);
   for (const Cell& face : cells.polygons)
     append_face(face, count_is_a_byte, cells.owners[face.owner], bytes);
   for (const Cell& edge : cells.lines) {

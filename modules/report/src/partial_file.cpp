@@ -16,12 +16,12 @@
 namespace pcl_bv {
 namespace {
 
-using Json = JsonFromOutside;
+using Json = UntrustedJson;
 using Shares = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr std::string_view kFormat = "pcl_bv partial results ";
 constexpr std::string_view kVersion = "1\n";
-constexpr std::size_t kGreatest = std::size_t{1} << 30;
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 std::string check_sum(std::string_view content) {
   boost::crc_32_type sum;
@@ -40,14 +40,14 @@ void require_same(bool same, const char* what) {
   if (!same) throw std::invalid_argument(what);
 }
 
-// Of both; those that touch become one.
-Shares united(const Shares& a, const Shares& b) {
+// Returns the union of both; adjacent shares become one. Throws std::invalid_argument if they overlap.
+Shares united_shares(const Shares& a, const Shares& b) {
   Shares sorted = a, shares;
   sorted.insert(sorted.end(), b.begin(), b.end());
   std::sort(sorted.begin(), sorted.end());
   for (const auto& share : sorted) {
     require_same(shares.empty() || share.first >= shares.back().second,
-                 "has points that another one has, too: the same share twice?");
+                 "overlaps another share: is the same file given twice?");
     if (!shares.empty() && share.first == shares.back().second) {
       shares.back().second = share.second;
     } else {
@@ -64,20 +64,20 @@ std::size_t points_in(const Shares& shares) {
   return points;
 }
 
-// Nothing below 0 and no fraction, and no number that only a double holds.
-std::size_t whole(const Json& number) {
-  require(number.is_number_unsigned(), "its heading has no whole number where it should");
+// Returns a non-negative integer of at most 64 bits. Throws IoError for any other value.
+std::size_t unsigned_integer(const Json& number) {
+  require(number.is_number_unsigned(), "invalid header: a non-negative integer is expected");
   return number.get<std::size_t>();
 }
 
-// Throws Json::exception, and IoError.
-PartialFile read_heading(std::string_view line) {
-  require(line.size() <= kMaxHeadingBytes, "its heading is too long");
+// Throws Json::exception and IoError.
+PartialFile read_partial_header(std::string_view line) {
+  require(line.size() <= kMaxPartialHeaderBytes, "its header is too long");
   const Json json = read_json(line);
   PartialFile file;
-  file.inputs_hash = whole(json.at("inputs_hash"));
-  file.inputs = whole(json.at("inputs"));
-  file.cloud_points = whole(json.at("cloud_points"));
+  file.inputs_hash = unsigned_integer(json.at("inputs_hash"));
+  file.inputs = unsigned_integer(json.at("inputs"));
+  file.cloud_points = unsigned_integer(json.at("cloud_points"));
   if (json.contains("origin")) {
     file.origin.emplace();
     for (std::size_t k = 0; k < 3; ++k)
@@ -85,14 +85,14 @@ PartialFile read_heading(std::string_view line) {
     require(file.origin->allFinite(), "its origin is not finite");
   }
   file.filter = json.at("filter").get<std::string>();
-  file.counts.range = whole(json.at("range"));
-  file.counts.inside = whole(json.at("inside"));
+  file.counts.range = unsigned_integer(json.at("range"));
+  file.counts.inside = unsigned_integer(json.at("inside"));
   std::size_t end = 0;
   for (const Json& share : json.at("shares")) {
-    file.shares.emplace_back(whole(share.at(0)), whole(share.at(1)));
+    file.shares.emplace_back(unsigned_integer(share.at(0)), unsigned_integer(share.at(1)));
     const auto& [from, to] = file.shares.back();
     const bool apart = from > end || (from == 0 && file.shares.size() == 1);
-    require(apart && from < to && to <= file.cloud_points, "its shares contradict each other");
+    require(apart && from < to && to <= file.cloud_points, "its ranges of points are inconsistent");
     end = to;
   }
   return file;
@@ -104,7 +104,7 @@ void PartialFile::add_input(std::string_view name, std::size_t points) {
   const auto add = [&](unsigned char byte) { inputs_hash = (inputs_hash ^ byte) * 0x100000001b3; };
   for (const char c : name)
     add(static_cast<unsigned char>(c));
-  for (std::size_t i = 0; i <= 8; ++i)  // the 0 ends the name
+  for (std::size_t i = 0; i <= 8; ++i)  // a zero byte ends the name, then 8 bytes of the number follow
     add(i == 0 ? 0 : static_cast<unsigned char>(points >> (8 * (i - 1))));
   ++inputs;
   cloud_points += points;
@@ -116,7 +116,7 @@ void PartialFile::merge(const PartialFile& other) {
       "is a share of another cloud: the inputs were not the same");
   require_same(origin == other.origin, "is a share with another --origin");
   require_same(filter == other.filter, "is a share with another --range or other regions");
-  Shares all = united(shares, other.shares);
+  Shares all = united_shares(shares, other.shares);
   partial.merge(other.partial);
   shares = std::move(all);
   counts.range += other.counts.range;
@@ -161,35 +161,35 @@ std::string partial_file_content(const PartialFile& file) {
 PartialFile parse_partial_file(std::string_view content) {
   require(content.starts_with(kFormat), "is no file of partial results, as --partial writes them");
   std::string_view rest = content.substr(kFormat.size());
-  require(rest.size() > 6, "ends early");
+  require(rest.size() > 6, "is truncated");
   require(rest.starts_with(kVersion), "was written by another version of pcl_bv: this one reads version 1");
   const std::size_t sum = 4;
   require(content.substr(content.size() - sum) == check_sum(content.substr(0, content.size() - sum)),
-          "was cut or changed: its check sum is wrong");
+          "is damaged: the checksum does not match");
   rest = rest.substr(kVersion.size(), rest.size() - kVersion.size() - sum);
   const std::size_t end = rest.find('\n');
-  require(end != std::string_view::npos, "ends early");
+  require(end != std::string_view::npos, "is truncated");
   try {
-    PartialFile file = read_heading(rest.substr(0, end));
+    PartialFile file = read_partial_header(rest.substr(0, end));
     const std::string_view bytes = rest.substr(end + 1);
     file.partial = Partial::from_bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
-    require(file.partial.size() == points_in(file.shares), "its numbers of points contradict each other");
+    require(file.partial.size() == points_in(file.shares), "its numbers of points are inconsistent");
     return file;
   } catch (const Json::exception&) {
-    throw IoError("its heading cannot be read");
+    throw IoError("its header cannot be read");
   } catch (const std::invalid_argument& error) {
     throw IoError(error.what());
   }
 }
 
 void write_partial_file(const std::filesystem::path& path, const PartialFile& file) {
-  make_folder_of(path);
+  create_parent_folders(path);
   write_file_atomically(path, partial_file_content(file));
 }
 
 PartialFile read_partial_file(const std::filesystem::path& path) {
   const InputFile file(path);
-  require(file.size() <= kGreatest, "is too large for partial results");
+  require(file.size() <= kMaxFileBytes, "is too large for partial results");
   std::string content(file.size(), '\0');
   file.read(0, content.data(), content.size());
   return parse_partial_file(content);

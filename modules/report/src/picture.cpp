@@ -25,7 +25,7 @@ constexpr double face_alpha = 0.07;
 
 struct Edge {
   std::int32_t from, to;
-  bool front;  ///< Bounds a face that the viewer sees, or one without area.
+  bool front;  ///< Belongs to a face that the viewer sees, or to a face without area.
 };
 
 void set_colour(cairo_t* cairo, const Colour& colour, double alpha) {
@@ -41,7 +41,7 @@ Eigen::Vector3d normal(const Mesh& mesh, const std::vector<std::int32_t>& face) 
   return sum.stableNormalized();
 }
 
-/// The edges of a mesh without those inside a flat side.
+/// Returns the edges of a mesh, except those between two coplanar faces.
 std::vector<Edge> drawn_edges(const Mesh& mesh, const View& view) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Eigen::Vector3d>> normals_at;
   for (const std::vector<std::int32_t>& face : mesh.faces) {
@@ -82,7 +82,8 @@ void draw_mesh(cairo_t* cairo, const Mesh& mesh, const View& view, const Colour&
   }
 }
 
-/// An arc on a sphere from `from` towards `to`, unit vectors, as smooth as a pixel shows; closed if whole.
+/// Adds an arc on a sphere: from the unit vector `from` by `angle` towards `to`, with steps small enough to
+/// look smooth. A full circle is closed.
 void add_arc(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen::Vector3d& from,
              const Eigen::Vector3d& to, double angle) {
   const double fine = 1.6 * angle * std::sqrt(sphere.radius() * view.scale);
@@ -95,7 +96,7 @@ void add_arc(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen
   add_path(cairo, view, points, angle > M_PI);
 }
 
-/// Colours the path like a glass ball, unless that is beyond what a gradient can span.
+/// Fills the path like a glass ball. A ball too large for Cairo's gradients is not filled.
 void fill_glass(cairo_t* cairo, const Eigen::Vector3d& at, double radius, const Colour& colour) {
   constexpr double widest = 1e5;
   if (!(std::max({std::abs(at.x()), std::abs(at.y()), radius}) < widest)) return cairo_new_path(cairo);
@@ -126,7 +127,7 @@ void draw_sphere(cairo_t* cairo, const Sphere& sphere, const View& view, const C
   stroke(cairo, colour, true, dash);
 }
 
-/// Far volumes first, so that near ones cross over them.
+/// Draws far volumes first, so that near volumes are on top.
 void draw_volumes(cairo_t* cairo, const Picture& picture, const View& view, const Styles& styles) {
   std::vector<std::pair<double, const PictureVolume*>> order;
   for (const PictureVolume& entry : picture.volumes) {
@@ -161,7 +162,8 @@ void require(cairo_status_t status) {
 void check(const Picture& picture) {
   for (const int side : {picture.width, picture.height}) {
     if (side < 16 || side > 16384) {
-      throw std::invalid_argument("picture side " + std::to_string(side) + " is not within 16..16384 pixels");
+      throw std::invalid_argument("picture width or height " + std::to_string(side) +
+                                  " is not within 16..16384 pixels");
     }
   }
   const Eigen::Vector3d& up = picture.up;
@@ -174,14 +176,14 @@ void check(const Picture& picture) {
 using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 using Context = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 
-/// The pixels must outlive the surface.
+/// Returns a surface of the pixels, which must outlive the surface.
 Surface surface_of(std::vector<std::uint32_t>& pixels, const View& view) {
   return {cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
                                               CAIRO_FORMAT_RGB24, view.width, view.height, view.width * 4),
           cairo_surface_destroy};
 }
 
-/// Draws the volumes, over the points if they are given apart.
+/// Draws the volumes and marks. If `points` is not null, draws the points first.
 void draw(cairo_surface_t* surface, cairo_surface_t* points, const Picture& picture, const View& view) {
   const Context cairo(cairo_create(surface), cairo_destroy);
   if (points) {

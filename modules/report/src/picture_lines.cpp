@@ -11,20 +11,20 @@ namespace {
 
 using Path = std::vector<Eigen::Vector3d>;
 
-/// What of a path has sign * coordinate <= limit. Where an open one leaves and comes back, it goes along the
-/// limit.
-Path cut(const Path& path, bool closed, int axis, double sign, double limit) {
-  Path kept;
+/// Returns the part of a path with sign * coordinate <= limit. Where an open path leaves this half-plane and
+/// returns, the two crossings are connected along its boundary.
+Path clip_path(const Path& path, bool closed, int axis, double sign, double limit) {
+  Path clipped;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Eigen::Vector3d &a = path[i > 0 ? i - 1 : path.size() - 1], &b = path[i];
     const bool inside = sign * b[axis] <= limit;
     if ((i > 0 || closed) && (sign * a[axis] <= limit) != inside) {
-      kept.push_back(a + (sign * limit - a[axis]) / (b[axis] - a[axis]) * (b - a));
-      kept.back()[axis] = sign * limit;
+      clipped.push_back(a + (sign * limit - a[axis]) / (b[axis] - a[axis]) * (b - a));
+      clipped.back()[axis] = sign * limit;
     }
-    if (inside) kept.push_back(b);
+    if (inside) clipped.push_back(b);
   }
-  return kept;
+  return clipped;
 }
 
 }  // namespace
@@ -42,15 +42,15 @@ Styles::Styles(const Picture& picture) {
 }
 
 void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3d>& points, bool closed) {
-  constexpr double beyond = 64;  // pixels, more than any line is wide
+  constexpr double beyond = 64;  // pixels outside the picture, wider than any line
   Path path;
   for (const Eigen::Vector3d& point : points) {
     path.push_back(view.project(point));
     if (!(path.back().cwiseAbs().maxCoeff() < 1e300)) return;
   }
   for (const int axis : {0, 1}) {
-    path = cut(path, closed, axis, 1, beyond + (axis == 0 ? view.width : view.height));
-    path = cut(path, closed, axis, -1, beyond);
+    path = clip_path(path, closed, axis, 1, beyond + (axis == 0 ? view.width : view.height));
+    path = clip_path(path, closed, axis, -1, beyond);
   }
   for (const Eigen::Vector3d& at : path)
     cairo_line_to(cairo, at.x(), at.y());

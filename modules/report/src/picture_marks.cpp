@@ -20,7 +20,7 @@ using Box = Eigen::AlignedBox2d;
 class Marks {
  public:
   Marks(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), bottom_(view.height - margin) {
-    // Cairo's own letters: fonts differ from machine to machine, and finding one takes longer than a picture.
+    // Cairo's built-in font: others differ between machines, and finding one takes longer than a picture.
     cairo_select_font_face(cairo, "@cairo:", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cairo, text_size);
   }
@@ -45,10 +45,10 @@ class Marks {
     cairo_rectangle(cairo_, box.min().x(), box.min().y(), box.sizes().x(), box.sizes().y());
     cairo_set_source_rgba(cairo_, 0.03, 0.04, 0.07, 0.75);
     cairo_fill(cairo_);
-    taken_.push_back(box);
+    occupied_.push_back(box);
   }
 
-  /// The text's left end and foot are at x, y.
+  /// Writes a text whose baseline starts at x, y.
   void write(const std::string& text, double x, double y, const Colour& colour) {
     cairo_set_source_rgb(cairo_, colour[0], colour[1], colour[2]);
     cairo_move_to(cairo_, x, y);
@@ -63,37 +63,39 @@ class Marks {
   cairo_t* cairo_;
   const View& view_;
   double bottom_;
-  std::vector<Box> taken_;  ///< Where there is something to read.
+  std::vector<Box> occupied_;  ///< Areas with text or marks, which labels must not overlap.
 };
 
-/// What Cairo's letters can show, and Cairo does not refuse.
+/// Replaces characters that Cairo's built-in font does not have by '?'.
 std::string readable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 
-// Red, green and blue, as in RViz and CloudCompare; those that point at the viewer are drawn last.
+// The colours are those of RViz and CloudCompare. Axes that point at the viewer are drawn last.
 void Marks::draw_axes() {
   constexpr Colour colours[3] = {{0.95f, 0.35f, 0.35f}, {0.45f, 0.85f, 0.4f}, {0.42f, 0.6f, 1.0f}};
-  const double reach = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
+  const double axis_extent = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
   int order[3] = {0, 1, 2};
   std::stable_sort(std::begin(order), std::end(order),
                    [&](int a, int b) { return view_.toward[a] < view_.toward[b]; });
   for (const int axis : order) {
-    const double across = view_.right[axis], down = -view_.up[axis];
-    if (across * across + down * down < 0.01) continue;
-    line(x, y, x + axis_length * across, y + axis_length * down);
+    const double dx = view_.right[axis], dy = -view_.up[axis];
+    if (dx * dx + dy * dy < 0.01) continue;
+    line(x, y, x + axis_length * dx, y + axis_length * dy);
     stroke(cairo_, colours[axis], true);
     const std::string name(1, "xyz"[axis]);
-    const double left = x + reach * across - width_of(name) / 2, foot = y + reach * down + cap_height / 3;
+    const double left = x + axis_extent * dx - width_of(name) / 2,
+                 foot = y + axis_extent * dy + cap_height / 3;
     darken(box_of(name, left, foot));
     write(name, left, foot, colours[axis]);
   }
-  taken_.emplace_back(Eigen::Vector2d(x - reach, y - reach), Eigen::Vector2d(x + reach, y + reach));
+  occupied_.emplace_back(Eigen::Vector2d(x - axis_extent, y - axis_extent),
+                         Eigen::Vector2d(x + axis_extent, y + axis_extent));
 }
 
-// The greatest of 1, 2 and 5 times a power of ten that is at most this.
+// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `most`.
 double round_length(double most) {
   const double power = std::pow(10.0, std::floor(std::log10(most)));
   for (const double digit : {5.0, 2.0}) {
@@ -106,7 +108,7 @@ void Marks::draw_scale(const std::string& unit) {
   constexpr double longest = 180, tick = 5, x = margin + 2 * axis_length + 46;
   const double length = round_length(longest / view_.scale);
   const double pixels = length * view_.scale;
-  if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // of a scene beyond what can be written
+  if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // scene size outside the range of doubles
   line(x, bottom_ - tick, x, bottom_);
   cairo_line_to(cairo_, x + pixels, bottom_);
   cairo_line_to(cairo_, x + pixels, bottom_ - tick);
@@ -114,7 +116,7 @@ void Marks::draw_scale(const std::string& unit) {
   char digits[32];
   const auto written = std::to_chars(digits, digits + sizeof digits, length, std::chars_format::general, 3);
   const std::string text = std::string(digits, written.ptr) + (unit.empty() ? "" : " " + readable(unit));
-  taken_.push_back(box_of(text, x + 8, bottom_ - 6).extend(Eigen::Vector2d(x + pixels, bottom_)));
+  occupied_.push_back(box_of(text, x + 8, bottom_ - 6).extend(Eigen::Vector2d(x + pixels, bottom_)));
   write(text, x + 8, bottom_ - 6, plain);
 }
 
@@ -124,7 +126,7 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
   double x = margin, y = margin, widest = 0;
   for (const auto& [method, number] : styles.colour_of) {
     if (method >= methods.size()) continue;
-    if (y > bottom_ - mark_room) {  // a further column
+    if (y > bottom_ - kMarkMargin) {  // begin a new column
       x += sample + 24 + widest;
       y = margin, widest = 0;
     }
@@ -141,8 +143,8 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
 
 void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
   const Box frame(Eigen::Vector2d(0, 0), Eigen::Vector2d(view_.width, view_.height));
-  // Above the middle of what lies on top; from above, there is no top to be seen.
-  const Eigen::Vector3d& rise = view_.sky.dot(view_.toward) > 0.9 ? view_.up : view_.sky;
+  // A label is above the volume's highest point; in a view from above, above its upper edge in the picture.
+  const Eigen::Vector3d& rise = view_.world_up.dot(view_.toward) > 0.9 ? view_.up : view_.world_up;
   for (const PictureVolume& entry : volumes) {
     if (entry.label.empty() || empty(entry.volume)) continue;
     const Eigen::Vector3d middle = center(entry.volume);
@@ -155,7 +157,8 @@ void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
     const double x = std::max(4.0, std::min(at.x() - width / 2, view_.width - width - 4));
     const double y = std::max(cap_height + 4, top - 7);
     const Box box = box_of(text, x, y);
-    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.intersects(box); }))
+    if (std::any_of(occupied_.begin(), occupied_.end(),
+                    [&](const Box& other) { return other.intersects(box); }))
       continue;
     darken(box);
     write(text, x, y, palette(entry.colour));

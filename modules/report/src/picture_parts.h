@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a picture is put together from.
+// The parts of picture_png(): projection, points, lines and marks.
 #pragma once
 
 #include <cairo.h>
@@ -17,37 +17,37 @@
 
 namespace pcl_bv {
 
-/// A parallel projection. Pixels count from the upper left corner; depth grows away from the viewer and is in
-/// pixels too, so that a cube looks like one.
+/// A parallel projection. Pixels are counted from the upper left corner. Depth increases away from the viewer
+/// and is in pixels, too.
 struct View {
   Eigen::Vector3d right, up, toward;    ///< Orthonormal; `toward` points from the scene to the viewer.
-  Eigen::Vector3d sky;                  ///< Picture::up, a unit vector.
-  std::array<double, 2> heights{0, 1};  ///< Central ones of the points, for the colours by height.
+  Eigen::Vector3d world_up;             ///< Picture::up as a unit vector.
+  std::array<double, 2> heights{0, 1};  ///< Central range of the points' heights, for colours by height.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;  ///< Pixels per unit.
   int width = 0;
   int height = 0;
-  bool empty = true;  ///< Whether there is nothing to see.
+  bool empty = true;  ///< There are no points and no volumes to frame.
 
-  /// Pixel x, pixel y, depth.
+  /// Returns pixel x, pixel y and depth.
   Eigen::Vector3d project(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d d = (p - center) * scale;
     return {width / 2.0 + d.dot(right), height / 2.0 - d.dot(up), -d.dot(toward)};
   }
 };
 
-/// Whether the picture shows this point at all.
+/// Whether the picture shows this point: it is finite and not at 0,0,0.
 inline bool is_drawn(const Coordinates& p) {
   return is_valid(p) && (p.x != 0 || p.y != 0 || p.z != 0);
 }
 
-/// The view that frames what picture_png() promises.
+/// Returns the view with the frame that picture_png() documents.
 View fit_view(const Picture& picture);
 
-/// Rows of width x height pixels 0xffRRGGBB: the background and, nearest first, the points.
+/// Returns rows of width x height pixels 0xffRRGGBB: the background and the points, without occluded ones.
 std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view);
 
-/// How the methods drawn are told apart: by colour if each has one of its own, else by dashes.
+/// How methods are distinguished: by colour if each method has its own colour, else by dashes.
 struct Styles {
   explicit Styles(const Picture& picture);
 
@@ -55,26 +55,25 @@ struct Styles {
     return by_colour ? method / static_cast<std::uint32_t>(std::size(palette_colours)) : method;
   }
 
-  std::map<std::uint32_t, std::uint32_t> colour_of;  ///< Of each method drawn, that of its first volume.
+  std::map<std::uint32_t, std::uint32_t> colour_of;  ///< Colour of each drawn method's first volume.
   bool by_colour;
 };
 
-/// Adds lines through points of the scene to Cairo's path, or (`closed`) around an area, cut off somewhat
-/// outside the picture: Cairo's numbers end at eight million pixels.
+/// Adds a polyline through points of the scene to Cairo's path, or a polygon if `closed`. It is clipped
+/// somewhat outside the picture, since Cairo's coordinates are limited to eight million pixels.
 void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3d>& points, bool closed);
 
-/// Draws the path, and forgets it. One dark stroke below the coloured one keeps lines in front crisp on a
-/// crowd of points.
+/// Draws and clears Cairo's path. Lines in front have a dark outline, so that they stand out from the points.
 void stroke(cairo_t* cairo, const Colour& colour, bool front, std::uint32_t dash = 0);
 
-/// Below this size there is no room for marks; `mark_room` is what they take of the lower edge.
-constexpr int marked_width = 480, marked_height = 320, mark_room = 130;
+/// Minimum picture size with marks, and the margin at the lower edge that marks need, in pixels.
+constexpr int kMinMarkedWidth = 480, kMinMarkedHeight = 320, kMarkMargin = 130;
 
 inline bool has_marks(const View& view) {
-  return view.width >= marked_width && view.height >= marked_height;
+  return view.width >= kMinMarkedWidth && view.height >= kMinMarkedHeight;
 }
 
-/// Draws the axes that are not seen end-on and a scale bar, the legend and the volumes' labels.
+/// Draws the axes (except one along the line of sight), a scale bar, the legend and the volumes' labels.
 void draw_marks(cairo_t* cairo, const Picture& picture, const View& view, const Styles& styles);
 
 }  // namespace pcl_bv

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points as small discs in a depth buffer of twice the picture's resolution, then shaded by their neighbours'
-// depth (eye-dome lighting, Boucheny 2009) and averaged down. Cairo would need minutes for what this does in
-// 0.1 s.
+// Draws points as small discs in a depth buffer of twice the picture's resolution, shades them by their
+// neighbours' depth (eye-dome lighting, Boucheny 2009) and averages the samples of each pixel. Cairo would
+// need minutes for the same points, this takes 0.1 s.
 
 #include "picture_parts.h"
 
@@ -11,12 +11,12 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr int samples = 2;  // along each side of a pixel
+constexpr int samples = 2;  // per pixel in each direction
 constexpr float no_depth = std::numeric_limits<float>::infinity();
 
 constexpr Colour background_top{0.035f, 0.047f, 0.078f};
@@ -28,7 +28,7 @@ Colour mix(const Colour& a, const Colour& b, float t) {
   return {a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t};
 }
 
-/// Low is blue, high is warm.
+/// Returns the colour for a relative height from 0 (blue) to 1 (orange).
 Colour height_colour(float t) {
   constexpr Colour stops[] = {{0.24f, 0.36f, 0.68f},
                               {0.17f, 0.62f, 0.74f},
@@ -53,9 +53,9 @@ using Offsets = std::vector<std::array<int, 2>>;
 
 Offsets disc(double radius) {
   Offsets offsets;
-  const int reach = static_cast<int>(radius);
-  for (int y = -reach; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) {
+  const int disc_radius = static_cast<int>(radius);
+  for (int y = -disc_radius; y <= disc_radius; ++y) {
+    for (int x = -disc_radius; x <= disc_radius; ++x) {
       if (x * x + y * y <= radius * radius) offsets.push_back({x, y});
     }
   }
@@ -63,9 +63,9 @@ Offsets disc(double radius) {
 }
 
 void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, const Colour& colour) {
-  const double reach = 64;
-  if (!(at.x() > -reach && at.x() < raster.width + reach)) return;
-  if (!(at.y() > -reach && at.y() < raster.height + reach)) return;
+  const double outside_margin = 64;
+  if (!(at.x() > -outside_margin && at.x() < raster.width + outside_margin)) return;
+  if (!(at.y() > -outside_margin && at.y() < raster.height + outside_margin)) return;
   const int px = static_cast<int>(std::floor(at.x())), py = static_cast<int>(std::floor(at.y()));
   const float depth = static_cast<float>(std::clamp(at.z(), -1e30, 1e30));
   for (const auto& [dx, dy] : offsets) {
@@ -79,10 +79,10 @@ void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, co
   }
 }
 
-/// How much light reaches a sample: less where its neighbours stand before it.
-float eye_dome(const Raster& raster, int x, int y) {
+/// Returns the brightness of a sample, 0 to 1: lower if neighbours are closer to the viewer.
+float eye_dome_brightness(const Raster& raster, int x, int y) {
   constexpr int step = 3;
-  constexpr float reach = 40;  // samples: a step in depth beyond which it gets no darker
+  constexpr float max_depth_step = 40;  // maximum depth difference that counts, in samples
   constexpr int around[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
   const float here = raster.depth[static_cast<std::size_t>(y) * raster.width + x];
   float covered = 0;
@@ -90,9 +90,9 @@ float eye_dome(const Raster& raster, int x, int y) {
     const int nx = x + step * dx, ny = y + step * dy;
     if (nx < 0 || nx >= raster.width || ny < 0 || ny >= raster.height) continue;
     const float there = raster.depth[static_cast<std::size_t>(ny) * raster.width + nx];
-    if (there < here) covered += std::min(here - there, reach);
+    if (there < here) covered += std::min(here - there, max_depth_step);
   }
-  return std::exp(-2.2f * covered / (8 * reach));
+  return std::exp(-2.2f * covered / (8 * max_depth_step));
 }
 
 std::uint32_t pack(const Colour& colour) {
@@ -107,8 +107,8 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
   const int width = raster.width / samples, height = raster.height / samples;
   std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * height);
   for (int y = 0; y < height; ++y) {
-    const float down = static_cast<float>(y) / static_cast<float>(height);
-    const Colour background = mix(background_top, background_bottom, down);
+    const float relative_y = static_cast<float>(y) / static_cast<float>(height);
+    const Colour background = mix(background_top, background_bottom, relative_y);
     for (int x = 0; x < width; ++x) {
       Colour sum{};
       for (int s = 0; s < samples * samples; ++s) {
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
         const std::size_t i = static_cast<std::size_t>(sy) * raster.width + sx;
         const bool hit = raster.depth[i] != no_depth;
         const Colour& colour = hit ? raster.colour[i] : background;
-        const float light = hit ? eye_dome(raster, sx, sy) : 1;
+        const float light = hit ? eye_dome_brightness(raster, sx, sy) : 1;
         for (int c = 0; c < 3; ++c)
           sum[c] += colour[c] * light;
       }
@@ -141,10 +141,10 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
     const Eigen::Vector3d point(p.x, p.y, p.z), at = view.project(point);
     const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);
     const auto& [low, high] = view.heights;
-    const double height = (point.dot(view.sky) - low) / (high - low);
+    const double height = (point.dot(view.world_up) - low) / (high - low);
     if (!picture.labels) return splat(raster, sample, clustered, height_colour(static_cast<float>(height)));
     const std::uint32_t label = picture.labels[index];
-    if (label < label_ground) return splat(raster, sample, clustered, palette(label));
+    if (label < kLabelGround) return splat(raster, sample, clustered, palette(label));
     const double near = 0.5 - at.z() / picture.height;
     splat(raster, sample, plain, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
   };

@@ -8,72 +8,73 @@
 #include <cmath>
 #include <vector>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
-// The height of the eye is that of an isometric drawing. Its azimuth is not 45 degrees: streets run along x
-// or y in most clouds, and would go straight into a corner of the picture, which is wider than high.
+// Direction of the viewer in ViewFrom::iso. The elevation is that of an isometric drawing. The azimuth is not
+// that of a diagonal: in most clouds streets run along x or y, and would run diagonally through the picture,
+// which is wider than high.
 constexpr double elevation = 35 * degree;
 constexpr double azimuth = -114 * degree;
-constexpr double margin_part = 0.04;  // of each side
+constexpr double margin_part = 0.04;  // margin at each side, relative to the picture's size
 
-/// The interval [low, high] along one axis that something covers.
+/// The interval [low, high] along one axis.
 struct Interval {
   double low = 0, high = 0;
 };
 
-/// From the lowest of the lows to the highest of the highs, leaving out the most extreme `cut` of either.
-/// Nothing covers from infinity to minus infinity.
-Interval span(std::vector<Interval>& parts, std::size_t cut) {
+/// Returns the interval from the lowest `low` to the highest `high` of all parts, ignoring the `outliers`
+/// most extreme values of each. Without parts returns [infinity, -infinity].
+Interval robust_interval(std::vector<Interval>& parts, std::size_t outliers) {
   if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;
-  std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
+  std::nth_element(parts.begin(), parts.begin() + outliers, parts.end(),
                    [](const Interval& a, const Interval& b) { return a.low < b.low; });
-  result.low = parts[cut].low;
-  std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
+  result.low = parts[outliers].low;
+  std::nth_element(parts.begin(), parts.begin() + outliers, parts.end(),
                    [](const Interval& a, const Interval& b) { return a.high > b.high; });
-  result.high = parts[cut].high;
+  result.high = parts[outliers].high;
   return result;
 }
 
-/// A sample of the drawn points that matter for the frame: those in clusters if there are labels, else all.
+/// Returns a sample of the points that determine the frame: points in clusters if there are labels, else all.
 std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
-  constexpr std::size_t enough = 100000;  // stand for any number of points
+  constexpr std::size_t enough = 100000;  // maximum size of the sample
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < picture.points.count; i += picture.points.count / enough + 1) {
     const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
-    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
+    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < kLabelGround;
     if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
   }
   return points;
 }
 
-/// What points cover, but for one in `extreme` at either end.
-Interval central(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
-                 std::size_t extreme) {
+/// Returns the interval of the points along the axis, without one of `extreme` points at either end.
+Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
+                          std::size_t extreme) {
   std::vector<Interval> parts;
   parts.reserve(points.size());
   for (const Eigen::Vector3d& p : points)
     parts.push_back({p.dot(axis), p.dot(axis)});
-  return span(parts, parts.size() / extreme);
+  return robust_interval(parts, parts.size() / extreme);
 }
 
-/// The same for volumes that are not empty. Of a street's hundred objects the few farthest would make all
-/// others small.
-Interval central(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
+/// Returns the interval of the non-empty volumes, without a sixteenth of them at either end: a few distant
+/// objects would make all others small.
+Interval central_interval(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
   std::vector<Interval> parts;
   for (const auto& [volume, colour, label, method] : volumes) {
     if (!empty(volume)) parts.push_back({support(volume, -axis).dot(axis), support(volume, axis).dot(axis)});
   }
-  return span(parts, parts.size() / 16);
+  return robust_interval(parts, parts.size() / 16);
 }
 
 View oriented(const Picture& picture) {
   View view;
-  const Eigen::Vector3d z = view.sky = (picture.up / picture.up.cwiseAbs().maxCoeff()).normalized();
+  const Eigen::Vector3d z = view.world_up = (picture.up / picture.up.cwiseAbs().maxCoeff()).normalized();
   const Eigen::Vector3d level = Eigen::Vector3d::Unit(std::abs(z.x()) < 0.9 ? 0 : 1);
   const Eigen::Vector3d x = (level - level.dot(z) * z).normalized(), y = z.cross(x);
   const Eigen::Vector3d level_toward = std::cos(azimuth) * x + std::sin(azimuth) * y;
@@ -87,9 +88,11 @@ View oriented(const Picture& picture) {
   return view;
 }
 
-/// What of a picture's side is kept around so many pixels of content.
-int cropped(int side, double content, int least) {
-  return std::min(side, std::max(least, static_cast<int>(std::min<double>(side, content)) + 2 * mark_room));
+/// Returns the cropped length of a picture's side: `content` pixels and the margins for marks, at least
+/// `min_length` and at most `side`.
+int cropped(int side, double content, int min_length) {
+  return std::min(side,
+                  std::max(min_length, static_cast<int>(std::min<double>(side, content)) + 2 * kMarkMargin));
 }
 
 }  // namespace
@@ -101,14 +104,14 @@ View fit_view(const Picture& picture) {
   std::vector<Eigen::Vector3d> points = framed_points(picture);
   view.empty = !any_volume && points.empty();
   if (view.empty) return view;
-  const Interval heights = central(points, view.sky, 50);
+  const Interval heights = central_interval(points, view.world_up, 50);
   view.heights = {heights.low, heights.low < heights.high ? heights.high : heights.low + 1};
   if (!picture.labels && any_volume) points.clear();
 
   const Eigen::Vector3d axes[3] = {view.right, view.up, view.toward};
   Eigen::Vector3d size;
   for (int k = 0; k < 3; ++k) {
-    const Interval a = central(picture.volumes, axes[k]), b = central(points, axes[k], 100);
+    const Interval a = central_interval(picture.volumes, axes[k]), b = central_interval(points, axes[k], 100);
     const double low = std::min(a.low, b.low), high = std::max(a.high, b.high);
     view.center += (low / 2 + high / 2) * axes[k];
     size[k] = high - low;
@@ -117,8 +120,8 @@ View fit_view(const Picture& picture) {
   if (fill > 0) view.scale = (1 - 2 * margin_part) / fill;
   const bool crops = picture.from == ViewFrom::front || picture.from == ViewFrom::side;
   if (crops && has_marks(view)) {
-    view.width = cropped(picture.width, size[0] * view.scale, marked_width);
-    view.height = cropped(picture.height, size[1] * view.scale, marked_height);
+    view.width = cropped(picture.width, size[0] * view.scale, kMinMarkedWidth);
+    view.height = cropped(picture.height, size[1] * view.scale, kMinMarkedHeight);
   }
   return view;
 }

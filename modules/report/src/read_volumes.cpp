@@ -11,15 +11,15 @@
 namespace pcl_bv {
 namespace {
 
-using Json = JsonFromOutside;
+using Json = UntrustedJson;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
 }
 
-// "radius: three numbers are wanted, not [1,2]"
+// Throws an error such as "radius: three numbers are wanted, not [1,2]".
 [[noreturn]] void refuse(const char* key, const char* wanted, const Json& value) {
-  refuse(std::string(key) + ": " + wanted + ", not " + shown(value));
+  refuse(std::string(key) + ": " + wanted + ", not " + abbreviated(value));
 }
 
 double number_of(const char* key, const Json& value) {
@@ -81,10 +81,10 @@ Hull read_hull(const Json& json) {
     planes.push_back({{number(0), number(1), number(2)}, number(3)});
   }
   int rank = 3;
-  if (const auto said = json.find("rank"); said != json.end()) {
-    if (!said->is_number_unsigned() || said->get<std::uint64_t>() > 3)
-      refuse("rank", "0, 1, 2 or 3 is wanted", *said);
-    rank = said->get<int>();
+  if (const auto stored = json.find("rank"); stored != json.end()) {
+    if (!stored->is_number_unsigned() || stored->get<std::uint64_t>() > 3)
+      refuse("rank", "0, 1, 2 or 3 is wanted", *stored);
+    rank = stored->get<int>();
   }
   return {std::move(vertices), std::move(faces), std::move(planes), rank};
 }
@@ -108,17 +108,17 @@ AnyVolume read_shape(const Json& json) {
   if (shape == "capsule") return Capsule(point("a"), point("b"), number("radius"));
   if (shape == "ellipsoid") return Ellipsoid(point("center"), axes("axes"), point("radii"));
   if (shape == "hull") return read_hull(json);
-  refuse(shown(name) + " is no shape");
+  refuse(abbreviated(name) + " is no shape");
 }
 
-// Where an entry stands: "clusters[0].volumes[2]".
-struct Place {
-  const Place* above;
-  std::string key;  // empty: a number in a list
+// The path of an entry, such as "clusters[0].volumes[2]".
+struct EntryPath {
+  const EntryPath* parent;  // null for the top level
+  std::string key;          // empty for an entry of a list, which has a number
   std::size_t number = 0;
 
   std::string text() const {
-    const std::string before = above == nullptr ? std::string() : above->text();
+    const std::string before = parent == nullptr ? std::string() : parent->text();
     if (key.empty()) return before + '[' + std::to_string(number) + ']';
     return before + (before.empty() ? "" : ".") + key;
   }
@@ -128,50 +128,51 @@ enum class Found : std::uint8_t { nothing, volumes, volume };
 
 void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
   if (const auto failed = json.find("failed"); failed != json.end())
-    refuse("is no volume: its fit failed, " + shown(*failed));
+    refuse("is no volume: its fit failed, " + abbreviated(*failed));
   if (const auto is_empty = json.find("empty"); is_empty != json.end()) {
     if (!is_empty->is_boolean()) refuse("empty", "true or false is wanted", *is_empty);
     if (is_empty->get<bool>()) return;
   }
   AnyVolume volume = read_shape(json);
-  if (empty(volume)) refuse("no point is inside of it; \"empty\": true says so");
+  if (empty(volume)) refuse("the volume is empty; an empty volume must have \"empty\": true");
   volumes.push_back(std::move(volume));
 }
 
-// What an entry that should be a volume is instead.
-[[noreturn]] void refuse_entry(const Json& entry, const Place& place) {
-  refuse(place.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : shown(entry)));
+// Throws the error for an entry that should be a volume but is not.
+[[noreturn]] void refuse_entry(const Json& entry, const EntryPath& path) {
+  refuse(path.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : abbreviated(entry)));
 }
 
-// Each entry of a list or group that is called "volumes", or has a volume, must be a volume: one that was skipped
-// without a word would be a fault of safety. Numbers and texts beside named volumes may say what they like.
-Found collect(const Json& json, const Place* place, std::vector<AnyVolume>& volumes) {
+// Appends all volumes in a JSON value. Entries that may have been meant as volumes must be volumes or contain
+// some, since skipping a volume silently would be unsafe. These are all entries of a list or object "volumes"
+// and of a list with a volume, and all objects next to a volume in an object. Other values there are ignored.
+Found collect(const Json& json, const EntryPath* path, std::vector<AnyVolume>& volumes) {
   if (json.is_object() && json.contains("shape")) {
     try {
       read_volume(json, volumes);
     } catch (const std::invalid_argument& error) {
-      if (place == nullptr) throw;
-      refuse(place->text() + ": " + error.what());
+      if (path == nullptr) throw;
+      refuse(path->text() + ": " + error.what());
     }
     return Found::volume;
   }
-  const bool said = place != nullptr && place->key == "volumes";
+  const bool must_have_volumes = path != nullptr && path->key == "volumes";
   if (!json.is_structured()) {
-    if (said) refuse_entry(json, *place);
+    if (must_have_volumes) refuse_entry(json, *path);
     return Found::nothing;
   }
   std::vector<Found> found;
   for (const auto& [key, value] : json.items()) {
-    const Place inner{place, json.is_object() ? key : std::string(), found.size()};
+    const EntryPath inner{path, json.is_object() ? key : std::string(), found.size()};
     found.push_back(collect(value, &inner, volumes));
   }
   const auto count = [&](Found what) { return std::count(found.begin(), found.end(), what); };
-  if (said || count(Found::volume) > 0) {
+  if (must_have_volumes || count(Found::volume) > 0) {
     std::size_t i = 0;
     for (const auto& [key, value] : json.items()) {
-      const bool must = said || json.is_array() || value.is_object();
+      const bool must = must_have_volumes || json.is_array() || value.is_object();
       if (must && found[i] == Found::nothing)
-        refuse_entry(value, {place, json.is_object() ? key : std::string(), i});
+        refuse_entry(value, {path, json.is_object() ? key : std::string(), i});
       ++i;
     }
   }
@@ -180,8 +181,9 @@ Found collect(const Json& json, const Place* place, std::vector<AnyVolume>& volu
 
 std::vector<AnyVolume> volumes_in(std::string_view text) {
   std::vector<AnyVolume> volumes;
-  std::optional<std::size_t> without;  // where the first value without volumes begins
-  bool bare = false;                   // whether some value is a volume: then all are
+  std::optional<std::size_t> first_without_volume;  // position of the first value without volumes
+  // Whether a value of the text is itself a volume: then all values must have volumes.
+  bool has_top_level_volume = false;
   const auto refuse_value = [&](std::size_t at, const std::string& what) {
     std::size_t end = 0;
     next_json_value(text, end);
@@ -194,13 +196,14 @@ std::vector<AnyVolume> volumes_in(std::string_view text) {
     if (!json) break;
     try {
       const Found found = collect(*json, nullptr, volumes);
-      bare = bare || found == Found::volume;
-      if (found == Found::nothing && !without) without = begin;
+      has_top_level_volume = has_top_level_volume || found == Found::volume;
+      if (found == Found::nothing && !first_without_volume) first_without_volume = begin;
     } catch (const std::invalid_argument& error) {
       refuse_value(begin, error.what());
     }
   }
-  if (bare && without) refuse_value(*without, "is no volume: it has no \"shape\"");
+  if (has_top_level_volume && first_without_volume)
+    refuse_value(*first_without_volume, "is no volume: it has no \"shape\"");
   if (volumes.empty()) throw IoError("no volumes in it");
   return volumes;
 }
@@ -209,7 +212,7 @@ std::vector<AnyVolume> volumes_in(std::string_view text) {
 
 std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
   try {
-    return volumes_in(read_text_from_outside(file, kMaxVolumesBytes));
+    return volumes_in(read_untrusted_text(file, kMaxVolumesBytes));
   } catch (const IoError& error) {
     throw IoError(file.string() + ": " + error.what());
   }

@@ -6,13 +6,13 @@
 #include <initializer_list>
 
 #include "csv_shape.h"
+#include "formatting.h"
 #include "text_sink.h"
-#include "written.h"
 
 namespace pcl_bv {
 namespace {
 
-// A column for each number; without numbers they stay empty.
+// Appends `count` columns; empty ones if `numbers` is null.
 void append_columns(std::size_t count, const double* numbers, std::string& text) {
   for (std::size_t i = 0; i < count; ++i) {
     text += ',';
@@ -60,7 +60,7 @@ void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std
   for (const VolumeEntry& entry : cluster.volumes) {
     text += first_columns;
     text +=
-        ',' + std::to_string(cluster.id) + ',' + std::to_string(cluster.points) + ',' + shown_method(entry);
+        ',' + std::to_string(cluster.id) + ',' + std::to_string(cluster.points) + ',' + method_label(entry);
     append_volume(entry.volume, text);
     if (tracked) {
       append_columns(3, cluster.track ? cluster.track->velocity.data() : nullptr, text);
@@ -84,16 +84,16 @@ void write_report_csv(const Report& report, const ClusterSource& clusters, const
 
 std::string report_csv(const Report& report) {
   std::string all;
-  write_report_csv(report, source_of(report.clusters), appended_to(all));
+  write_report_csv(report, vector_source(report.clusters), appended_to(all));
   return all;
 }
 
 std::string report_csv_heading() {
-  return joined({"file", csv_columns, csv_upright_columns});
+  return joined({"file", kCsvColumns, kCsvUprightColumns});
 }
 
 std::string frames_csv_heading() {
-  return joined({"seq,stamp_ns,track", csv_columns, csv_track_columns, csv_tracked_upright_columns});
+  return joined({"seq,stamp_ns,track", kCsvColumns, kCsvTrackColumns, kCsvTrackedUprightColumns});
 }
 
 }  // namespace pcl_bv

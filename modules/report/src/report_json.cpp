@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reports as JSON. Numbers are written by std::to_chars, which alone promises the fewest digits that read
+// Writes reports as JSON. Numbers are written by std::to_chars, which guarantees the fewest digits that read
 // back exactly.
 
 #include <cmath>
@@ -85,7 +85,7 @@ void add_field(const PointField& field, JsonText& json) {
   json.add("size", field.size).add("count", field.count).end('}');
 }
 
-/// What there is none of is left out.
+/// Leaves out the box of an empty cloud and an unknown spacing.
 void add_info(const CloudInfo& info, JsonText& json) {
   json.key("info").begin('{');
   if (!info.box.empty()) add_numbers(info.box, json);
@@ -97,8 +97,8 @@ void add_info(const CloudInfo& info, JsonText& json) {
   json.end(']').end('}');
 }
 
-/// Microseconds are all that a clock reading is worth.
-double microseconds_exact(double seconds) {
+/// Rounds to microseconds, the useful precision of the clock.
+double rounded_to_microseconds(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
 }
 
@@ -112,7 +112,7 @@ void add_volumes(const ClusterEntry& cluster, JsonText& json) {
 void add_counts(const Counts& counts, JsonText& json) {
   json.key("counts").begin('{').add("nonfinite", counts.nonfinite).add("range", counts.range);
   json.add("ground", counts.ground).add("small", counts.small).add("large", counts.large);
-  json.add("noise", counts.noise).add("inside", counts.inside).add("class", counts.of_class).end('}');
+  json.add("noise", counts.noise).add("inside", counts.inside).add("class", counts.dropped_class).end('}');
 }
 
 void add_track(const TrackEntry& track, JsonText& json) {
@@ -145,9 +145,9 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
   }
   json.end(']');
   if (report.seconds) {
-    json.key("seconds").begin('{').add("read", microseconds_exact(report.seconds->read));
-    json.add("segment", microseconds_exact(report.seconds->segment));
-    json.add("fit", microseconds_exact(report.seconds->fit)).end('}');
+    json.key("seconds").begin('{').add("read", rounded_to_microseconds(report.seconds->read));
+    json.add("segment", rounded_to_microseconds(report.seconds->segment));
+    json.add("fit", rounded_to_microseconds(report.seconds->fit)).end('}');
   }
   json.end('}');
   take(text);
@@ -155,12 +155,12 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
 
 std::string report_json(const Report& report) {
   std::string all;
-  write_report_json(report, source_of(report.clusters), appended_to(all));
+  write_report_json(report, vector_source(report.clusters), appended_to(all));
   return all;
 }
 
 std::string frame_json(const FrameReport& report) {
-  return frame_json(report, source_of(report.clusters));
+  return frame_json(report, vector_source(report.clusters));
 }
 
 std::string frame_json(const FrameReport& report, const ClusterSource& clusters) {

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "formatting.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
-#include "written.h"
 
 namespace pcl_bv {
 namespace {
 
 constexpr std::size_t n_columns = 12;
-constexpr std::size_t method_column = 2;  // the only one aligned to the left
+constexpr std::size_t method_column = 2;  // the only left-aligned column
 using Row = std::array<std::string, n_columns>;
 
 std::string format(const char* pattern, int precision, double value) {
@@ -23,21 +23,22 @@ std::string format(const char* pattern, int precision, double value) {
   return text;
 }
 
-/// A length with the decimals chosen for the whole table; negative decimals mean that no fixed notation fits.
+/// Formats a length with the number of decimals of the whole table; negative: four significant digits.
 std::string length(double value, int decimals) {
   if (decimals < 0) return format("%.*g", 4, value);
   const bool rounds_to_zero = std::abs(value) * std::pow(10, decimals) < 0.5;
   return format("%.*f", decimals, rounds_to_zero ? 0 : value);
 }
 
-/// Four digits of a volume, whatever its magnitude.
+/// Formats a volume with at least four significant digits, for any magnitude.
 std::string four_digits(double value) {
   const int exponent = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
   return exponent < -3 || exponent > 6 ? format("%.*g", 4, value)
                                        : format("%.*f", std::max(0, 3 - exponent), value);
 }
 
-/// Decimals that show the largest size to five digits and keep every centre within 11 characters.
+/// Returns the number of decimals that shows the largest size with five digits and keeps every centre within
+/// 11 characters; -1 if no fixed notation fits.
 int choose_decimals(const ClusterSource& clusters) {
   double size = 0, magnitude = 0;
   for (std::size_t i = 0; i < clusters.count; ++i) {
@@ -57,7 +58,7 @@ int choose_decimals(const ClusterSource& clusters) {
 
 Row volume_row(const VolumeEntry& entry, int decimals) {
   Row row;
-  row[method_column] = shown_method(entry);
+  row[method_column] = method_label(entry);
   if (entry.outside) row[11] = std::to_string(*entry.outside);
   if (empty(entry.volume)) {
     row[3] = entry.failed.empty() ? "empty" : "failed";
@@ -72,7 +73,7 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   } else {
     const auto* oriented = std::get_if<Obb>(&entry.volume);
     const Aabb box = aabb(entry.volume);
-    for (int k = 0; k < 3; ++k)  // of a turned box along its own axes
+    for (int k = 0; k < 3; ++k)  // an oriented box along its own axes
       row[6 + k] = length(oriented ? 2 * oriented->half_extents()[k] : box.max()[k] - box.min()[k], decimals);
     if (const Obb* const upright = upright_box(entry)) row[9] = length(upright->yaw(), 2);
   }
@@ -80,7 +81,7 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   return row;
 }
 
-/// Rows one after another in one text: a million in a row of strings each take 400 MB.
+/// The rows of a table, stored in one text: a million rows of separate strings take 400 MB.
 class Table {
  public:
   void add(const Row& row) {
@@ -91,7 +92,7 @@ class Table {
     }
   }
 
-  /// With columns aligned under the heading.
+  /// Writes the heading and the rows with aligned columns; empty columns are left out.
   void write(const Row& heading, const TextSink& take) {
     for (std::size_t c = 0; c < n_columns; ++c)
       width_[c] = std::max(width_[c], heading[c].size());
@@ -114,8 +115,8 @@ class Table {
   void append(std::string_view field, std::size_t c, std::string& text) const {
     if (width_[c] == 0) return;
     const std::size_t padding = width_[c] - field.size();
-    const bool beside = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
-    text += beside ? " " : "  ";
+    const bool single_space = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
+    text += single_space ? " " : "  ";
     if (c != method_column) text.append(padding, ' ');
     text += field;
     if (c == method_column) text.append(padding, ' ');
@@ -127,7 +128,7 @@ class Table {
   }
 
   std::string fields_;
-  std::vector<std::uint16_t> lengths_;  // of numbers of eleven digits, and of methods' names
+  std::vector<std::uint16_t> lengths_;  // of the fields: short numbers and names of methods
   std::array<std::size_t, n_columns> width_{};
 };
 
@@ -163,14 +164,14 @@ void write_table(const ClusterSource& clusters, const TextSink& take) {
   table.write(heading_of(checked, upright, other), take);
 }
 
-/// Without control characters: a file's or field's name must neither break the line nor steer a terminal.
+/// Replaces control characters: the name of a file or field must not break the line or control a terminal.
 std::string printable(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
   return name;
 }
 
-std::string header(const Report& report, std::size_t clusters) {
+std::string summary_line(const Report& report, std::size_t clusters) {
   std::string text = printable(report.file) + ": ";
   if (report.parts) text += std::to_string(*report.parts) + " inputs, ";
   text += std::to_string(report.points) + " points";
@@ -179,12 +180,12 @@ std::string header(const Report& report, std::size_t clusters) {
   };
   add(report.counts.nonfinite, " not finite");
   add(report.counts.range, " out of range");
-  add(report.counts.inside, " by regions");
+  add(report.counts.inside, " dropped by regions");
   add(report.counts.ground, " ground");
   add(report.counts.small, " in small clusters");
   add(report.counts.large, " in large clusters");
   add(report.counts.noise, " in no cluster");
-  add(report.counts.of_class, " of dropped classes");
+  add(report.counts.dropped_class, " of dropped classes");
   if (clusters == 0) text += ", no clusters";
   if (report.seconds) {
     text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);
@@ -192,9 +193,10 @@ std::string header(const Report& report, std::size_t clusters) {
     text += ", fit " + format("%.*f", 1, report.seconds->fit * 1e3) + " ms";
   }
   if (report.origin) {
-    text += "\n  coordinates less origin";
+    text += "\n  origin";
     for (int axis = 0; axis < 3; ++axis)
       text += ' ' + shortest((*report.origin)[axis]);
+    text += " subtracted from coordinates";
   }
   return text + '\n';
 }
@@ -219,20 +221,21 @@ std::string info_text(const CloudInfo& info) {
 
 }  // namespace
 
-ClusterSource source_of(const std::vector<ClusterEntry>& clusters) {
+ClusterSource vector_source(const std::vector<ClusterEntry>& clusters) {
   return {clusters.size(), [&clusters](std::size_t i) -> const ClusterEntry& { return clusters[i]; }};
 }
 
 void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take) {
   if (report.error) return;
-  std::string text = header(report, clusters.count) + (report.info ? info_text(*report.info) : std::string());
+  std::string text =
+      summary_line(report, clusters.count) + (report.info ? info_text(*report.info) : std::string());
   take(text);
   if (clusters.count > 0) write_table(clusters, take);
 }
 
 std::string report_text(const Report& report) {
   std::string all;
-  write_report_text(report, source_of(report.clusters), appended_to(all));
+  write_report_text(report, vector_source(report.clusters), appended_to(all));
   return all;
 }
 

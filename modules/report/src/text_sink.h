@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Helpers for texts that are written in pieces.
 #pragma once
 
 #include <string>
@@ -9,13 +10,14 @@
 
 namespace pcl_bv {
 
-/// Hands over what there is once it is a megabyte.
+/// Passes the text to `take` and clears it if it has a megabyte or more.
 inline void take_if_long(std::string& text, const TextSink& take) {
   if (text.size() < std::size_t{1} << 20) return;
   take(text);
   text.clear();
 }
 
+/// Returns a sink that appends to `all`.
 inline TextSink appended_to(std::string& all) {
   return [&all](std::string& piece) {
     if (all.empty()) {

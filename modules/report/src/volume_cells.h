@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All volumes of a report as one list of vertices and cells: what the mesh formats have in common.
+// All volumes of a report as one list of vertices and cells, the common base of the mesh formats.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,32 +14,32 @@
 
 namespace pcl_bv {
 
-/// What a cell belongs to.
+/// The volume that a cell belongs to.
 struct CellOwner {
-  std::size_t cluster = 0;
-  std::size_t method = 0;  ///< Number in VolumeCells::methods.
-  std::size_t points = 0;
+  std::size_t cluster = 0;  ///< Id of the cluster.
+  std::size_t method = 0;   ///< Index in VolumeCells::methods.
+  std::size_t points = 0;   ///< Number of points of the cluster.
   double volume = 0;
-  std::size_t entry = 0;  ///< Number of the cluster in the list.
+  std::size_t entry = 0;  ///< Index of the cluster in the list.
 };
 
 struct Cell {
   std::vector<std::int32_t> vertices;
-  std::size_t owner = 0;  ///< Number in VolumeCells::owners.
+  std::size_t owner = 0;  ///< Index in VolumeCells::owners.
 };
 
 struct VolumeCells {
   std::vector<std::string> methods;  ///< In order of appearance.
   std::vector<CellOwner> owners;     ///< One for each volume that is not empty.
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::size_t> vertex_owners;     ///< Of each vertex.
+  std::vector<std::size_t> vertex_owners;     ///< Index in `owners` of each vertex.
   std::vector<Cell> points, lines, polygons;  ///< Cells of one, of two and of more vertices.
 };
 
-/// Throws std::length_error if there are more vertices than an int32 counts.
+/// Returns the cells of all volumes. Throws std::length_error for more than 2147483647 vertices.
 VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters);
 
-/// The .ply file of volumes_ply().
+/// Returns the .ply file of volumes_ply().
 std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster);
 
 }  // namespace pcl_bv

@@ -3,10 +3,10 @@
 
 #include <stdexcept>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "formatting.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/meshes.h"
 #include "volume_cells.h"
-#include "written.h"
 
 namespace pcl_bv {
 namespace {
@@ -21,7 +21,7 @@ std::string attribute(const std::string& name, std::size_t value) {
   return attribute(name, std::to_string(value));
 }
 
-/// One <DataArray>, for whose numbers `append` is called with the text.
+/// Returns a <DataArray> element; append(text) appends its numbers.
 template <typename Append>
 std::string data_array(const std::string& type, const std::string& name, const Append& append,
                        const std::string& more_attributes = "") {
@@ -55,7 +55,7 @@ std::string cell_data(const VolumeCells& cells, const std::vector<ClusterEntry>&
   const auto column = [&](const char* type, const char* name, const auto& value_of,
                           const std::string& more_attributes = "") {
     const auto append = [&](std::string& text) {
-      // VTK counts cells in this order.
+      // VTK numbers the cells in this order.
       for (const Cells* kind : {&cells.points, &cells.lines, &cells.polygons}) {
         for (const Cell& cell : *kind)
           text += value_of(cells.owners[cell.owner]) + ' ';
@@ -89,7 +89,7 @@ std::string points_element(const std::vector<Eigen::Vector3d>& vertices) {
          "      </Points>\n";
 }
 
-/// Strings are written as the numbers of their characters, each ended by 0.
+/// Returns the methods' names as field data. VTK stores a string as the codes of its characters and a 0.
 std::string method_names(const VolumeCells& cells) {
   const auto characters = [&](std::string& text) {
     for (const std::string& method : cells.methods) {
@@ -103,7 +103,7 @@ std::string method_names(const VolumeCells& cells) {
          "    </FieldData>\n";
 }
 
-/// Text inside the quotes of an XML attribute.
+/// Returns the text escaped for the quotes of an XML attribute.
 std::string escape(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -115,7 +115,7 @@ std::string escape(const std::string& text) {
   return escaped;
 }
 
-/// The file of one piece.
+/// Returns a file with one piece.
 std::string polydata(const std::string& fields, const std::string& counts, const std::string& content) {
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"

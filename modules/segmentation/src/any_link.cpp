@@ -8,7 +8,7 @@
 namespace pcl_bv {
 namespace {
 
-// Points in a row with their box; their order means nothing.
+// Consecutive points and their box; their order has no meaning.
 template <typename T>
 struct Group {
   Point<T>* points;
@@ -27,7 +27,7 @@ T longest_side(const Box<T>& box) {
   return std::max({e.x, e.y, e.z});
 }
 
-// Halves by number along the longest side, so that the depth is logarithmic whatever the spread.
+// Halves the points at the median of the longest side, so that the depth is logarithmic for any distribution.
 template <typename T>
 std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
   const Point<T> e = extent(group.box);
@@ -44,15 +44,15 @@ std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
 
 template <typename T>
 bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
-  if (!(least_squared_distance(a.box, b.box) < r2)) return false;
-  if (greatest_squared_distance(a.box, b.box) < r2) return true;
-  if (a.count * b.count <= few_pairs) {
+  if (!(min_squared_distance(a.box, b.box) < r2)) return false;
+  if (max_squared_distance(a.box, b.box) < r2) return true;
+  if (a.count * b.count <= max_direct_pairs) {
     return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
   }
-  // Two groups without extent were decided above, so the longer one has two points at least.
+  // Two groups without extent were decided above, so the longer group has at least two points.
   if (longest_side(a.box) < longest_side(b.box)) std::swap(a, b);
   auto [near, far] = split(a);
-  if (least_squared_distance(far.box, b.box) < least_squared_distance(near.box, b.box)) std::swap(near, far);
+  if (min_squared_distance(far.box, b.box) < min_squared_distance(near.box, b.box)) std::swap(near, far);
   return any_link_of_groups(near, b, r2) || any_link_of_groups(far, b, r2);
 }
 
@@ -78,9 +78,10 @@ Nearest<T> nearest(const PointRun<T>& run, const Point<T>& to) {
   return best;
 }
 
-// Whether there is a link from the point of a that is nearest to some point of b. Most links are found so.
+// Returns whether the point of a nearest to the first point of b is linked to this point, or to the point of
+// b nearest to it. This finds most links.
 template <typename T>
-bool is_soon_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
+bool nearest_points_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
   const Nearest<T> of_a = nearest(a, *b.points);
   return of_a.squared_distance < r2 || nearest(b, *of_a.point).squared_distance < r2;
 }
@@ -89,7 +90,7 @@ bool is_soon_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
 
 template <typename T>
 bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
-  if (is_soon_linked(a, b, r2)) return true;
+  if (nearest_points_linked(a, b, r2)) return true;
   return any_link_of_groups(copy_of(a, scratch.a), copy_of(b, scratch.b), r2);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whether any point of one cell is linked to any point of another, without the n*m tests that two dense
-// sheets barely out of each other's reach would cost.
+// Tests whether any point of one cell is linked to any point of another, without the n*m tests that two dense
+// parallel sheets just farther apart than the tolerance would cost.
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,26 @@
 
 namespace pcl_bv {
 
-/// Points in a row.
+/// Consecutive points.
 template <typename T>
 struct PointRun {
   const Point<T>* points;
   std::size_t count;
 };
 
-/// Room for copies of two runs.
+/// Buffers for copies of two runs.
 template <typename T>
 struct LinkScratch {
   std::vector<Point<T>> a, b;
 };
 
-/// The same as any_link(), by looking at the points of each run that are nearest to some of the other, and
-/// then by descending into both runs as into kd-trees built on the way: about m^1.5 tests for two parallel
-/// sheets of m points each.
+/// Like any_link(): first tests points that are nearest to some point of the other run, then descends into
+/// both runs as k-d trees that are built on the way. About m^1.5 tests for two parallel sheets of m points
+/// each.
 template <typename T>
 bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch);
 
-/// The same as any_link(), by testing pairs until one is linked.
+/// Like any_link(): tests pairs until one is linked.
 template <typename T>
 bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
   for (std::size_t i = 0; i < a.count; ++i) {
@@ -42,13 +42,14 @@ bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
   return false;
 }
 
-/// Below so many pairs, testing them all is cheaper than splitting.
-inline constexpr std::size_t few_pairs = 256;
+/// Number of pairs up to which testing all is cheaper than splitting.
+inline constexpr std::size_t max_direct_pairs = 256;
 
-/// Whether squared_distance(p, q) < r2 for some p of a and q of b. Neither is empty.
+/// Returns whether squared_distance(p, q) < r2 for some p of a and q of b. Neither may be empty.
 template <typename T>
 bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
-  return a.count * b.count <= few_pairs ? any_link_of_few(a, b, r2) : any_link_of_many(a, b, r2, scratch);
+  return a.count * b.count <= max_direct_pairs ? any_link_of_few(a, b, r2)
+                                               : any_link_of_many(a, b, r2, scratch);
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers for the keys of blocks, in the order in which a sensor meets them.
+// A hash table that numbers the keys of blocks in the order in which points meet them.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@
 
 namespace pcl_bv {
 
-/// Hash table from a block's key to the block's number. Points come in scan order and mostly stay in the
-/// block of the one before, so this costs less than sorting the points.
+/// Maps the key of a block to its number. Points come in scan order, and the next point is mostly in the same
+/// block, so this costs less than sorting the points.
 template <typename Key>
 class BlockIndex {
  public:
-  /// Forgets all keys. The room is that of the last time, as far as it suits so many points.
+  /// Removes all keys. The capacity stays, clamped to a range that suits the number of points.
   void reset(std::size_t points) {
-    const std::size_t least = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
+    const std::size_t min_slots = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
     count_ = 0;
-    make_room(std::clamp(slots_.size(), least, 16 * least));
+    allocate_slots(std::clamp(slots_.size(), min_slots, 16 * min_slots));
   }
 
-  /// The key's number: those not seen before get 0, 1, 2, ...
+  /// Returns the number of a key. New keys get 0, 1, 2, ...
   std::uint32_t number(Key key) {
     Slot* slot = find(key);
     if (slot->number == none) {
@@ -42,9 +42,9 @@ class BlockIndex {
   };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  void make_room(std::size_t slots) {
+  void allocate_slots(std::size_t slots) {
     slots_.assign(slots, {0, none});
-    old_.reserve(slots / 2);  // So that no later call finds it too small.
+    old_.reserve(slots / 2);  // So that no later call has to allocate it.
     shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
   }
 
@@ -52,7 +52,7 @@ class BlockIndex {
     std::uint64_t folded = static_cast<std::uint64_t>(key);
     if constexpr (sizeof(Key) > sizeof folded)
       folded ^= static_cast<std::uint64_t>(key >> 64) * 0xff51afd7ed558ccdU;
-    std::size_t i = folded * 0x9e3779b97f4a7c15U >> shift_;  // 2^64 / golden section
+    std::size_t i = folded * 0x9e3779b97f4a7c15U >> shift_;  // 2^64 / golden ratio
     while (slots_[i].number != none && slots_[i].key != key)
       i = (i + 1) & (slots_.size() - 1);
     return &slots_[i];
@@ -60,7 +60,7 @@ class BlockIndex {
 
   Slot* grow(Key key) {
     old_ = slots_;
-    make_room(2 * old_.size());
+    allocate_slots(2 * old_.size());
     for (const Slot& slot : old_) {
       if (slot.number != none) *find(slot.key) = slot;
     }

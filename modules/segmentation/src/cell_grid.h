@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cell numbers of coordinates, and the blocks of 4 x 4 x 4 cells that the cells come in: neighbours are
-// sought by block, and which of a block's cells hold points is one 64-bit word.
+// Numbers of cells, and the blocks of 4 x 4 x 4 cells: neighbours are searched by block, and a 64-bit word
+// says which cells of a block hold points.
 #pragma once
 
 #include <array>
@@ -13,24 +13,25 @@
 
 namespace pcl_bv {
 
-/// Keys of the grids that do not fit 64 bits; g++ and clang have this type on every 64-bit machine.
+/// Type of the keys of grids that need more than 64 bits; g++ and clang have it on every 64-bit machine.
 __extension__ using WideKey = unsigned __int128;
 
-/// So many cells from the origin, cells start to grow with the distance.
+/// Distance from the origin, in cells, from which the cells grow with the distance.
 constexpr double far_cells = 0x1p40;
 
-/// Cells up to here are as wide as they should be to 2^-24 of their side.
+/// Distance from the origin, in cells, up to which the width of a cell is correct to 2^-24 of itself.
 constexpr double near_cells = 0x1p28;
 
 /// cell_number() for |cells| >= far_cells.
 std::int64_t far_cell_number(double cells);
 
-/// Number of the cell in which `coordinate` lies: monotone, below 2^41 in magnitude for each valid
-/// coordinate. Two coordinates less than 1.9 cells apart get numbers that differ by 2 at most.
+/// Returns the number of the cell of a coordinate. It is monotone in the coordinate and below 2^41 in
+/// magnitude for each valid coordinate. Two coordinates less than 1.9 cells apart get numbers that differ by
+/// at most 2.
 ///
-/// Up to 2^40 cells from the origin this is floor(coordinate / side), in double to 2^-12 of a cell. Farther
-/// out a cell spans 2^-28 of its distance: still finer than float's spacing, so that it holds one float value
-/// only.
+/// Up to 2^40 cells from the origin it is floor(coordinate / side), computed in double, to 2^-12 of a cell.
+/// Farther out a cell spans 2^-28 of its distance, which is still finer than the spacing of floats, so it
+/// holds one float value only.
 inline std::int64_t cell_number(double coordinate, double inverse_side) {
   const double cells = coordinate * inverse_side;
   if (!(std::abs(cells) < far_cells)) return far_cell_number(cells);
@@ -38,9 +39,10 @@ inline std::int64_t cell_number(double coordinate, double inverse_side) {
   return towards_zero - (cells < static_cast<double>(towards_zero));
 }
 
-/// Where a cell is: the key of its block and its bit there, x lowest, then y, then z, two bits each.
+/// Position of a cell: the key of its block and its number in the block, two bits each of x (lowest), y and
+/// z.
 template <typename Key>
-struct CellPlace {
+struct CellKey {
   Key block;
   std::uint8_t bit;
 };
@@ -63,7 +65,7 @@ struct CellGrid {
   }
 
   template <typename Key, typename T>
-  CellPlace<Key> place(const Point<T>& p) const {
+  CellKey<Key> key_of(const Point<T>& p) const {
     return near ? packed<Key>(near_cell(0, p.x), near_cell(1, p.y), near_cell(2, p.z))
                 : packed<Key>(cell(0, p.x), cell(1, p.y), cell(2, p.z));
   }
@@ -72,7 +74,7 @@ struct CellGrid {
   void add_axis(std::size_t axis, double min, double max);
 
   template <typename Key, typename Cell>
-  CellPlace<Key> packed(Cell x, Cell y, Cell z) const {
+  CellKey<Key> packed(Cell x, Cell y, Cell z) const {
     const auto block = [this](Cell c, std::size_t axis) { return static_cast<Key>(c >> 2) << shift[axis]; };
     return {static_cast<Key>(block(x, 0) | block(y, 1) | block(z, 2)),
             static_cast<std::uint8_t>((x & 3) | (y & 3) << 2 | (z & 3) << 4)};
@@ -82,8 +84,8 @@ struct CellGrid {
     return cell_number(coordinate, inverse_side) - origin[axis];
   }
 
-  // The same but for the last bits of where a cell ends: what is cut off is positive, so this is a floor,
-  // too.
+  // As cell(), except for rounding at the boundaries of cells. The converted number is positive, so
+  // truncation rounds down.
   std::int32_t near_cell(std::size_t axis, double coordinate) const {
     return static_cast<std::int32_t>(coordinate * inverse_side - static_cast<double>(origin[axis]));
   }

@@ -17,23 +17,24 @@ void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockK
                CellPart<Key>& part) {
   const FloatEnvironment environment;
   part.runs.clear();
-  Key last = 0;                // Of no block that holds points: all of those have a spare block below them.
-  std::uint64_t occupied = 0;  // In a register, faster than in memory.
+  // The key of no block with points, as each of those has a spare block below.
+  Key last = 0;
+  std::uint64_t occupied = 0;  // a register is faster than memory
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    const CellPlace<Key> place = grid.template place<Key>(points[i]);
-    keys.bit_of_point[i] = place.bit;
-    if (place.block != last) {
+    const CellKey<Key> key = grid.template key_of<Key>(points[i]);
+    keys.bit_of_point[i] = key.bit;
+    if (key.block != last) {
       if (!part.runs.empty()) part.runs.back().occupied = occupied;
       occupied = 0;
-      last = place.block;
+      last = key.block;
       part.runs.push_back({last, 0, static_cast<std::uint32_t>(i), 0});
     }
-    occupied |= std::uint64_t{1} << place.bit;
+    occupied |= std::uint64_t{1} << key.bit;
   }
   if (!part.runs.empty()) part.runs.back().occupied = occupied;
 }
 
-// Blocks are numbered as they are met.
+// Numbers the blocks in the order of the points.
 template <typename Key>
 void number_blocks(std::size_t points, BlockKeys<Key>& keys) {
   keys.occupied.clear();
@@ -51,7 +52,7 @@ void number_blocks(std::size_t points, BlockKeys<Key>& keys) {
   }
 }
 
-// Puts the blocks in the order of their keys and numbers their cells. Returns how many cells there are.
+// Sorts the blocks by key and numbers their cells. Returns the number of cells.
 template <typename T, typename Key>
 std::uint32_t sort_blocks(const CellGrid& grid, Cells<T>& cells, BlockKeys<Key>& keys) {
   radix_sort(keys.order, keys.spare, grid.key_bits);
@@ -70,7 +71,7 @@ std::uint32_t sort_blocks(const CellGrid& grid, Cells<T>& cells, BlockKeys<Key>&
   return cell;
 }
 
-// The cell of each point, and how many of the part are in each.
+// Finds the cell of each point, and counts the points of a part in each cell.
 template <typename T, typename Key>
 void count_cells(const BlockKeys<Key>& keys, std::uint32_t count, Cells<T>& cells, CellPart<Key>& part) {
   part.next.assign(count, 0);
@@ -88,8 +89,8 @@ void count_cells(const BlockKeys<Key>& keys, std::uint32_t count, Cells<T>& cell
 }  // namespace
 
 std::int64_t far_cell_number(double cells) {
-  // The bits of a positive double grow with it, 2^52 to an octave; 2^28 remain, the step being 2^12 cells at
-  // least.
+  // The bits of a positive double increase with it, with 2^52 values in each octave. Dropping 24 bits leaves
+  // 2^28 steps an octave, each of at least 2^12 cells.
   const auto steps = [](double v) { return std::bit_cast<std::int64_t>(v) >> 24; };
   const std::int64_t magnitude =
       static_cast<std::int64_t>(far_cells) + steps(std::abs(cells)) - steps(far_cells);
@@ -97,7 +98,7 @@ std::int64_t far_cell_number(double cells) {
 }
 
 void CellGrid::add_axis(std::size_t axis, double min, double max) {
-  constexpr std::int64_t spare = 4;  // A block's worth of cells.
+  constexpr std::int64_t spare = 4;  // cells of one block
   const std::int64_t low = cell_number(min, inverse_side);
   const std::int64_t high = cell_number(max, inverse_side);
   origin[axis] = low - spare;
@@ -129,9 +130,9 @@ void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const
   cells.begin[count] = end;
   keys.parts.for_each(policy, [&](CellPart<Key>& part) {
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const std::uint32_t place = part.next[cells.node[i]]++;
-      cells.points[place] = points[i];
-      if (cells.by_point) cells.node[i] = place;
+      const std::uint32_t position = part.next[cells.node[i]]++;
+      cells.points[position] = points[i];
+      if (cells.by_point) cells.node[i] = position;
     }
   });
 }

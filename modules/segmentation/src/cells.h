@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Sorts points into the cells of a grid.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@
 
 namespace pcl_bv {
 
-/// Number of bits set: twelve instructions inline, where a call would be made for x86-64 without POPCNT.
+/// Returns the number of bits set: twelve instructions inline, instead of a call on x86-64 without POPCNT.
 inline std::uint32_t count_bits(std::uint64_t bits) {
   bits -= bits >> 1 & 0x5555555555555555U;
   bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
@@ -25,25 +26,25 @@ inline std::uint32_t count_bits(std::uint64_t bits) {
   return static_cast<std::uint32_t>(bits * 0x0101010101010101U >> 56);
 }
 
-/// 4 x 4 x 4 cells, those that hold points numbered in the order of their bits.
+/// A block of 4 x 4 x 4 cells. The occupied cells are numbered in the order of their bits.
 struct Block {
   std::uint64_t occupied = 0;    ///< A bit for each cell that holds points.
-  std::uint32_t first_cell = 0;  ///< Number of the first of them.
-  bool united = false;           ///< Whether all points of the block are known to belong together.
+  std::uint32_t first_cell = 0;  ///< Number of the first occupied cell.
+  bool united = false;           ///< Whether all points of the block are in one component.
 
   std::uint32_t cell(unsigned bit) const {
     return first_cell + count_bits(occupied & ((std::uint64_t{1} << bit) - 1));
   }
 };
 
-/// Points by cell.
+/// Points in the order of their cells.
 template <typename T>
 struct Cells {
   std::vector<Point<T>> points;      ///< Cell by cell.
-  std::vector<std::uint32_t> begin;  ///< Where each cell begins in `points`; one entry more than cells.
+  std::vector<std::uint32_t> begin;  ///< Start of each cell in `points`, then the total.
   std::vector<Block> blocks;         ///< By ascending key.
-  std::vector<std::uint32_t> node;   ///< Of each point of the array that the cells were made from.
-  bool by_point = false;             ///< Nodes are places in `points` if true, else cells.
+  std::vector<std::uint32_t> node;   ///< Node of each point passed to make_cells().
+  bool by_point = false;             ///< Whether nodes are positions in `points`; else they are cells.
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(begin.size() - 1); }
   PointRun<T> run(std::uint32_t cell) const {
@@ -51,42 +52,43 @@ struct Cells {
   }
 };
 
-/// Points in a row, all in one block: a sensor mostly stays in the block of the point before.
+/// Consecutive points in one block. A sensor's next point is mostly in the same block.
 template <typename Key>
 struct BlockRun {
   Key key;
-  std::uint64_t occupied;  ///< Cells of these points.
-  std::uint32_t begin;     ///< The first of them.
-  std::uint32_t block;     ///< The block's number in BlockKeys::index.
+  std::uint64_t occupied;  ///< Cells of these points, as bits.
+  std::uint32_t begin;     ///< The first point.
+  std::uint32_t block;     ///< Number of the block in BlockKeys::index.
 };
 
-/// Points that one thread takes.
+/// A part of the points, which one thread sorts.
 template <typename Key>
 struct CellPart {
   std::size_t begin, end;
   std::vector<BlockRun<Key>> runs;
-  std::vector<std::uint32_t> next;  ///< By cell, where the next one goes.
+  std::vector<std::uint32_t> next;  ///< For each cell, the position of its next point.
 };
 
-/// From this many blocks on, the memory that found them is freed at once. A street has 10 000.
-constexpr std::size_t many_blocks = 1 << 18;
+/// Number of blocks from which the memory used to find them is freed at once. A street has 10 000.
+constexpr std::size_t free_memory_from_blocks = 1 << 18;
 
-/// Keys of one width, and the room to sort them.
+/// Keys of one width, and the buffers to sort them.
 template <typename Key>
 struct BlockKeys {
-  std::vector<Key> keys;  ///< Of each block, ascending.
-  Parts<CellPart<Key>> parts;
+  std::vector<Key> keys;  ///< Key of each block, ascending.
+  PointParts<CellPart<Key>> parts;
   std::vector<KeyedPoint<Key>> order, spare;
   BlockIndex<Key> index;
-  std::vector<std::uint32_t> rank;  ///< By number in `index`, as is the next one.
+  /// Position of each block in `keys`, by its number in `index`; `occupied` likewise.
+  std::vector<std::uint32_t> rank;
   std::vector<std::uint64_t> occupied;
   std::vector<std::uint8_t> bit_of_point;
 
-  /// Frees all but `keys`.
+  /// Frees all memory but that of `keys`.
   void release_memory() {
-    BlockKeys kept;
-    kept.keys.swap(keys);
-    *this = std::move(kept);
+    BlockKeys only_keys;
+    only_keys.keys.swap(keys);
+    *this = std::move(only_keys);
   }
 };
 

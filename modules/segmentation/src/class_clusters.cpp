@@ -13,18 +13,18 @@
 namespace pcl_bv {
 namespace {
 
-void check(const std::vector<ClassSettings>& own) {
-  for (auto one = own.begin(); one != own.end(); ++one) {
+void check(const std::vector<ClassSettings>& class_settings) {
+  for (auto one = class_settings.begin(); one != class_settings.end(); ++one) {
     const auto same = [&](const ClassSettings& other) { return other.value == one->value; };
-    if (std::any_of(own.begin(), one, same))
-      throw std::invalid_argument("class " + std::to_string(one->value) + " has settings twice");
+    if (std::any_of(class_settings.begin(), one, same))
+      throw std::invalid_argument("class " + std::to_string(one->value) + " has two entries in the settings");
   }
 }
 
-std::int64_t class_of_point(const std::vector<std::int64_t>& classes, std::size_t number) {
-  if (number < classes.size()) return classes[number];
-  throw std::invalid_argument("point " + std::to_string(number) + " has no class: there are " +
-                              std::to_string(classes.size()));
+std::int64_t class_of_point(const std::vector<std::int64_t>& classes, std::size_t index) {
+  if (index < classes.size()) return classes[index];
+  throw std::invalid_argument("point " + std::to_string(index) + " has no class: there are classes for " +
+                              std::to_string(classes.size()) + " points");
 }
 
 std::size_t count_valid(const PointView& points) {
@@ -36,16 +36,16 @@ std::size_t count_valid(const PointView& points) {
 
 }  // namespace
 
-// The place of the class among the groups, a new one if need be.
+// Returns the position of the class in groups_; inserts the class if it is new.
 std::size_t ClassClusterer::group_of(std::int64_t value) {
   const auto at = std::lower_bound(groups_.begin(), groups_.end(), value,
                                    [](const Group& group, std::int64_t v) { return group.value < v; });
-  const auto place = static_cast<std::size_t>(at - groups_.begin());
+  const auto position = static_cast<std::size_t>(at - groups_.begin());
   if (at == groups_.end() || at->value != value) groups_.insert(at, {value, 0, 0});
-  return place;
+  return position;
 }
 
-// Point numbers by class, in the order of the points within each.
+// Writes the point indices class by class, within a class in the order of the view.
 void ClassClusterer::sort_points(const PointView& points, const std::vector<std::int64_t>& classes) {
   groups_.clear();
   for (std::size_t i = 0; i < points.count; ++i)
@@ -57,30 +57,31 @@ void ClassClusterer::sort_points(const PointView& points, const std::vector<std:
   }
   numbers_.resize(end);
   for (std::size_t i = 0; i < points.count; ++i) {
-    const std::size_t number = points.index(i);
-    numbers_[groups_[group_of(classes[number])].end++] = static_cast<std::int32_t>(number);
+    const std::size_t index = points.index(i);
+    numbers_[groups_[group_of(classes[index])].end++] = static_cast<std::int32_t>(index);
   }
 }
 
 void ClassClusterer::extract(const PointView& points, const std::vector<std::int64_t>& classes,
-                             const ClusterSettings& others, const std::vector<ClassSettings>& own,
-                             Clusters& clusters, std::vector<std::int64_t>& class_of,
-                             const ParallelPolicy& policy) {
-  check(own);
+                             const ClusterSettings& defaults,
+                             const std::vector<ClassSettings>& class_settings, Clusters& clusters,
+                             std::vector<std::int64_t>& class_of, const ParallelPolicy& policy) {
+  check(class_settings);
   sort_points(points, classes);
-  clusterer_.extract(points.slice(0, 0), others, all_, policy);  // checks the settings, and empties
+  clusterer_.extract(points.slice(0, 0), defaults, all_, policy);  // checks the settings and empties all_
   found_class_.clear();
   for (const Group& group : groups_) {
-    const auto settings = std::find_if(own.begin(), own.end(),
+    const auto settings = std::find_if(class_settings.begin(), class_settings.end(),
                                        [&](const ClassSettings& one) { return one.value == group.value; });
     PointView part = points;
     part.indices = numbers_.data() + (group.end - group.count);
     part.count = group.count;
-    if (settings != own.end() && settings->drop) {
+    if (settings != class_settings.end() && settings->drop) {
       all_.class_points += count_valid(part);
       continue;
     }
-    clusterer_.extract(part, settings == own.end() ? others : settings->clusters, found_, policy);
+    clusterer_.extract(part, settings == class_settings.end() ? defaults : settings->clusters, found_,
+                       policy);
     for (std::size_t i = 0; i < found_.size(); ++i)
       append(found_, i, all_);
     found_class_.insert(found_class_.end(), found_.size(), group.value);

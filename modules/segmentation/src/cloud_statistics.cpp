@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Only the median matters. Each sample's distance to its nearest neighbour is bounded by what was seen of it
-// so far, and the median of these bounds is not below that of the distances. So all points are looked at, but
-// only for samples within that median: what is farther away changes no distance that is below it.
+// Finds the median spacing without an exact nearest-neighbour search for all samples. The smallest distance
+// seen so far bounds a sample's spacing, so the median of these bounds is at least the median of the
+// spacings. Each point is compared only with samples within that median: a point farther away cannot change a
+// spacing below it.
 
 #include "pcl_bv/segmentation/cloud_statistics.h"
 
@@ -14,23 +15,23 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kMostSamples = 1000;
+constexpr std::size_t kMaxSamples = 1000;
 
-// Points before and after a sample that give its bound.
-constexpr std::size_t kListedNear = 64;
+// Number of points before and after a sample that give its first bound.
+constexpr std::size_t kNeighboursInList = 64;
 
-bool is_dead(const Coordinates& p) {
+bool is_no_return(const Coordinates& p) {
   return p.x == 0 && p.y == 0 && p.z == 0;
 }
 
-bool counts(const Coordinates& p) {
-  return is_valid(p) && !is_dead(p);
+bool is_used(const Coordinates& p) {
+  return is_valid(p) && !is_no_return(p);
 }
 
 double distance(const Coordinates& a, const Coordinates& b) {
@@ -40,7 +41,7 @@ double distance(const Coordinates& a, const Coordinates& b) {
 struct Sample {
   Coordinates point;
   std::size_t index;
-  double nearest;  // distance, so far
+  double nearest;  // smallest distance so far
 };
 
 struct ChunkCounts {
@@ -48,13 +49,13 @@ struct ChunkCounts {
   Aabb box;
 };
 
-ChunkCounts look_at(const PointView& points) {
+ChunkCounts count_points(const PointView& points) {
   ChunkCounts found;
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);
     if (!is_valid(p)) {
       ++found.nonfinite;
-    } else if (is_dead(p)) {
+    } else if (is_no_return(p)) {
       ++found.zero;
     } else {
       ++found.used;
@@ -66,22 +67,23 @@ ChunkCounts look_at(const PointView& points) {
 
 double nearest_listed(const PointView& points, std::size_t i, const Coordinates& p) {
   double best = std::numeric_limits<double>::infinity();
-  const std::size_t end = std::min(points.count, i + kListedNear + 1);
-  for (std::size_t j = i - std::min(i, kListedNear); j < end; ++j) {
+  const std::size_t end = std::min(points.count, i + kNeighboursInList + 1);
+  for (std::size_t j = i - std::min(i, kNeighboursInList); j < end; ++j) {
     const Coordinates q = load_point(points, j);
-    if (j != i && counts(q)) best = std::min(best, distance(p, q));
+    if (j != i && is_used(q)) best = std::min(best, distance(p, q));
   }
   return best;
 }
 
-// Of `used` points every so many, as the chunk's points come: `before` of them are in the chunks before it.
+// Takes the samples of a chunk. They are evenly spaced among the `used` points of the cloud, of which
+// `before` are in earlier chunks.
 std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
-  const std::size_t samples = std::min(used, kMostSamples);
+  const std::size_t samples = std::min(used, kMaxSamples);
   std::vector<Sample> taken;
-  std::size_t k = (before * samples + used - 1) / used;  // the next one is number k * used / samples
+  std::size_t k = (before * samples + used - 1) / used;  // sample k is usable point k * used / samples
   for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
     const Coordinates p = load_point(points, i);
-    if (!counts(p)) continue;
+    if (!is_used(p)) continue;
     if (rank++ != k * used / samples) continue;
     taken.push_back({p, points.index(i), nearest_listed(points, i, p)});
     ++k;
@@ -99,20 +101,21 @@ double median(const std::vector<Sample>& samples) {
   return *middle;
 }
 
-// Lets the points come nearer to the samples, which are sorted along `axis`. The reach shrinks as they do.
-void come_nearer(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
-  constexpr std::size_t points_per_reach = 4096;
+// Lowers the distances of the samples, which are sorted along `axis`, by comparing them with the points. The
+// search radius shrinks with the median.
+void lower_distances(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
+  constexpr std::size_t points_per_update = 4096;
   const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };
-  double reach = 0;
+  double radius = 0;
   for (std::size_t i = 0; i < points.count; ++i) {
-    if (i % points_per_reach == 0) reach = median(samples);
+    if (i % points_per_update == 0) radius = median(samples);
     const Coordinates p = load_point(points, i);
-    if (!counts(p)) continue;
-    auto sample = std::lower_bound(samples.begin(), samples.end(), p.*axis - reach, before);
-    for (; sample != samples.end() && sample->point.*axis <= p.*axis + reach; ++sample) {
+    if (!is_used(p)) continue;
+    auto sample = std::lower_bound(samples.begin(), samples.end(), p.*axis - radius, before);
+    for (; sample != samples.end() && sample->point.*axis <= p.*axis + radius; ++sample) {
       const Coordinates& q = sample->point;
       const bool near =
-          std::abs(p.x - q.x) <= reach && std::abs(p.y - q.y) <= reach && std::abs(p.z - q.z) <= reach;
+          std::abs(p.x - q.x) <= radius && std::abs(p.y - q.y) <= radius && std::abs(p.z - q.z) <= radius;
       if (near && sample->index != points.index(i))
         sample->nearest = std::min(sample->nearest, distance(p, q));
     }
@@ -125,8 +128,8 @@ double Coordinates::*longest_axis(const Aabb& box) {
   return axis == 0 ? &Coordinates::x : axis == 1 ? &Coordinates::y : &Coordinates::z;
 }
 
-std::vector<Sample> sample(const PointView& points, const std::vector<ChunkCounts>& chunks,
-                           std::size_t used) {
+std::vector<Sample> all_samples(const PointView& points, const std::vector<ChunkCounts>& chunks,
+                                std::size_t used) {
   std::vector<Sample> samples;
   std::size_t before = 0;
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
@@ -143,14 +146,14 @@ double spacing(const PointView& points, std::vector<Sample> samples, const Aabb&
   double Coordinates::*const axis = longest_axis(box);
   std::sort(samples.begin(), samples.end(),
             [&](const Sample& a, const Sample& b) { return a.point.*axis < b.point.*axis; });
-  std::mutex merging;  // in any order: the least of some numbers
+  std::mutex merging;  // the order does not matter for minima
   for_each_chunk(policy, chunk_count(points.count), [&](std::size_t chunk) {
     std::vector<Sample> mine;
     {
       const std::lock_guard lock(merging);
       mine = samples;
     }
-    come_nearer(load_chunk(points, chunk).view(), axis, mine);
+    lower_distances(load_chunk(points, chunk).view(), axis, mine);
     const std::lock_guard lock(merging);
     for (std::size_t k = 0; k < mine.size(); ++k)
       samples[k].nearest = std::min(samples[k].nearest, mine[k].nearest);
@@ -164,7 +167,7 @@ CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& 
   CloudStatistics found;
   std::vector<ChunkCounts> chunks(chunk_count(points.count));
   for_each_chunk(policy, chunks.size(),
-                 [&](std::size_t chunk) { chunks[chunk] = look_at(load_chunk(points, chunk).view()); });
+                 [&](std::size_t chunk) { chunks[chunk] = count_points(load_chunk(points, chunk).view()); });
   std::size_t used = 0;
   for (const ChunkCounts& chunk : chunks) {
     used += chunk.used;
@@ -172,7 +175,7 @@ CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& 
     found.zero += chunk.zero;
     found.box.merge(chunk.box);
   }
-  if (used >= 2) found.spacing = spacing(points, sample(points, chunks, used), found.box, policy);
+  if (used >= 2) found.spacing = spacing(points, all_samples(points, chunks, used), found.box, policy);
   return found;
 }
 

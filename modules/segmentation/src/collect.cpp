@@ -10,16 +10,16 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t dropped = unseen - 1;  // of a size that is not wanted
+constexpr std::uint32_t dropped = unseen - 1;  // component of a size that is not allowed
 
-// Sizes, and the components to keep in the order of the result.
+// Computes the sizes of the components, and lists those to keep in the order of the result.
 void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
             std::uint32_t noise, const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
   collector.size.assign(roots.size(), 0);
   for (const std::uint32_t n : node)
     ++collector.size[roots[n]];
   collector.next.assign(roots.size(), unseen);
-  collector.kept.clear();
+  collector.selected.clear();
   for (std::uint32_t i = 0; i < node.size(); ++i) {
     const std::uint32_t root = roots[node[i]];
     if (collector.next[root] != unseen) continue;
@@ -32,10 +32,10 @@ void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint
     } else if (size > settings.max_size) {
       clusters.large_points += size;
     } else {
-      collector.kept.push_back({root, size, i});
+      collector.selected.push_back({root, size, i});
     }
   }
-  std::sort(collector.kept.begin(), collector.kept.end(), [](const Component& a, const Component& b) {
+  std::sort(collector.selected.begin(), collector.selected.end(), [](const Component& a, const Component& b) {
     return a.size != b.size ? a.size > b.size : a.first_point < b.first_point;
   });
 }
@@ -43,7 +43,7 @@ void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint
 void write(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
            const std::vector<std::int32_t>& numbers, Collector& collector, Clusters& clusters) {
   std::uint32_t end = static_cast<std::uint32_t>(clusters.indices.size());
-  for (const Component& component : collector.kept) {
+  for (const Component& component : collector.selected) {
     collector.next[component.root] = end;
     end += component.size;
     clusters.offsets.push_back(end);
@@ -57,9 +57,9 @@ void write(const std::vector<std::uint32_t>& roots, const std::vector<std::uint3
 
 }  // namespace
 
-void collect(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
-             std::uint32_t noise, const std::vector<std::int32_t>& numbers, const ClusterSettings& settings,
-             Collector& collector, Clusters& clusters) {
+void write_clusters(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+                    std::uint32_t noise, const std::vector<std::int32_t>& numbers,
+                    const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
   select(roots, node, noise, settings, collector, clusters);
   write(roots, node, numbers, collector, clusters);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Most points of a dense cloud are core by the number of points in their cell alone. Others ask the cells
-// around them, and stop at the point that makes them core.
+// In a dense cloud most points are core points because of the number of points in their cell. Other points
+// test the cells around them, and stop at the point that makes them core points.
 #include "core_points.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
 
-// Fewer are not worth the start of a thread.
+// Fewer blocks are not worth the start of a thread.
 constexpr std::size_t blocks_per_part = 256;
 
-// What all steps look at.
+// The data that all steps use.
 template <typename T>
 struct CoreSearch {
   const Cells<T>& cells;
@@ -30,10 +30,10 @@ struct CoreSearch {
   std::size_t min_points;
   bool solid;
 
-  // Calls test(begin, end) for the places of a run, a group at a time, but for groups of which skip(box) says
-  // that they need none; ends when either returns false.
+  // Calls test(begin, end) for the positions of a run, group by group. Whole groups are left out if skip(box)
+  // is true. Stops and returns false when test returns false.
   template <typename Skip, typename Test>
-  bool by_group(const PlaceRun& run, Skip skip, Test test) const {
+  bool by_group(const PositionRange& run, Skip skip, Test test) const {
     for (std::uint32_t i = run.begin; i < run.end;) {
       const std::uint32_t group_end = (i / group_size + 1) * group_size;
       const std::uint32_t end = std::min(run.end, group_end);
@@ -44,13 +44,13 @@ struct CoreSearch {
     return true;
   }
 
-  // How many points of a run are linked to one; of no more than it needs.
-  std::size_t count(const PlaceRun& run, const Point<T>& p, std::size_t needed) const {
+  // Returns how many points of a run are linked to p. Stops once it has counted `needed`.
+  std::size_t count(const PositionRange& run, const Point<T>& p, std::size_t needed) const {
     const Box<T> at{p, p};
     std::size_t found = 0;
     const auto skip = [&](const Box<T>& box) {
-      if (!(least_squared_distance(at, box) < r2)) return true;
-      if (!(greatest_squared_distance(at, box) < r2)) return false;
+      if (!(min_squared_distance(at, box) < r2)) return true;
+      if (!(max_squared_distance(at, box) < r2)) return false;
       found += group_size;
       return true;
     };
@@ -65,19 +65,19 @@ struct CoreSearch {
   }
 };
 
-// Whether a point is core. The cells of other blocks are sought if they are needed.
+// Returns whether a point is a core point. Searches other blocks only if the cells of its own are not enough.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   std::size_t found = 0;
   for (std::size_t i = 0; found < search.min_points; ++i) {
-    if (i == near.size()) near.complete();
+    if (i == near.size()) near.add_other_blocks();
     if (i == near.size()) return false;
     found += search.count(near[i], p, search.min_points - found);
   }
   return true;
 }
 
-// The cells of one block.
+// Marks the core points of the cells of one block.
 template <typename T, typename FindAround>
 void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
                Neighbourhood<T>& near) {
@@ -85,10 +85,10 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
   std::vector<std::uint8_t>& core = search.scratch.core;
   const BlocksAround* around = nullptr;
   std::uint64_t core_cells = 0;
-  std::uint64_t sparse_cells = 0;
+  std::uint64_t cells_with_non_core = 0;
   std::uint32_t cell = block.first_cell;
   for (std::uint64_t rest = block.occupied; rest != 0; rest &= rest - 1, ++cell) {
-    const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
+    const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
     const std::uint64_t bit = rest & -rest;
     if (search.solid && own.end - own.begin >= search.min_points) {
       std::fill(core.begin() + own.begin, core.begin() + own.end, std::uint8_t{1});
@@ -97,57 +97,58 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
     }
     if (around == nullptr) around = &find_around();
     near.start(*around, static_cast<unsigned>(std::countr_zero(rest)));
-    if (near.points() < search.min_points) near.complete();
+    if (near.points() < search.min_points) near.add_other_blocks();
     const bool too_few = near.points() < search.min_points;
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
       core[i] = !too_few && is_core(search, search.cells.points[i], near) ? 1 : 0;
-      (core[i] != 0 ? core_cells : sparse_cells) |= bit;
+      (core[i] != 0 ? core_cells : cells_with_non_core) |= bit;
     }
   }
   search.scratch.core_cells[number] = core_cells;
-  search.scratch.sparse_cells[number] = sparse_cells;
+  search.scratch.cells_with_non_core[number] = cells_with_non_core;
 }
 
-// The place of the core point to which one that is none belongs, or `noise`.
+// Returns the position of the core point to which a point that is not core belongs, or `noise`.
 template <typename T>
 std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const Neighbourhood<T>& near) {
   const CoreScratch<T>& scratch = search.scratch;
   const Box<T> at{p, p};
-  T least = search.r2;
+  T min_d2 = search.r2;
   std::uint32_t nearest = noise;
-  const auto look = [&](const PlaceRun& run) {
+  const auto search_run = [&](const PositionRange& run) {
     search.by_group(
-        run, [&](const Box<T>& box) { return least_squared_distance(at, box) > least; },
+        run, [&](const Box<T>& box) { return min_squared_distance(at, box) > min_d2; },
         [&](std::uint32_t begin, std::uint32_t end) {
           for (std::uint32_t i = begin; i < end; ++i) {
             const T d2 = squared_distance(search.cells.points[i], p);
-            if (scratch.core[i] == 0 || d2 > least) continue;
-            const bool tie = d2 == least;  // with a point, or with the tolerance, which is no link
+            if (scratch.core[i] == 0 || d2 > min_d2) continue;
+            // Equal to another core point's distance, or to r2, which is not linked.
+            const bool tie = d2 == min_d2;
             if (tie && (nearest == noise || scratch.number[i] > scratch.number[nearest])) continue;
-            least = d2;
+            min_d2 = d2;
             nearest = i;
           }
           return true;
         });
   };
   for (std::size_t i = 0; i < near.size(); ++i)
-    look(near[i]);
+    search_run(near[i]);
   return nearest;
 }
 
 template <typename T, typename FindAround>
-void label_sparse(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
+void label_border(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
                   Neighbourhood<T>& near) {
   CoreScratch<T>& scratch = search.scratch;
-  if (scratch.sparse_cells[number] == 0) return;
+  if (scratch.cells_with_non_core[number] == 0) return;
   const Block& block = search.cells.blocks[number];
   const BlocksAround& around = find_around();
-  for (std::uint64_t rest = scratch.sparse_cells[number]; rest != 0; rest &= rest - 1) {
+  for (std::uint64_t rest = scratch.cells_with_non_core[number]; rest != 0; rest &= rest - 1) {
     const auto bit = static_cast<unsigned>(std::countr_zero(rest));
     const std::uint32_t cell = block.cell(bit);
-    const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
+    const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
     near.start(around, bit);
-    near.complete();
+    near.add_other_blocks();
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
       if (scratch.core[i] == 0) scratch.label[i] = nearest_core(search, search.cells.points[i], near);
     }
@@ -160,7 +161,7 @@ void start_scratch(const Cells<T>& cells, CoreScratch<T>& scratch) {
   scratch.core.assign(points, 0);
   scratch.label.assign(points, noise);
   scratch.core_cells.resize(cells.blocks.size());
-  scratch.sparse_cells.resize(cells.blocks.size());
+  scratch.cells_with_non_core.resize(cells.blocks.size());
   scratch.number.resize(points);
   for (std::size_t i = 0; i < points; ++i)
     scratch.number[cells.node[i]] = static_cast<std::uint32_t>(i);
@@ -175,10 +176,10 @@ template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
                const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch) {
   start_scratch(cells, scratch);
-  if (!(r2 > 0)) return;  // Nothing is linked.
+  if (!(r2 > 0)) return;  // nothing is linked
   const CoreSearch<T> search{cells, scratch, r2, min_points, solid};
   const auto in_parts = [&](auto work) {
-    for_each_run(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
+    for_each_range(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
       const FloatEnvironment environment;
       BlockRows<Key> rows(grid, keys, begin);
       BlocksAround around{};
@@ -193,11 +194,11 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
     });
   };
   in_parts([&](std::size_t b, auto find_around, auto& near) { mark_core(search, b, find_around, near); });
-  in_parts([&](std::size_t b, auto find_around, auto& near) { label_sparse(search, b, find_around, near); });
+  in_parts([&](std::size_t b, auto find_around, auto& near) { label_border(search, b, find_around, near); });
 }
 
 template <typename T>
-std::uint32_t keep_core(Cells<T>& cells, CoreScratch<T>& scratch) {
+std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch) {
   std::uint32_t to = 0;
   std::uint32_t to_cell = 0;
   std::uint32_t begin = 0;
@@ -206,7 +207,8 @@ std::uint32_t keep_core(Cells<T>& cells, CoreScratch<T>& scratch) {
     const std::uint32_t end_cell = cell + count_bits(cells.blocks[b].occupied);
     cells.blocks[b] = {scratch.core_cells[b], to_cell, false};
     for (; cell < end_cell; ++cell) {
-      const std::uint32_t end = cells.begin[cell + 1];  // Before begin[to_cell], which may be this cell's.
+      // Read before begin[to_cell] is written, which may be the same entry.
+      const std::uint32_t end = cells.begin[cell + 1];
       const std::uint32_t first = to;
       for (std::uint32_t i = begin; i < end; ++i) {
         if (scratch.core[i] == 0) continue;
@@ -238,7 +240,7 @@ PCL_BV_FIND_CORE(float, WideKey)
 PCL_BV_FIND_CORE(double, std::uint64_t)
 PCL_BV_FIND_CORE(double, WideKey)
 #undef PCL_BV_FIND_CORE
-template std::uint32_t keep_core(Cells<float>&, CoreScratch<float>&);
-template std::uint32_t keep_core(Cells<double>&, CoreScratch<double>&);
+template std::uint32_t remove_non_core(Cells<float>&, CoreScratch<float>&);
+template std::uint32_t remove_non_core(Cells<double>&, CoreScratch<double>&);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distances of points and bounds on them, in the very arithmetic that decides whether two points are linked.
+// Distances of points and bounds on them, in the same arithmetic that decides whether two points are linked.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Point {
   T x, y, z;
 };
 
-/// As PCL (FLANN) sums it: one rounding after each operation, x first.
+/// Adds in the order of PCL (FLANN), x first, with one rounding after each operation.
 template <typename T>
 T squared_norm(T dx, T dy, T dz) {
   return (dx * dx + dy * dy) + dz * dz;
@@ -43,13 +43,13 @@ Box<T> box_of(const Point<T>* points, std::size_t count) {
   return box;
 }
 
-// Rounding is monotone: a <= b gives fl(a) <= fl(b), so fl(a - c) <= fl(b - c), and likewise for squares and
-// sums of numbers >= 0. Hence the two bounds below hold for the rounded d2 of each pair, exactly, with no
-// margin.
+// Rounding is monotone: a <= b implies fl(a) <= fl(b), so fl(a - c) <= fl(b - c), and likewise for squares
+// and for sums of non-negative numbers. So the two bounds below hold exactly for the rounded d2 of each pair,
+// without a margin.
 
-/// No pair from the two boxes has a smaller squared_distance().
+/// Returns a lower bound of squared_distance() for all pairs of points in the two boxes.
 template <typename T>
-T least_squared_distance(const Box<T>& a, const Box<T>& b) {
+T min_squared_distance(const Box<T>& a, const Box<T>& b) {
   const auto gap = [](T a_min, T a_max, T b_min, T b_max) {
     return std::max({T(0), b_min - a_max, a_min - b_max});
   };
@@ -57,9 +57,9 @@ T least_squared_distance(const Box<T>& a, const Box<T>& b) {
                       gap(a.min.z, a.max.z, b.min.z, b.max.z));
 }
 
-/// No pair from the two boxes has a greater squared_distance().
+/// Returns an upper bound of squared_distance() for all pairs of points in the two boxes.
 template <typename T>
-T greatest_squared_distance(const Box<T>& a, const Box<T>& b) {
+T max_squared_distance(const Box<T>& a, const Box<T>& b) {
   const auto span = [](T a_min, T a_max, T b_min, T b_max) { return std::max(b_max - a_min, a_max - b_min); };
   return squared_norm(span(a.min.x, a.max.x, b.min.x, b.max.x), span(a.min.y, a.max.y, b.min.y, b.max.y),
                       span(a.min.z, a.max.z, b.min.z, b.max.z));

@@ -15,16 +15,16 @@
 #include "cells.h"
 #include "collect.h"
 #include "core_points.h"
-#include "gather.h"
 #include "join_cells.h"
 #include "oversized.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "range_levels.h"
+#include "valid_points.h"
 
 namespace pcl_bv {
 namespace {
 
-// The memory that calls share, by kind of point.
+// The buffers that calls reuse, for one scalar type.
 template <typename T>
 struct PointScratch {
   ValidPoints<T> valid;
@@ -48,31 +48,33 @@ void check(const ClusterSettings& settings) {
             << ", must be finite and at least 0";
   } else if (settings.tolerance_per_metre > 0 && settings.min_points > 1) {
     message << "cluster min_points is " << settings.min_points
-            << ", must be 1 where the tolerance grows with the range";
+            << ", must be 1 if tolerance_per_metre is above 0";
   } else {
     return;
   }
   throw std::invalid_argument(message.str());
 }
 
-// 1 / side of the cells. sqrt(r2), not the tolerance, bounds the coordinates' differences of a pair d2 < r2:
-// r2 may have been rounded up among the denormals, or to infinity, when d2 still has to be finite. The margin
-// of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell pass the test.
+// Returns 1 / side of the cells. sqrt(r2), not the tolerance, bounds the coordinate differences of a linked
+// pair (d2 < r2): r2 may have been rounded up among the denormals, or to infinity while d2 is finite. The
+// margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
 template <typename T>
 double inverse_cell_side(T r2) {
   using limits = std::numeric_limits<T>;
-  const double reach = std::sqrt(static_cast<double>(std::clamp(r2, limits::denorm_min(), limits::max())));
-  return std::sqrt(3.0) * (1 + 1e-6) / reach;
+  const double max_difference =
+      std::sqrt(static_cast<double>(std::clamp(r2, limits::denorm_min(), limits::max())));
+  return std::sqrt(3.0) * (1 + 1e-6) / max_difference;
 }
 
-// Whether all pairs of points in a cell are linked for certain: the margin of the cells' side covers the
-// rounding of d2 where it is relative to d2, and that of where cells end.
+// Returns whether all points of a cell are certainly linked. The margin of the cells' side covers the
+// rounding of the cell boundaries (if grid.near), and that of d2 if r2 is far from underflow and overflow.
 template <typename T>
 bool cells_are_solid(const CellGrid& grid, T r2) {
   return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
 }
 
-// Returns the root of noise. With min_points of 1 every point is core, and nothing is looked for.
+// Finds the connected components. Returns the root of noise, or no_root if min_points is 1: then every point
+// is a core point.
 template <typename T, typename Key>
 std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<T>& scratch,
                               const CellGrid& grid, T r2, std::size_t min_points,
@@ -80,12 +82,12 @@ std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<
   const bool solid = cells_are_solid(grid, r2);
   scratch.cells.by_point = !solid || min_points > 1;
   make_cells(points, grid, policy, scratch.cells, keys);
-  if (keys.keys.size() >= many_blocks) keys.release_memory();
+  if (keys.keys.size() >= free_memory_from_blocks) keys.release_memory();
   std::uint32_t noise = no_root;
   if (min_points > 1) {
     find_core(grid, r2, min_points, solid, policy, keys.keys, scratch.cells, scratch.core);
     scratch.cells.by_point = !solid;
-    noise = keep_core(scratch.cells, scratch.core);
+    noise = remove_non_core(scratch.cells, scratch.core);
   }
   join_cells(grid, r2, policy, keys.keys, scratch.cells, sets, scratch.join);
   if (noise != no_root) sets.add();
@@ -103,7 +105,8 @@ struct EuclideanClusterer::Scratch {
   Collector collector;
   SplitScratch split;
 
-  /// Components of the points at one tolerance, as roots of scratch.cells.node. Returns the root of noise.
+  /// Links the points at one tolerance: point i is in the component sets.roots()[scratch.cells.node[i]].
+  /// Returns the root of noise.
   template <typename T>
   std::uint32_t link(const std::vector<Point<T>>& all, const Box<T>& box, double r, std::size_t min_points,
                      const ParallelPolicy& policy) {
@@ -121,7 +124,7 @@ struct EuclideanClusterer::Scratch {
     levels.start(scratch.valid.points);
     for (std::size_t i = 0;; ++i) {
       const RangeLevel level = range_level(settings.tolerance, settings.tolerance_per_metre, i);
-      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.climb(level)) break;
+      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.advance_to(level)) break;
       link(levels.points(), box_of(levels.points().data(), levels.points().size()),
            double{static_cast<float>(level.tolerance)}, 1, policy);
       levels.unite(sets.roots(), scratch.cells.node);
@@ -132,22 +135,24 @@ struct EuclideanClusterer::Scratch {
   void extract(const PointView& view, const ClusterSettings& settings, const ParallelPolicy& policy,
                Clusters& clusters) {
     auto& scratch = std::get<PointScratch<T>>(points);
-    gather(view, policy, scratch.valid);
+    copy_valid_points(view, policy, scratch.valid);
     const std::size_t count = scratch.valid.points.size();
     if (count == 0) return;
     if (settings.tolerance_per_metre > 0) {
       link_by_range<T>(settings, policy);
       same.resize(count);
       std::iota(same.begin(), same.end(), 0U);
-      collect(scratch.levels.roots(), same, no_root, scratch.valid.numbers, settings, collector, clusters);
+      write_clusters(scratch.levels.roots(), same, no_root, scratch.valid.numbers, settings, collector,
+                     clusters);
       return;
     }
     const std::uint32_t noise =
         link(scratch.valid.points, scratch.valid.box, settings.tolerance, settings.min_points, policy);
-    collect(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector, clusters);
+    write_clusters(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector,
+                   clusters);
   }
 
-  /// Appends the clusters, and those above max_size only if they are to be dropped later.
+  /// Appends the clusters. Those above max_size are left out only for Oversized::drop.
   void append(const PointView& view, ClusterSettings settings, const ParallelPolicy& policy,
               Clusters& clusters) {
     if (settings.oversized != Oversized::drop) settings.max_size = std::numeric_limits<std::size_t>::max();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Checks of settings and point indices.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +10,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 
-/// Throws std::invalid_argument naming `who`, the setting, its value and the range.
+/// Throws std::invalid_argument with `who`, the setting, its value and the range.
 inline void require(bool in_range, const char* who, const char* name, double value, const char* range) {
   if (in_range) return;
   throw std::invalid_argument(std::string(who) + ": " + name + " is " + std::to_string(value) + ", must be " +
                               range);
 }
 
-/// The settings that both have.
+/// Checks the settings that split_ground() and GroundZones share.
 inline void check_ground(const char* who, double distance, double max_slope_degrees,
                          std::optional<double> sensor_height) {
   constexpr double largest = std::numeric_limits<double>::max();
@@ -31,12 +32,12 @@ inline void check_ground(const char* who, double distance, double max_slope_degr
   require(height >= 0 && height <= largest, who, "sensor_height", height, "finite and at least 0");
 }
 
-/// Throws std::length_error if a point number does not fit an index. Lists hold such numbers only.
-inline void check_numbers(const PointView& points) {
-  constexpr std::size_t max_number = std::numeric_limits<std::int32_t>::max();
-  if (points.indices || points.empty() || points.first + points.count - 1 <= max_number) return;
-  throw std::length_error("point number " + std::to_string(points.first + points.count - 1) +
-                          " does not fit an index (0 .. 2147483647)");
+/// Throws std::length_error if a point index exceeds 2^31 - 1. Index lists have 32-bit indices anyway.
+inline void check_indices(const PointView& points) {
+  constexpr std::size_t max_index = std::numeric_limits<std::int32_t>::max();
+  if (points.indices || points.empty() || points.first + points.count - 1 <= max_index) return;
+  throw std::length_error("point index " + std::to_string(points.first + points.count - 1) +
+                          " is too large, must be at most 2147483647");
 }
 
 }  // namespace pcl_bv

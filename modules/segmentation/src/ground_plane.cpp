@@ -22,7 +22,7 @@ void check(const GroundPlaneSettings& settings) {
 void split_ground(const PointView& points, const GroundPlaneSettings& settings, GroundSplit& split) {
   const FloatEnvironment environment;
   check(settings);
-  check_numbers(points);
+  check_indices(points);
   const std::optional<Plane> plane =
       find_ground_plane(points, Eigen::Vector3d::Zero(), settings, split.scratch);
   write_split(plane, points.count, split, [&](const auto& put) {

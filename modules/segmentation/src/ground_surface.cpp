@@ -11,35 +11,38 @@
 namespace pcl_bv {
 namespace {
 
-// A cell's lowest point is ground up to so far above and below the height expected, metres, and so much
-// farther for each metre since ground was last seen: curbs and clods pass, bonnets and seats of benches do
-// not.
-constexpr float above = 0.12F, above_growth = 0.024F, above_most = 0.225F;
-constexpr float below = 0.1F, below_growth = 0.05F, below_most = 1;
+// A cell's lowest point is ground if it is at most `above` over, or `below` under, the expected height,
+// metres. Both limits grow for each metre since ground was last seen, up to the maxima. Curbs and clods pass;
+// bonnets and the seats of benches do not.
+constexpr float above = 0.12F, above_growth = 0.024F, above_max = 0.225F;
+constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 
-// Where something stands the lowest point may be its own.
+// Limits above the expected height in cells with an object, as the lowest point may belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// What a rise says of the slope counts over so many metres.
+// Distance over which a rise changes the slope, in addition to the distance since ground was last seen;
+// metres.
 constexpr float slope_memory = 2.6F;
 
-// What is expected sinks by so much a metre at most, beyond its slope: behind a ditch the ground goes on as
-// before it.
-constexpr float fall = 0.06F;
+// The expected height follows lower points by at most this much a metre, beyond its slope: behind a ditch the
+// ground continues as before.
+constexpr float max_fall = 0.06F;
 
-constexpr float first_age = 2;      // metres; the plane around the sensor is a guess for the innermost cells
-constexpr float never = 1000;       // metres since ground was seen
-constexpr float roughness = 0.02F;  // metres from the lowest point up to the middle of bare ground's points
+// Metres; the plane around the sensor is only a guess for the innermost cells.
+constexpr float first_since_ground = 2;
+constexpr float never_seen = 1000;  // metres since ground was seen
+constexpr float roughness = 0.02F;  // metres from the lowest point to the middle of the points of bare ground
 
 }  // namespace
 
-// Where a neighbour has seen the ground more lately, it knows better.
-void GroundSurface::Front::share(float width) {
-  for (RingRow* row : {&height, &slope, &anchor, &age})
+// Mixes in the states of the neighbours that have seen the ground more recently.
+void GroundSurface::WalkState::mix_with_neighbours(float width) {
+  for (RingRow* row : {&height, &slope, &last_ground, &since_ground})
     row->close();
-  const Front old = *this;
+  const WalkState old = *this;
   for (std::size_t s = 1; s <= sector_count; ++s) {
-    const float own = old.age[s], left = old.age[s - 1] + width, right = old.age[s + 1] + width;
+    const float own = old.since_ground[s], left = old.since_ground[s - 1] + width,
+                right = old.since_ground[s + 1] + width;
     const float fresher_left = std::max(own - left, 0.F), fresher_right = std::max(own - right, 0.F);
     const float sum = fresher_left + fresher_right + 1e-9F;
     const float a = fresher_left / sum, b = fresher_right / sum;
@@ -48,65 +51,67 @@ void GroundSurface::Front::share(float width) {
     };
     height[s] = mixed(old.height);
     slope[s] = mixed(old.slope);
-    anchor[s] = mixed(old.anchor);
-    age[s] = std::min(own, std::min(left, right));
+    last_ground[s] = mixed(old.last_ground);
+    since_ground[s] = std::min(own, std::min(left, right));
   }
 }
 
-void GroundSurface::walk_out(const CellFacts& cells) {
-  Front front;
-  front.height.fill(0), front.slope.fill(0), front.anchor.fill(0), front.age.fill(first_age);
+void GroundSurface::estimate_outwards(const CellSummary& cells) {
+  WalkState state;
+  state.height.fill(0), state.slope.fill(0), state.last_ground.fill(0),
+      state.since_ground.fill(first_since_ground);
   for (std::size_t ring = 0; ring < rings_; ++ring) {
     const std::size_t first = ring * sector_count;
     for (std::size_t s = 0; s < sector_count; ++s) {
-      const float low = cells.low[first + s];
-      const bool stands = cells.stands[first + s] != 0;
-      float& height = front.height[s + 1];
-      float& age = front.age[s + 1];
-      float& slope = front.slope[s + 1];
+      const float lowest = cells.lowest[first + s];
+      const bool has_object = cells.has_object[first + s] != 0;
+      float& height = state.height[s + 1];
+      float& since_ground = state.since_ground[s + 1];
+      float& slope = state.slope[s + 1];
       height += slope * ring_width;
-      age += ring_width;
-      const float up =
-          stands ? foot_above + foot_growth * age : std::min(above_most, above + above_growth * age);
-      const float down = std::min(below_most, below + below_growth * age);
-      const float rise = low - height;
+      since_ground += ring_width;
+      const float up = has_object ? foot_above + foot_growth * since_ground
+                                  : std::min(above_max, above + above_growth * since_ground);
+      const float down = std::min(below_max, below + below_growth * since_ground);
+      const float rise = lowest - height;
       const bool seen = rise <= up && rise >= -down;
-      slope = seen ? slope + rise / (age + slope_memory) : slope;
-      height = seen ? std::max(low, height - fall * ring_width) : height;
-      front.anchor[s + 1] = seen ? low : front.anchor[s + 1];
-      age = seen ? 0 : age;
+      slope = seen ? slope + rise / (since_ground + slope_memory) : slope;
+      height = seen ? std::max(lowest, height - max_fall * ring_width) : height;
+      state.last_ground[s + 1] = seen ? lowest : state.last_ground[s + 1];
+      since_ground = seen ? 0 : since_ground;
       seen_[first + s] = seen;
     }
-    front.share(width_of(ring));
+    state.mix_with_neighbours(width_of(ring));
     for (std::size_t s = 0; s < sector_count; ++s)
-      height_[first + s] = seen_[first + s] != 0 ? cells.low[first + s] : front.height[s + 1];
-    std::copy_n(front.anchor.data() + 1, sector_count, anchor_.data() + first);
-    std::copy_n(front.age.data() + 1, sector_count, age_.data() + first);
+      height_[first + s] = seen_[first + s] != 0 ? cells.lowest[first + s] : state.height[s + 1];
+    std::copy_n(state.last_ground.data() + 1, sector_count, last_ground_.data() + first);
+    std::copy_n(state.since_ground.data() + 1, sector_count, since_ground_.data() + first);
   }
 }
 
-// Between two places where the ground is seen it is the line that connects them.
-void GroundSurface::walk_in() {
-  Front front;
-  front.slope.fill(0), front.height.fill(0), front.anchor.fill(0), front.age.fill(never);
+// Interpolates linearly between two cells of a sector where ground is seen.
+void GroundSurface::interpolate_inwards() {
+  WalkState state;
+  state.slope.fill(0), state.height.fill(0), state.last_ground.fill(0), state.since_ground.fill(never_seen);
   for (std::size_t ring = rings_; ring-- > 0;) {
     const std::size_t first = ring * sector_count;
     for (std::size_t s = 0; s < sector_count; ++s) {
       const std::size_t i = first + s;
-      float& age = front.age[s + 1];
-      age += ring_width;
+      float& since_ground = state.since_ground[s + 1];
+      since_ground += ring_width;
       const float known = height_[i];
-      const float share = age < never ? age_[i] / (age + age_[i]) : 0;
-      const float between = anchor_[i] + share * (front.height[s + 1] - anchor_[i]);
-      height_[i] = seen_[i] != 0 || age >= never ? known : between;
-      front.height[s + 1] = seen_[i] != 0 ? known : front.height[s + 1];
-      age = seen_[i] != 0 ? 0 : age;
+      const float share =
+          since_ground < never_seen ? since_ground_[i] / (since_ground + since_ground_[i]) : 0;
+      const float between = last_ground_[i] + share * (state.height[s + 1] - last_ground_[i]);
+      height_[i] = seen_[i] != 0 || since_ground >= never_seen ? known : between;
+      state.height[s + 1] = seen_[i] != 0 ? known : state.height[s + 1];
+      since_ground = seen_[i] != 0 ? 0 : since_ground;
     }
-    front.share(width_of(ring));
+    state.mix_with_neighbours(width_of(ring));
   }
 }
 
-void GroundSurface::connect() {
+void GroundSurface::compute_lines() {
   lines_.resize(cell_count);
   for (std::size_t ring = 0; ring < rings_; ++ring) {
     const std::size_t inner = ring > 0 ? ring - 1 : 0, outer = std::min(ring + 1, rings_ - 1);
@@ -121,17 +126,18 @@ void GroundSurface::connect() {
   }
 }
 
-void GroundSurface::find(const CellFacts& cells, const Slope& plane, float max_slope) {
+void GroundSurface::find(const CellSummary& cells, const Slope& plane, float max_slope) {
   const FloatEnvironment environment;
   std::size_t last = cell_count;
-  while (last > 0 && cells.low[last - 1] == no_low)
+  while (last > 0 && cells.lowest[last - 1] == no_lowest)
     --last;
   rings_ = (last + sector_count - 1) / sector_count;
-  height_.resize(cell_count), anchor_.resize(cell_count), age_.resize(cell_count), seen_.resize(cell_count);
-  walk_out(cells);
-  walk_in();
+  height_.resize(cell_count), last_ground_.resize(cell_count), since_ground_.resize(cell_count),
+      seen_.resize(cell_count);
+  estimate_outwards(cells);
+  interpolate_inwards();
   limit_slopes(height_.data(), rings_, plane, max_slope);
-  connect();
+  compute_lines();
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ground's height in every cell, from the lowest points of those where it is seen.
+// Estimates the height of the ground in every cell from the lowest points of the cells where it is visible.
 #pragma once
 
 #include <cstdint>
@@ -11,39 +11,40 @@
 
 namespace pcl_bv {
 
-/// The ground over the plane around the sensor, cell by cell: base + range * slope, metres.
+/// The ground in every cell, relative to the plane around the sensor: its height is base + range * slope,
+/// metres.
 class GroundSurface {
  public:
   struct Line {
     float base, slope;
   };
 
-  /// Replaces all lines. `plane`: over which the lows are; `max_slope`: of the ground against the level, a
-  /// tangent. O(cells).
-  void find(const CellFacts& cells, const Slope& plane, float max_slope);
+  /// Computes the lines of all cells. The heights in `cells` are relative to `plane`. `max_slope` is the
+  /// tangent of the largest angle between the ground and the horizontal. O(cells).
+  void find(const CellSummary& cells, const Slope& plane, float max_slope);
 
-  /// Of point `i`, metres.
+  /// Returns the height of point `i` above the ground, metres.
   float clearance(const ZonePoints& points, std::size_t i) const {
     const Line line = lines_[points.cell[i]];
     return points.height[i] - (line.base + points.range[i] * line.slope);
   }
 
  private:
-  /// What a walk knows in each sector where it has come to.
-  struct Front {
-    RingRow height;  // expected
-    RingRow slope;   // outwards
-    RingRow anchor;  // height where ground was last seen
-    RingRow age;     // metres since then
-    void share(float width);
+  /// The state of a walk in the current ring, by sector.
+  struct WalkState {
+    RingRow height;        // expected height of the ground
+    RingRow slope;         // slope of the ground, outwards
+    RingRow last_ground;   // height where ground was last seen
+    RingRow since_ground;  // metres since ground was last seen
+    void mix_with_neighbours(float width);
   };
 
-  void walk_out(const CellFacts& cells);
-  void walk_in();
-  void connect();
+  void estimate_outwards(const CellSummary& cells);
+  void interpolate_inwards();
+  void compute_lines();
 
-  std::size_t rings_ = 0;  // up to the last one that holds a point
-  std::vector<float> height_, anchor_, age_;
+  std::size_t rings_ = 0;  // number of rings up to the last with a point
+  std::vector<float> height_, last_ground_, since_ground_;
   std::vector<std::uint8_t> seen_;
   std::vector<Line> lines_;
 };

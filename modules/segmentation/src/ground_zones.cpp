@@ -18,15 +18,15 @@
 namespace pcl_bv {
 namespace {
 
-// The plane around the sensor is sought within 12.5 m, where the ground is seen best and bends least; if
-// there is none, within 25 m, then everywhere.
+// The plane around the sensor is searched within 12.5 m, where the ground is seen best and is flattest. If
+// there is none, it is searched within 25 m, then everywhere.
 constexpr std::array<std::size_t, 3> central_rings{25, 50, ring_count};
 constexpr unsigned plane_tries = 100;
 constexpr std::size_t plane_sample =
     2048;  // 8192 and 300 tries gave the same plane on recorded and generated sweeps
 
-// In cells where something stands, points up to a fifth of the distance are ground: else the feet of walls,
-// hedges and cars, two of a hundred points in a street, would be, too.
+// Share of `distance` that is ground in cells with an object. Otherwise the feet of walls, hedges and cars,
+// two in a hundred points of a street, would be ground.
 constexpr double foot_share = 0.2;
 
 void check(const GroundZonesSettings& settings) {
@@ -34,7 +34,8 @@ void check(const GroundZonesSettings& settings) {
   check_ground(who, settings.distance, settings.max_slope_degrees, settings.sensor_height);
   const Eigen::Vector3d sensor = settings.sensor.value_or(Eigen::Vector3d::Zero());
   for (int axis = 0; axis < 3; ++axis)
-    require(std::abs(sensor[axis]) <= kMaxCoordinate, who, "sensor", sensor[axis], "finite");
+    require(std::abs(sensor[axis]) <= kMaxCoordinate, who, "a coordinate of sensor", sensor[axis],
+            "from -1e100 to 1e100");
 }
 
 }  // namespace
@@ -65,13 +66,13 @@ struct GroundZones::Scratch : ZonePoints {
 
   void classify(const std::optional<Plane>& central, double distance, GroundSplit& split) const {
     const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
-    std::size_t kept = 0;
+    std::size_t valid = 0;
     for (const ZonePart& part : parts)
-      kept += part.kept;
-    write_split(central, kept, split, [&](const auto& put) {
+      valid += part.valid;
+    write_split(central, valid, split, [&](const auto& put) {
       for (const ZonePart& part : parts) {
-        for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
-          put(number[i], central && surface.clearance(*this, i) <= limit[cells().stands[cell[i]]]);
+        for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
+          put(number[i], central && surface.clearance(*this, i) <= limit[cells().has_object[cell[i]]]);
       }
     });
   }
@@ -86,22 +87,22 @@ void GroundZones::split(const PointView& points, const GroundZonesSettings& sett
                         const ParallelPolicy& policy) {
   const FloatEnvironment environment;
   check(settings);
-  check_numbers(points);
+  check_indices(points);
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  split.sensor = settings.sensor ? SensorPlace{*settings.sensor}
+  split.sensor = settings.sensor ? SensorPosition{*settings.sensor}
                                  : find_sensor(points, settings.up, Eigen::Vector3d::Zero(), split.scratch);
-  const bool estimated = !settings.sensor && !split.sensor.around;
+  const bool estimated = !settings.sensor && !split.sensor.confirmed;
   const std::optional<double> height = estimated ? std::nullopt : settings.sensor_height;
-  const ZoneFrame frame(settings.up, split.sensor.at);
+  const ZoneFrame frame(settings.up, split.sensor.position);
   scratch_->read(points, frame, policy);
   std::optional<Plane> central =
-      scratch_->central_plane(points, settings, split.sensor.at, height, split.scratch);
-  split.level = !central && height;
-  if (split.level) central = frame.level(*height);
+      scratch_->central_plane(points, settings, split.sensor.position, height, split.scratch);
+  split.assumed_level = !central && height;
+  if (split.assumed_level) central = frame.level(*height);
   if (central) {
     const Slope plane = frame.slope(*central);
     const double max_slope = std::tan(settings.max_slope_degrees * std::numbers::pi / 180);
-    scratch_->place(plane, policy);
+    scratch_->measure_from(plane, policy);
     scratch_->surface.find(scratch_->cells(), plane, static_cast<float>(max_slope));
   }
   scratch_->classify(central, settings.distance, split);

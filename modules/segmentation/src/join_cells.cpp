@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cells of a block are joined first, then blocks with their neighbours, found by sweeping the sorted keys.
-// Most blocks are one set after the first step, and then a pair of blocks that already share a root costs one
-// comparison, any other ends at the first link.
+// First the cells of each block are joined, then neighbouring blocks, found by a sweep over the sorted keys.
+// Most blocks are one set after the first step. A pair of such blocks costs one comparison if they already
+// share a root; otherwise it ends at the first link.
 #include "join_cells.h"
 
 #include <algorithm>
@@ -16,26 +16,26 @@
 namespace pcl_bv {
 namespace {
 
-// What all steps look at.
+// The data that all steps use.
 template <typename T>
-struct Joining {
+struct JoinContext {
   Cells<T>& cells;
-  const std::vector<std::uint8_t>& loose;
+  const std::vector<std::uint8_t>& non_solid;
   UnionFind& sets;
   T r2;
 
-  // Of a cell's first point.
+  // Returns the node of a cell's first point.
   std::uint32_t node(std::uint32_t cell) const { return cells.by_point ? cells.begin[cell] : cell; }
 
   bool linked(std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) const {
     return any_link(cells.run(a), cells.run(b), r2, scratch);
   }
 
-  bool is_loose(std::uint32_t cell) const { return !loose.empty() && loose[cell]; }
+  bool is_non_solid(std::uint32_t cell) const { return !non_solid.empty() && non_solid[cell]; }
 };
 
-// Calls visit(bit of a, bit of b) for the occupied cells of two blocks that `masks` says are neighbours,
-// until it returns true; says whether it did.
+// Calls visit(bit of a, bit of b) for the pairs of occupied cells of two blocks that are neighbours by
+// `masks`. Stops and returns true when visit returns true.
 template <typename Visit>
 bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit visit) {
   for (; a != 0; a &= a - 1) {
@@ -47,38 +47,41 @@ bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit
   return false;
 }
 
-// Joins points of two cells of which one at least is loose; a cell with itself, too.
+// Joins the points of two cells, at least one of which is non-solid. The two may be the same cell.
 template <typename T>
-void join_loose(const Joining<T>& joining, std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) {
-  const auto parts = [&joining](std::uint32_t cell) {  // By node: each point, or the cell as a whole.
-    return joining.is_loose(cell) ? joining.cells.run(cell).count : 1;
+void join_non_solid(const JoinContext<T>& context, std::uint32_t a, std::uint32_t b,
+                    LinkScratch<T>& scratch) {
+  // The nodes of a non-solid cell are its points; any other cell is one node.
+  const auto parts = [&context](std::uint32_t cell) {
+    return context.is_non_solid(cell) ? context.cells.run(cell).count : 1;
   };
-  const auto part = [&joining](std::uint32_t cell, std::size_t i) {
-    const PointRun<T> all = joining.cells.run(cell);
-    return joining.is_loose(cell) ? PointRun<T>{all.points + i, 1} : all;
+  const auto part = [&context](std::uint32_t cell, std::size_t i) {
+    const PointRun<T> all = context.cells.run(cell);
+    return context.is_non_solid(cell) ? PointRun<T>{all.points + i, 1} : all;
   };
   for (std::uint32_t i = 0; i < parts(a); ++i) {
     for (std::uint32_t j = 0; j < (a == b ? i : parts(b)); ++j) {
-      const std::uint32_t p = joining.node(a) + i;
-      const std::uint32_t q = joining.node(b) + j;
-      if (joining.sets.find(p) == joining.sets.find(q)) continue;
-      if (any_link(part(a, i), part(b, j), joining.r2, scratch)) joining.sets.unite(p, q);
+      const std::uint32_t p = context.node(a) + i;
+      const std::uint32_t q = context.node(b) + j;
+      if (context.sets.find(p) == context.sets.find(q)) continue;
+      if (any_link(part(a, i), part(b, j), context.r2, scratch)) context.sets.unite(p, q);
     }
   }
 }
 
 // Joins two cells if any of their points are linked.
 template <typename T>
-void join_pair(const Joining<T>& joining, std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) {
-  if (joining.is_loose(a) || joining.is_loose(b)) return join_loose(joining, a, b, scratch);
-  const std::uint32_t p = joining.node(a);
-  const std::uint32_t q = joining.node(b);
-  if (joining.sets.find(p) != joining.sets.find(q) && joining.linked(a, b, scratch)) joining.sets.unite(p, q);
+void join_pair(const JoinContext<T>& context, std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) {
+  if (context.is_non_solid(a) || context.is_non_solid(b)) return join_non_solid(context, a, b, scratch);
+  const std::uint32_t p = context.node(a);
+  const std::uint32_t q = context.node(b);
+  if (context.sets.find(p) != context.sets.find(q) && context.linked(a, b, scratch)) context.sets.unite(p, q);
 }
 
-// Adds to `reached` the cells of a block that are linked to one of `from`, by the masks given. Returns those.
+// Adds to `reached` the cells of a block that are linked to a cell of `from` and near it by `masks`. Returns
+// them.
 template <typename T>
-std::uint64_t spread(const Joining<T>& joining, const Block& block, const CellMasks& masks,
+std::uint64_t spread(const JoinContext<T>& context, const Block& block, const CellMasks& masks,
                      std::uint64_t from, std::uint64_t& reached, LinkScratch<T>& scratch) {
   std::uint64_t added = 0;
   for (; from != 0; from &= from - 1) {
@@ -88,7 +91,7 @@ std::uint64_t spread(const Joining<T>& joining, const Block& block, const CellMa
     const std::uint32_t cell = block.cell(bit);
     for (; candidates != 0; candidates &= candidates - 1) {
       const std::uint64_t candidate = candidates & -candidates;
-      if (!joining.linked(cell, block.cell(static_cast<unsigned>(std::countr_zero(candidate))), scratch))
+      if (!context.linked(cell, block.cell(static_cast<unsigned>(std::countr_zero(candidate))), scratch))
         continue;
       added |= candidate;
       reached |= candidate;
@@ -97,22 +100,23 @@ std::uint64_t spread(const Joining<T>& joining, const Block& block, const CellMa
   return added;
 }
 
-// The cells of a block that are connected to its lowest one of `rest`: by touching cells as far as that goes,
-// then by those two away, until neither adds one.
+// Returns the cells of a block that are connected to the lowest cell of `rest`. Spreads over touching cells
+// as far as possible, then over cells two away, until neither adds a cell.
 template <typename T>
-std::uint64_t component(const Joining<T>& joining, const Block& block, std::uint64_t rest,
+std::uint64_t component(const JoinContext<T>& context, const Block& block, std::uint64_t rest,
                         LinkScratch<T>& scratch) {
-  std::uint64_t reached = (rest & -rest) | (block.occupied & ~rest);  // Those of others are not asked again.
+  // Cells of other components are not tested again.
+  std::uint64_t reached = (rest & -rest) | (block.occupied & ~rest);
   std::uint64_t all = rest & -rest;
   std::uint64_t near = all;
   std::uint64_t far = 0;
   while ((near | far) != 0) {
     std::uint64_t added = 0;
     if (near != 0) {
-      added = spread(joining, block, within_block.near, near, reached, scratch);
+      added = spread(context, block, within_block.touching, near, reached, scratch);
       far |= near;
     } else {
-      added = spread(joining, block, within_block.far, far, reached, scratch);
+      added = spread(context, block, within_block.two_away, far, reached, scratch);
       far = 0;
     }
     all |= added;
@@ -121,56 +125,57 @@ std::uint64_t component(const Joining<T>& joining, const Block& block, std::uint
   return all;
 }
 
-// The cells of one block, which no other thread knows yet.
+// Joins the cells of one block. No other thread uses them yet.
 template <typename T>
-void join_within(const Joining<T>& joining, Block& block, LinkScratch<T>& scratch) {
+void join_within(const JoinContext<T>& context, Block& block, LinkScratch<T>& scratch) {
   std::uint64_t rest = block.occupied;
   while (rest != 0) {
-    const std::uint64_t cells = component(joining, block, rest, scratch);
+    const std::uint64_t cells = component(context, block, rest, scratch);
     block.united = cells == block.occupied;
-    const std::uint32_t root = joining.node(block.cell(static_cast<unsigned>(std::countr_zero(rest))));
+    const std::uint32_t root = context.node(block.cell(static_cast<unsigned>(std::countr_zero(rest))));
     for (std::uint64_t c = cells; c != 0; c &= c - 1) {
-      joining.sets.set_root(joining.node(block.cell(static_cast<unsigned>(std::countr_zero(c)))), root);
+      context.sets.set_root(context.node(block.cell(static_cast<unsigned>(std::countr_zero(c)))), root);
     }
     rest &= ~cells;
   }
 }
 
-// The same where some cells may be loose.
+// Joins the cells of one block if some may be non-solid.
 template <typename T>
-void join_within_loosely(const Joining<T>& joining, Block& block, LinkScratch<T>& scratch) {
+void join_within_by_pairs(const JoinContext<T>& context, Block& block, LinkScratch<T>& scratch) {
   for (std::uint32_t i = 0; i < count_bits(block.occupied); ++i) {
     for (std::uint32_t j = 0; j <= i; ++j)
-      join_pair(joining, block.first_cell + i, block.first_cell + j, scratch);
+      join_pair(context, block.first_cell + i, block.first_cell + j, scratch);
   }
 }
 
-// Two neighbouring blocks.
+// Joins the cells of two neighbouring blocks.
 template <typename T>
-void join_between(const Joining<T>& joining, const NearAndFar& masks, const Block& a, const Block& b,
+void join_between(const JoinContext<T>& context, const TouchingAndNext& masks, const Block& a, const Block& b,
                   LinkScratch<T>& scratch) {
   const auto in_both = [&](auto visit) {
-    if (!visit_pairs(masks.near, a.occupied, b.occupied, visit))
-      visit_pairs(masks.far, a.occupied, b.occupied, visit);
+    if (!visit_pairs(masks.touching, a.occupied, b.occupied, visit))
+      visit_pairs(masks.two_away, a.occupied, b.occupied, visit);
   };
   if (!a.united || !b.united) {
     in_both([&](unsigned from, unsigned to) {
-      join_pair(joining, a.cell(from), b.cell(to), scratch);
+      join_pair(context, a.cell(from), b.cell(to), scratch);
       return false;
     });
     return;
   }
-  const std::uint32_t p = joining.node(a.first_cell);
-  const std::uint32_t q = joining.node(b.first_cell);
-  if (joining.sets.find(p) == joining.sets.find(q)) return;
+  const std::uint32_t p = context.node(a.first_cell);
+  const std::uint32_t q = context.node(b.first_cell);
+  if (context.sets.find(p) == context.sets.find(q)) return;
   in_both([&](unsigned from, unsigned to) {
-    if (!joining.linked(a.cell(from), b.cell(to), scratch)) return false;
-    joining.sets.unite(p, q);
+    if (!context.linked(a.cell(from), b.cell(to), scratch)) return false;
+    context.sets.unite(p, q);
     return true;
   });
 }
 
-// From a block's key to that of the first in a row of neighbours, modulo 2^bits as unsigned numbers go.
+// Returns the difference between the key of a block and that of the first block in a row of neighbours,
+// modulo 2^bits.
 template <typename Key>
 Key key_offset(const CellGrid& grid, const BlockRow& row) {
   const auto along = [&grid](int blocks, std::size_t axis) {
@@ -179,12 +184,13 @@ Key key_offset(const CellGrid& grid, const BlockRow& row) {
   return static_cast<Key>(along(row.dz, 2) + along(row.dy, 1) + along(-1, 0));
 }
 
-// A chunk of blocks with those before them in one row; the row's place moves forward with the block.
+// Joins a chunk of blocks with the preceding blocks in one row. The position in the row moves forward with
+// the block.
 template <typename T, typename Key>
-void sweep(const Joining<T>& joining, const std::vector<Key>& keys, Key offset,
-           const std::array<NearAndFar, 3>& masks, std::size_t begin, std::size_t end,
+void sweep(const JoinContext<T>& context, const std::vector<Key>& keys, Key offset,
+           const std::array<TouchingAndNext, 3>& masks, std::size_t begin, std::size_t end,
            LinkScratch<T>& scratch) {
-  const std::vector<Block>& blocks = joining.cells.blocks;
+  const std::vector<Block>& blocks = context.cells.blocks;
   const auto key_of_row = [&](std::size_t block) { return static_cast<Key>(keys[block] + offset); };
   std::size_t first = std::lower_bound(keys.begin(), keys.begin() + begin, key_of_row(begin)) - keys.begin();
   for (std::size_t block = begin; block < end; ++block) {
@@ -192,48 +198,48 @@ void sweep(const Joining<T>& joining, const std::vector<Key>& keys, Key offset,
     while (keys[first] < row)
       ++first;
     for (std::size_t other = first; other < block && keys[other] - row <= 2; ++other)
-      join_between(joining, masks[static_cast<std::size_t>(keys[other] - row)], blocks[block], blocks[other],
+      join_between(context, masks[static_cast<std::size_t>(keys[other] - row)], blocks[block], blocks[other],
                    scratch);
   }
 }
 
 template <typename T>
-void find_loose(const Cells<T>& cells, T r2, std::vector<std::uint8_t>& loose) {
-  loose.resize(cells.size());
+void find_non_solid(const Cells<T>& cells, T r2, std::vector<std::uint8_t>& non_solid) {
+  non_solid.resize(cells.size());
   for (std::uint32_t c = 0; c < cells.size(); ++c) {
     const PointRun<T> run = cells.run(c);
     const Box<T> box = box_of(run.points, run.count);
-    loose[c] = run.count > 1 && !(greatest_squared_distance(box, box) < r2);
+    non_solid[c] = run.count > 1 && !(max_squared_distance(box, box) < r2);
   }
 }
 
-// Every cell a set, or every point of a loose one.
+// Makes a set of each cell; of a non-solid cell, a set of each point.
 template <typename T>
-void start_sets(const Joining<T>& joining) {
-  const Cells<T>& cells = joining.cells;
-  joining.sets.reset(cells.by_point ? cells.points.size() : cells.size());
+void start_sets(const JoinContext<T>& context) {
+  const Cells<T>& cells = context.cells;
+  context.sets.reset(cells.by_point ? cells.points.size() : cells.size());
   if (!cells.by_point) return;
   for (std::uint32_t c = 0; c < cells.size(); ++c) {
-    for (std::uint32_t i = cells.begin[c]; i < cells.begin[c + 1] && !joining.is_loose(c); ++i)
-      joining.sets.set_root(i, cells.begin[c]);
+    for (std::uint32_t i = cells.begin[c]; i < cells.begin[c + 1] && !context.is_non_solid(c); ++i)
+      context.sets.set_root(i, cells.begin[c]);
   }
 }
 
-// Room for any two cells in each chunk's memory, but for cells of very many points. With threads it depends
-// on their timing which cells are compared; what is allocated should not.
+// Reserves memory for any two cells in each chunk, except for cells of very many points. Which cells a thread
+// compares depends on timing; allocations should not.
 template <typename T>
-void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
-  constexpr std::size_t very_many = 4096;
-  std::size_t most = 0;
+void reserve_links(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
+  constexpr std::size_t max_reserved = 4096;
+  std::size_t largest = 0;
   for (std::uint32_t c = 0; c < cells.size(); ++c)
-    most = std::max(most, cells.run(c).count);
+    largest = std::max(largest, cells.run(c).count);
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    links[chunk].a.reserve(std::min(most, very_many));
-    links[chunk].b.reserve(std::min(most, very_many));
+    links[chunk].a.reserve(std::min(largest, max_reserved));
+    links[chunk].b.reserve(std::min(largest, max_reserved));
   }
 }
 
-// Fewer are not worth the start of a thread.
+// Fewer blocks are not worth the start of a thread.
 constexpr std::size_t blocks_per_chunk = 256;
 
 }  // namespace
@@ -241,16 +247,16 @@ constexpr std::size_t blocks_per_chunk = 256;
 template <typename T, typename Key>
 void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const std::vector<Key>& keys,
                 Cells<T>& cells, UnionFind& sets, JoinScratch<T>& scratch) {
-  const Joining<T> joining{cells, scratch.loose, sets, r2};
-  scratch.loose.clear();
-  if (cells.by_point) find_loose(cells, r2, scratch.loose);
-  start_sets(joining);
+  const JoinContext<T> context{cells, scratch.non_solid, sets, r2};
+  scratch.non_solid.clear();
+  if (cells.by_point) find_non_solid(cells, r2, scratch.non_solid);
+  start_sets(context);
   if (!(r2 > 0)) return;
 
   const std::size_t blocks = keys.size();
   const std::size_t chunks = (blocks + blocks_per_chunk - 1) / blocks_per_chunk;
   if (scratch.links.size() < chunks) scratch.links.resize(chunks);
-  if (chunks > 1 && thread_count(policy) > 1) make_room(cells, scratch.links, chunks);
+  if (chunks > 1 && thread_count(policy) > 1) reserve_links(cells, scratch.links, chunks);
   const auto in_chunks = [&](auto work) {
     for_each_chunk(policy, chunks, [&](std::size_t chunk) {
       const FloatEnvironment environment;
@@ -260,15 +266,15 @@ void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const 
   in_chunks([&](std::size_t begin, std::size_t end, LinkScratch<T>& links) {
     for (std::size_t b = begin; b < end; ++b) {
       if (cells.by_point) {
-        join_within_loosely(joining, cells.blocks[b], links);
+        join_within_by_pairs(context, cells.blocks[b], links);
       } else {
-        join_within(joining, cells.blocks[b], links);
+        join_within(context, cells.blocks[b], links);
       }
     }
   });
   in_chunks([&](std::size_t begin, std::size_t end, LinkScratch<T>& links) {
     for (std::size_t i = 0; i < half_of_neighbours.size(); ++i) {
-      sweep(joining, keys, key_offset<Key>(grid, half_of_neighbours[i]), beside_block[i], begin, end, links);
+      sweep(context, keys, key_offset<Key>(grid, half_of_neighbours[i]), next_to_block[i], begin, end, links);
     }
   });
 }

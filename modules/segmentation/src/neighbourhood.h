@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All cells near a cell, on every side, where joining needs half of them only.
+// The cells around a cell, on every side. (Joining cells needs only half of them: neighbours.h.)
 #pragma once
 
 #include <algorithm>
@@ -17,23 +17,25 @@
 
 namespace pcl_bv {
 
-/// By row: a variable for each, as clang allows a million steps for one.
+/// Masks for one row of blocks. Each row is a variable of its own, as clang allows a million steps for a
+/// constant.
 template <int dy, int dz>
 inline constexpr std::array<CellMasks, 3> masks_of_row{
-    cells_up_to({-1, dy, dz}, 2), cells_up_to({0, dy, dz}, 2), cells_up_to({1, dy, dz}, 2)};
+    cells_within({-1, dy, dz}, 2), cells_within({0, dy, dz}, 2), cells_within({1, dy, dz}, 2)};
 
-/// By (dz + 1) * 3 + dy + 1, and there by dx + 1.
+/// Indices: (dz + 1) * 3 + dy + 1, then dx + 1.
 inline constexpr std::array<const std::array<CellMasks, 3>*, 9> masks_around{
     &masks_of_row<-1, -1>, &masks_of_row<0, -1>, &masks_of_row<1, -1>,
     &masks_of_row<-1, 0>,  &masks_of_row<0, 0>,  &masks_of_row<1, 0>,
     &masks_of_row<-1, 1>,  &masks_of_row<0, 1>,  &masks_of_row<1, 1>};
 
-/// Numbers of a block's neighbours and its own, by row * 3 + dx + 1.
+/// Numbers of the blocks around a block and of itself, at index ((dz + 1) * 3 + dy + 1) * 3 + dx + 1.
 using BlocksAround = std::array<std::uint32_t, 27>;
 inline constexpr std::uint32_t no_block = std::numeric_limits<std::uint32_t>::max();
 inline constexpr std::size_t own_block = 13;
 
-/// Finds the neighbours of blocks asked for in ascending order: the place in each of nine rows moves forward.
+/// Finds the blocks around a block. Blocks must be queried in ascending order: the position in each of the
+/// nine rows only moves forward.
 template <typename Key>
 class BlockRows {
  public:
@@ -67,42 +69,42 @@ class BlockRows {
   std::array<std::size_t, 9> next_{};
 };
 
-/// Places of points of several cells of a block.
-struct PlaceRun {
+/// A range of positions in Cells::points: points of consecutive cells of a block.
+struct PositionRange {
   std::uint32_t begin, end;
 };
 
-/// The points in the cells at most two away from one along each axis, itself included: those of its own
-/// block, and, when asked for, those of others. Cells that follow each other in a block, but for empty ones,
-/// are one run: of the 125 cells mostly some ten runs remain.
+/// The points in all cells at most two cells away from a cell along each axis, including the cell itself.
+/// start() takes those of the same block, add_other_blocks() adds those of other blocks. Consecutive occupied
+/// cells of a block form one run: for the 125 cells there are mostly about ten runs.
 template <typename T>
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Cells<T>& cells) : cells_(cells) {}
 
-  /// `around` must live on.
+  /// Starts at cell `bit` of the block in the middle of `around`, which must outlive the search.
   void start(const BlocksAround& around, unsigned bit) {
     around_ = &around;
     bit_ = bit;
     count_ = 0;
     points_ = 0;
     add(1, 1, 1);
-    complete_ = false;
+    has_other_blocks_ = false;
   }
 
-  /// A cell in the lower half of its block is never within two of the next block, nor one in the upper half
-  /// of the block before: seven others matter.
-  void complete() {
-    if (complete_) return;
-    complete_ = true;
+  /// Adds the runs in other blocks. At most seven matter: a cell in the lower half of its block is never
+  /// within two cells of the next block, nor a cell in the upper half within two of the block before.
+  void add_other_blocks() {
+    if (has_other_blocks_) return;
+    has_other_blocks_ = true;
     const auto side = [this](unsigned shift) { return (bit_ >> shift & 3) < 2 ? 0U : 2U; };
     for (unsigned i = 1; i < 8; ++i)
       add((i & 1) != 0 ? side(0) : 1, (i & 2) != 0 ? side(2) : 1, (i & 4) != 0 ? side(4) : 1);
   }
 
   std::size_t size() const { return count_; }
-  std::size_t points() const { return points_; }  ///< Of all runs.
-  const PlaceRun& operator[](std::size_t i) const { return runs_[i]; }
+  std::size_t points() const { return points_; }  ///< Number of points in all runs.
+  const PositionRange& operator[](std::size_t i) const { return runs_[i]; }
 
  private:
   void add(unsigned x, unsigned y, unsigned z) {
@@ -115,7 +117,7 @@ class Neighbourhood {
       const std::uint64_t others = block.occupied & ~mask & ~((rest & -rest) - 1);
       const std::uint64_t before = others == 0 ? ~std::uint64_t{0} : (others & -others) - 1;
       const std::uint32_t first = block.cell(static_cast<unsigned>(std::countr_zero(rest)));
-      const PlaceRun run{cells_.begin[first], cells_.begin[first + count_bits(rest & before)]};
+      const PositionRange run{cells_.begin[first], cells_.begin[first + count_bits(rest & before)]};
       runs_[count_++] = run;
       points_ += run.end - run.begin;
       rest &= ~before;
@@ -124,9 +126,9 @@ class Neighbourhood {
   const Cells<T>& cells_;
   const BlocksAround* around_ = nullptr;
   unsigned bit_ = 0;
-  bool complete_ = false;
+  bool has_other_blocks_ = false;
   std::size_t count_ = 0, points_ = 0;
-  std::array<PlaceRun, 125> runs_;  // The first count_.
+  std::array<PositionRange, 125> runs_;  // Only the first count_ are set.
 };
 
 }  // namespace pcl_bv

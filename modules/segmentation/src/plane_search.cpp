@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A few thousand points that stand for the whole cloud, RANSAC on them with a cost that dislikes points below
-// the plane, then least squares.
+// Samples a few thousand points of the cloud, runs RANSAC with a cost that penalises points below the plane,
+// and refines the plane by least squares.
 #include "plane_search.h"
 
 #include <Eigen/Eigenvalues>
@@ -28,7 +28,7 @@ struct Spread {
   double low, middle, high;
 };
 
-// The median along an axis and bounds that a few stray points do not move.
+// Returns the median along an axis, and limits that do not depend on a few outliers.
 Spread spread_of(const std::vector<Vector3d>& sample, const Vector3d& axis) {
   std::array<double, 1024> values;
   const std::size_t n = std::min(sample.size(), values.size());
@@ -47,7 +47,7 @@ Spread spread_of(const std::vector<Vector3d>& sample, const Vector3d& axis) {
   return {low - margin, *middle, high + margin};
 }
 
-// Row or column of the grid; the outermost ones hold all that is beyond them.
+// Returns the row or column of the grid; the outermost ones hold all values beyond them.
 std::size_t grid_line(double value, const Spread& spread) {
   if (!(spread.high > spread.low)) return 0;
   const double line = (value - spread.low) / (spread.high - spread.low) * cells_per_side;
@@ -56,10 +56,10 @@ std::size_t grid_line(double value, const Spread& spread) {
 
 struct Cell {
   std::size_t count = 0;
-  std::size_t lowest = 0;  // its lowest point's place in GroundScratch::lowest
+  std::size_t lowest = 0;  // position of its lowest point in GroundScratch::lowest
 };
 
-// Puts a point into its cell: the first few are support.
+// Adds a point to its cell. Only the first few points of a cell are support.
 void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& scratch) {
   if (cell.count < points_per_cell) scratch.support.push_back(p);
   if (cell.count == 0) {
@@ -71,10 +71,10 @@ void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& s
   ++cell.count;
 }
 
-// Fills `scratch`: `sample` with up to `sample_size` points spread evenly over the point numbers, `support`
-// with at most 4096 of them spread evenly over the area seen from above, `lowest` with the lowest one of each
-// of at most 1024 cells of that area. They are relative to the point returned, which is in the midst of the
-// cloud, so that nothing is lost of UTM coordinates. No valid point: all empty.
+// Fills `scratch`: `sample` with up to `sample_size` points evenly spread over the point indices, `support`
+// with at most 4096 of them evenly spread over the area seen from above, and `lowest` with the lowest point
+// of each of at most 1024 cells of that area. Without valid points all are empty. The points are relative to
+// the returned position in the middle of the cloud, so that UTM coordinates lose no precision.
 Vector3d sample_ground(const PointView& points, const UpFrame& frame, std::uint32_t seed,
                        std::size_t sample_size, GroundScratch& scratch) {
   constexpr std::size_t cells = cells_per_side * cells_per_side;
@@ -102,7 +102,8 @@ constexpr double max_above = 1;
 constexpr double max_below = 2;
 constexpr unsigned refinements = 3;
 
-// A set of points whose second width is less than this share of its first is a line, to which any plane fits.
+// Points whose second width is less than this share of the first are treated as a line, which determines no
+// plane.
 constexpr double min_width_ratio = 0.02;
 
 Vector3d normalized(const Vector3d& v) {
@@ -110,7 +111,7 @@ Vector3d normalized(const Vector3d& v) {
   return norm2 > 0 ? Vector3d(v / std::sqrt(norm2)) : v;
 }
 
-// What a plane must keep.
+// The limits that a plane must satisfy.
 struct Limits {
   Vector3d up;
   double min_cosine;
@@ -125,7 +126,7 @@ struct Limits {
   }
 };
 
-// Through `point`, turned to the upper side.
+// Returns the plane through `point` with its normal pointing up.
 Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3d& up) {
   const Vector3d normal = dot3(unit_normal, up) < 0 ? Vector3d(-unit_normal) : unit_normal;
   return {normal, dot3(normal, point)};
@@ -134,16 +135,16 @@ Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3
 std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                    const Limits& limits) {
   const Vector3d normal =
-      normalized(normalized(b - a).cross(normalized(c - a)));  // 0 if on a line: not allowed
+      normalized(normalized(b - a).cross(normalized(c - a)));  // zero if on a line: not allowed
   const Plane plane = plane_at(a, normal, limits.up);
   if (!limits.allow(plane)) return {};
   return plane;
 }
 
-// Sum over the points of the squared height in units of `distance`, cut off at max_above and max_below. A
-// plane that cannot beat `best` is given up early. Eigen's min and max never branch (compilers do, three
-// times slower since heights are unpredictable); each of four lanes adds up in order, so the bits do not
-// depend on packets.
+// Returns the sum over the points of the squared height in units of `distance`, clamped to max_above and
+// -max_below. Stops early for a plane that cannot beat `best`. Eigen's min and max do not branch; the
+// branches that compilers make are three times slower, as heights are unpredictable. Each of four lanes is
+// summed in order, so the bits do not depend on the packet size.
 double cost_of(const Plane& plane, const Points& points, double distance, double best) {
   using Lanes = Eigen::Array4d;
   constexpr std::size_t groups = 16;
@@ -163,7 +164,7 @@ double cost_of(const Plane& plane, const Points& points, double distance, double
   return cost;
 }
 
-// The least-squares plane of the points within `distance` of `plane`.
+// Returns the least-squares plane of the points within `distance` of `plane`.
 std::optional<Plane> refine(const Plane& plane, const Points& points, double distance, const Limits& limits) {
   const auto near = [&](const Vector3d& p) { return std::abs(height_above(plane, p)) <= distance; };
   Vector3d sum = Vector3d::Zero();
@@ -187,18 +188,18 @@ std::optional<Plane> refine(const Plane& plane, const Points& points, double dis
   return refined;
 }
 
-// The best plane through three of the lowest points: those of the ground are among them even below tables.
+// Returns the best plane through three of the lowest points. Ground points are among these even below tables.
 std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
                             const GroundPlaneSettings& settings) {
   const Points& lowest = points.lowest;
   if (lowest.size() < 3) return {};
-  std::mt19937 random(settings.seed);  // its numbers are fixed by the standard
+  std::mt19937 random(settings.seed);  // the standard fixes its numbers
   const auto pick = [&]() -> const Vector3d& {
     return lowest[static_cast<std::size_t>(std::uint64_t{random()} * lowest.size() >> 32)];
   };
   std::optional<Plane> best;
   double best_cost =
-      max_above * max_above * static_cast<double>(points.support.size());  // of a plane far below
+      max_above * max_above * static_cast<double>(points.support.size());  // cost of a plane far below
   for (unsigned i = 0; i < settings.iterations; ++i) {
     const Vector3d& a = pick();
     const Vector3d& b = pick();
@@ -223,9 +224,9 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& 
   const Limits limits{frame.up, std::cos(settings.max_slope_degrees * std::numbers::pi / 180),
                       sensor - origin, settings.sensor_height};
   std::optional<Plane> best = search(scratch, limits, settings);
-  // The search counts points by area, so its plane fits the few far off as well as the many near the sensor;
-  // least squares over all points place it where most of them are. There is no refined plane where three
-  // points were within the limits but their neighbours are not: a strip of a wall.
+  // The search weights points by area, so its plane fits the few distant points as well as the many near
+  // ones. Least squares over all points move it to where most points are. Refining fails if three points were
+  // within the limits but the plane of the points near them is not, e.g. on a strip of a wall.
   for (unsigned i = 0; best && i < refinements; ++i)
     best = refine(*best, scratch.sample, settings.distance, limits);
   if (best) best->offset += dot3(best->normal, origin);

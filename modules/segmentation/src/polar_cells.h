@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cells that the ground is seen in: rings of half a metre about the sensor, each in 256 sectors. So fine
-// that a wall's foot and what stands on it share a cell, so coarse that a beam or two above the foot meets
-// it, too.
+// Polar cells around the sensor: rings of 0.5 m, each with 256 sectors. They are fine enough that the foot of
+// a wall shares its cell with the wall above it, and coarse enough that one or two beams above the foot hit
+// the same cell.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,19 @@
 namespace pcl_bv {
 
 inline constexpr std::size_t sector_count = 256;  ///< The first begins at the u axis.
-inline constexpr std::size_t ring_count = 201;  ///< The last has no end: all that is 100 m away and farther.
+/// The last ring has no outer limit: it holds all that is 100 m away or farther.
+inline constexpr std::size_t ring_count = 201;
 inline constexpr std::size_t cell_count = ring_count * sector_count;  ///< Ring by ring.
 inline constexpr float ring_width = 0.5F;                             ///< Metres.
 
-/// From the centre to a point, metres.
+/// Returns the distance of a point from the centre, metres.
 inline float range_of(float u, float v) {
   return std::sqrt(u * u + v * v);
 }
 
-/// Its angle in turns, 0 to 1. It is no libm's, which differ: it is right to 0.004 rad, and the same
-/// everywhere.
-inline float turn_of(float u, float v) {
+/// Returns the angle of a point in turns, 0 to 1, to 0.004 rad. The same on every machine, unlike atan2() of
+/// the C libraries.
+inline float angle_in_turns(float u, float v) {
   const float along = std::abs(u), across = std::abs(v);
   const float longer = std::max(along, across);
   const float t = std::min(along, across) / (longer > 0 ? longer : 1);
@@ -37,19 +38,19 @@ inline float turn_of(float u, float v) {
   return v < 0 ? 1 - turn : turn;
 }
 
-/// Both as above. A turn of 1 is one of 0.
+/// Returns the index of the cell of a range and an angle in turns. 1 turn is the same as 0.
 inline std::int32_t cell_of(float range, float turn) {
   const auto ring = static_cast<std::int32_t>(std::min(range / ring_width, float{ring_count - 1}));
   const auto sector = static_cast<std::int32_t>(turn * float{sector_count});
   return ring * std::int32_t{sector_count} + (sector & std::int32_t{sector_count - 1});
 }
 
-/// The range of a ring's middle.
+/// Returns the range of the middle of a ring, metres.
 constexpr float middle_of(std::size_t ring) {
   return ring_width * (static_cast<float>(ring) + 0.5F);
 }
 
-/// The width of a sector there.
+/// Returns the width of a sector in the middle of a ring, metres.
 constexpr float width_of(std::size_t ring) {
   return middle_of(ring) * static_cast<float>(2 * std::numbers::pi / sector_count);
 }
@@ -58,7 +59,7 @@ struct Direction {
   double u, v;
 };
 
-/// Unit vector to a sector's middle. Taylor's series, to 1e-8: no libm's, which differ.
+/// Unit vectors to the middle of the sectors. By Taylor series, to 1e-8, as results of C libraries differ.
 inline constexpr std::array<Direction, sector_count> sector_directions = [] {
   std::array<Direction, sector_count> all{};
   for (std::size_t s = 0; s < sector_count; ++s) {
@@ -75,8 +76,7 @@ inline constexpr std::array<Direction, sector_count> sector_directions = [] {
   return all;
 }();
 
-/// A value for each cell of a ring, of which the last comes once more before the first, and the first after
-/// the last.
+/// A value for each cell of a ring, with a copy of the last before the first and of the first after the last.
 struct RingRow : std::array<float, sector_count + 2> {
   void copy(const float* cells) {
     std::copy_n(cells, sector_count, data() + 1);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Stable radix sort of points by key.
 #pragma once
 
 #include <array>
@@ -15,8 +16,9 @@ struct KeyedPoint {
   std::uint32_t point;
 };
 
-/// Sorts by key, of which only the low `key_bits` may be set; equal keys keep their order. `spare` is room to
-/// work in. O(n) for each 11 bits: least significant digit first, digits that do not vary skipped.
+/// Sorts by key; equal keys keep their order. Only the low `key_bits` bits of the keys may be set. `spare` is
+/// a buffer. O(n) for each 11 bits: least significant digit first; digits that are equal in all items are
+/// skipped.
 template <typename Key>
 void radix_sort(std::vector<KeyedPoint<Key>>& items, std::vector<KeyedPoint<Key>>& spare, unsigned key_bits) {
   constexpr unsigned digit_bits = 11;

@@ -11,45 +11,46 @@
 namespace pcl_bv {
 
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level) {
-  // exp2() may differ from one library to the next.
+  // Not exp2(), which differs between libraries.
   constexpr std::array<double, 4> quarters{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  const double grown = std::ldexp(double{tolerance} * quarters[level % 4], static_cast<int>(level / 4));
-  const double range = (grown - double{tolerance}) / double{per_metre};
-  return {grown, range * range};
+  const double level_tolerance =
+      std::ldexp(double{tolerance} * quarters[level % 4], static_cast<int>(level / 4));
+  const double range = (level_tolerance - double{tolerance}) / double{per_metre};
+  return {level_tolerance, range * range};
 }
 
 template <typename T>
 void RangeLevels<T>::start(const std::vector<Point<T>>& points) {
   points_ = points;
-  place_.resize(points.size());
-  std::iota(place_.begin(), place_.end(), 0U);
+  position_.resize(points.size());
+  std::iota(position_.begin(), position_.end(), 0U);
   sets_.reset(points.size());
 }
 
 template <typename T>
-bool RangeLevels<T>::climb(const RangeLevel& level) {
-  std::size_t kept = 0;
+bool RangeLevels<T>::advance_to(const RangeLevel& level) {
+  std::size_t count = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point<T> p = points_[i];
-    if (squared_norm<double>(p.x, p.y, p.z) < level.least_squared_range) continue;
-    points_[kept] = p;
-    place_[kept++] = place_[i];
+    if (squared_norm<double>(p.x, p.y, p.z) < level.min_squared_range) continue;
+    points_[count] = p;
+    position_[count++] = position_[i];
   }
-  points_.resize(kept);
-  place_.resize(kept);
-  return kept > 0;
+  points_.resize(count);
+  position_.resize(count);
+  return count > 0;
 }
 
 template <typename T>
 void RangeLevels<T>::unite(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  first_.assign(roots.size(), none);
+  first_of_root_.assign(roots.size(), none);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    std::uint32_t& first = first_[roots[node[i]]];
+    std::uint32_t& first = first_of_root_[roots[node[i]]];
     if (first == none) {
-      first = place_[i];
+      first = position_[i];
     } else {
-      sets_.unite(first, place_[i]);
+      sets_.unite(first, position_[i]);
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tolerances that grow with the distance from the origin, in steps of a quarter octave.
+// Clusters with a tolerance that grows with the distance from the origin, in steps of a quarter octave.
 #pragma once
 
 #include <cstddef>
@@ -13,37 +13,39 @@
 
 namespace pcl_bv {
 
-/// The tolerance of level i, tolerance * 2^(i/4), and the squared distance from the origin from which on
-/// points have it or a greater one.
+/// The tolerance of level i, tolerance * 2^(i/4), and the squared distance from the origin from which points
+/// have at least this tolerance.
 struct RangeLevel {
-  double tolerance, least_squared_range;
+  double tolerance, min_squared_range;
 };
+/// Returns a level for ClusterSettings::tolerance and tolerance_per_metre.
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level);
 
-/// Points that are linked at one level, put together over all. Two points are linked where they are nearer
-/// than the smaller of their tolerances, that is, where they are linked at a level that both reach: so their
-/// clusters are the union, over the levels, of the clusters among the points that reach the level.
+/// Unites the clusters of all levels. Two points are linked if they are nearer than the smaller of their
+/// tolerances, that is, if they are linked at a level that both reach. So the clusters are the union, over
+/// the levels, of the clusters of the points that reach the level.
 template <typename T>
 class RangeLevels {
  public:
+  /// Starts with all points, each in a set of its own.
   void start(const std::vector<Point<T>>& points);
 
-  /// Goes on with the points that reach the level; false if there are none.
-  bool climb(const RangeLevel& level);
+  /// Removes the points that do not reach the level. Returns false if none are left.
+  bool advance_to(const RangeLevel& level);
 
-  /// Of the current level.
+  /// Returns the points that reach the current level.
   const std::vector<Point<T>>& points() const { return points_; }
 
-  /// Point i of points() belongs to roots[node[i]].
+  /// Unites the points with the same root at this level: point i of points() has the root roots[node[i]].
   void unite(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node);
 
-  /// After the last level, of the points of start().
+  /// Returns the root of each point of start(). Call after the last level.
   const std::vector<std::uint32_t>& roots() { return sets_.roots(); }
 
  private:
   std::vector<Point<T>> points_;
-  std::vector<std::uint32_t> place_;  // of each in start()'s
-  std::vector<std::uint32_t> first_;  // point of a root
+  std::vector<std::uint32_t> position_;       // position of each point in those of start()
+  std::vector<std::uint32_t> first_of_root_;  // for each root, a point that has it
   UnionFind sets_;
 };
 

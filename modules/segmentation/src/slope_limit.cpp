@@ -10,7 +10,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t max_aside = 16;  // sectors
+constexpr std::size_t max_sectors = 16;  // to either side
 
 class SlopeLimit {
  public:
@@ -25,31 +25,35 @@ class SlopeLimit {
   }
 
  private:
-  // Of `ring`, by its own cells and those of at most `most` rings before it, at(1) the nearest.
+  // Limits the heights of `ring` by its own cells and by at most `max_rings` finished rings; at(1) is the
+  // nearest.
   template <typename At>
-  void limit(std::size_t ring, std::size_t most, const At& at) {
-    for (std::size_t aside = 1; aside <= max_aside; aside *= 2)
-      limit_by(ring, ring, 0, aside);
-    const float square = ring_width / width_of(ring);  // so many sectors are as wide as a ring
-    const auto aside = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(square)), 1, max_aside);
-    const auto reach = static_cast<std::size_t>(1 / square) + 1;
-    if (most > 0) limit_by(ring, at(1), 1, 0);
-    for (std::size_t steps = 1; steps <= std::min(most, reach); ++steps)
-      limit_by(ring, at(steps), steps, aside);
+  void limit(std::size_t ring, std::size_t max_rings, const At& at) {
+    for (std::size_t sectors = 1; sectors <= max_sectors; sectors *= 2)
+      limit_by(ring, ring, 0, sectors);
+    // Number of sectors that are together as wide as a ring.
+    const float square = ring_width / width_of(ring);
+    const auto sectors =
+        std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(square)), 1, max_sectors);
+    const auto max_steps = static_cast<std::size_t>(1 / square) + 1;
+    if (max_rings > 0) limit_by(ring, at(1), 1, 0);
+    for (std::size_t steps = 1; steps <= std::min(max_rings, max_steps); ++steps)
+      limit_by(ring, at(steps), steps, sectors);
   }
 
-  // By the cells of the ring `from`, `steps` rings away, `aside` sectors to both sides.
-  void limit_by(std::size_t ring, std::size_t from, std::size_t steps, std::size_t aside) {
-    const float across = width_of(ring) * static_cast<float>(aside);
+  // Limits the heights of `ring` by the cells of ring `from`, which is `steps` rings away, `sectors` sectors
+  // to either side.
+  void limit_by(std::size_t ring, std::size_t from, std::size_t steps, std::size_t sectors) {
+    const float across = width_of(ring) * static_cast<float>(sectors);
     const float along = ring_width * static_cast<float>(steps);
     const float climb = max_slope_ * std::sqrt(along * along + across * across);
     const float* const row = heights_ + from * sector_count;
-    std::array<float, sector_count + 2 * max_aside> other;
-    std::copy_n(row, sector_count, other.data() + max_aside);
-    std::copy_n(row + sector_count - max_aside, max_aside, other.data());
-    std::copy_n(row, max_aside, other.data() + sector_count + max_aside);
+    std::array<float, sector_count + 2 * max_sectors> other;
+    std::copy_n(row, sector_count, other.data() + max_sectors);
+    std::copy_n(row + sector_count - max_sectors, max_sectors, other.data());
+    std::copy_n(row, max_sectors, other.data() + sector_count + max_sectors);
     float* const own = heights_ + ring * sector_count;
-    const float *const left = other.data() + max_aside - aside, *const right = left + 2 * aside;
+    const float *const left = other.data() + max_sectors - sectors, *const right = left + 2 * sectors;
     for (std::size_t s = 0; s < sector_count; ++s)
       own[s] = std::min(own[s], std::min(left[s], right[s]) + climb);
   }

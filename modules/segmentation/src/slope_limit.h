@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Limits the slope of the ground.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,10 @@
 
 namespace pcl_bv {
 
-/// Lowers the heights of the first `rings` rings of cells over `plane`, metres, to the highest that climb
-/// nowhere more than `max_slope` (a tangent) against the level: a bank is not climbed, from whichever side.
-/// Ways between cells go from cell to cell (Borgefors 1986), at most 8 % longer than the straight ones where
-/// cells are as wide as long, and up to a fifth longer where they are not. O(cells).
+/// Lowers the heights of the first `rings` rings of cells to the highest surface whose slope against the
+/// horizontal is at most `max_slope` (a tangent), in every direction. Heights are relative to `plane`,
+/// metres. Distances are path lengths from cell to cell (Borgefors 1986), which exceed straight ones by at
+/// most 8 % if cells are as wide as long, else by up to a fifth. O(cells).
 void limit_slopes(float* heights, std::size_t rings, const Slope& plane, float max_slope);
 
 }  // namespace pcl_bv

@@ -12,23 +12,24 @@
 
 namespace pcl_bv {
 
-/// Disjoint sets of 0 .. n-1. The root of a set is its smallest member, so the outcome depends neither on the
-/// order of the unions nor on who does them.
+/// Disjoint sets of 0 to n - 1. The root of a set is its smallest member, so the result depends neither on
+/// the order of the unions nor on the threads.
 ///
-/// A parent is smaller than its child and only ever replaced by another ancestor, so that a reader that comes
-/// late finds a longer way to the same root: relaxed order will do (Anderson and Woll 1991).
+/// A parent is smaller than its child and is only replaced by another ancestor. A thread that reads an old
+/// parent finds a longer path to the same root, so relaxed memory order is enough (Anderson and Woll 1991).
 class UnionFind {
  public:
-  /// n sets of one.
+  /// Makes n sets of one member each.
   void reset(std::size_t n) {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
-  /// One more set of one: of n, if there were n members.
+  /// Adds a set with the one member n, for n members before.
   void add() { parent_.push_back(static_cast<std::uint32_t>(parent_.size())); }
 
-  /// Puts a root under another one, not greater, while no other thread knows either.
+  /// Sets the parent of a root to another root that is not larger. No other thread may use either at that
+  /// time.
   void set_root(std::uint32_t i, std::uint32_t root) { parent_[i] = root; }
 
   std::uint32_t find(std::uint32_t i) {
@@ -53,10 +54,10 @@ class UnionFind {
     }
   }
 
-  /// After the last union: every member's root.
+  /// Returns the root of every member. Call after the last union.
   const std::vector<std::uint32_t>& roots() {
     for (std::uint32_t& parent : parent_)
-      parent = parent_[parent];  // Parents come first and are done.
+      parent = parent_[parent];  // Parents are smaller, so already replaced by their roots.
     return parent_;
   }
 

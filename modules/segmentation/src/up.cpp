@@ -23,7 +23,7 @@ bool is_direction(const Vector3d& up) {
   return up.allFinite() && !up.isZero(0);
 }
 
-// Whether the text is three numbers between commas.
+// Reads three numbers between commas; false for other text.
 bool read_numbers(std::string_view text, Vector3d& up) {
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -51,7 +51,7 @@ Vector3d parse_up(std::string_view text) {
   return up;
 }
 
-std::string up_text(const Vector3d& up) {
+std::string format_up(const Vector3d& up) {
   std::string text;
   for (Index i = 0; i < 3; ++i) {
     if (up == Vector3d::Unit(i) || up == -Vector3d::Unit(i))
@@ -63,23 +63,23 @@ std::string up_text(const Vector3d& up) {
   return text;
 }
 
-Vector3d up_direction(const Vector3d& up) {
+Vector3d normalized_up(const Vector3d& up) {
   const FloatEnvironment environment;
-  if (!is_direction(up)) throw std::invalid_argument("up is " + up_text(up) + ", must be finite and not 0");
+  if (!is_direction(up)) throw std::invalid_argument("up is " + format_up(up) + ", must be finite and not 0");
   const Vector3d unit = unit3(Vector3d(up / up.cwiseAbs().maxCoeff()));
   return unit.array() + 0.0;  // no -0
 }
 
-UpFrame::UpFrame(const Vector3d& any_length) : up(up_direction(any_length)) {
+UpFrame::UpFrame(const Vector3d& any_length) : up(normalized_up(any_length)) {
   up.cwiseAbs().maxCoeff(&nearest);
   Vector3d axis = Vector3d::Zero();
   axis[nearest] = std::copysign(1, up[nearest]);
   along_axis = up == axis;
-  const auto turned = [&](Index i) -> Vector3d {  // as the axis is turned to up
+  const auto rotated = [&](Index i) -> Vector3d {  // rotated as the axis is rotated to up
     return Vector3d::Unit(i) - up[i] / (1 + std::abs(up[nearest])) * (up + axis);
   };
-  u = turned((nearest + 1) % 3);
-  v = turned((nearest + 2) % 3);
+  u = rotated((nearest + 1) % 3);
+  v = rotated((nearest + 2) % 3);
 }
 
 }  // namespace pcl_bv

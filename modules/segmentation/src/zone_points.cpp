@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In batches, a step after the other for all points of one: so compilers make vectors of all steps but those
-// that look something up.
+// Points are processed in batches, one step at a time for the whole batch, so that compilers vectorise all
+// steps except look-ups.
 
 #include "zone_points.h"
 
@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t kBatch = 512;
 
-// A cell whose lowest point is so far below all around it has a reflection in it, metres.
+// A cell whose lowest point is this far below all cells around it has a reflection in it; metres.
 constexpr float pit_depth = 0.2F;
 
-// Something stands in a cell if it holds points so far above its lowest one, metres: a curb does not, and
-// neither does what is over a road.
-constexpr float stands_from = 0.3F, stands_to = 2;
+// An object stands in a cell if it has points this far above its lowest one, metres. Curbs are lower, and
+// things above a road are higher.
+constexpr float object_from = 0.3F, object_to = 2;
 
-// Doubles may be greater than any float.
+// Clamps to the range of float.
 float in_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -largest, largest));
@@ -39,12 +39,13 @@ T load_coordinate(const std::byte* at) {
   return value;
 }
 
-// Calls put(x, n), where a point's coordinates are, `view.step()` bytes apart, for each of some points. It
-// puts what the zones see at n, and says whether that is a valid point, which stays. Returns how many do.
+// Calls put(x, n) for each point from `begin` to `end`; x is the address of its coordinates, which are
+// view.step() bytes apart. put() stores the point at position n and returns whether it is valid; the next
+// point overwrites an invalid one. Returns the number of valid points.
 template <typename Put>
 std::size_t load(const PointView& points, std::size_t begin, std::size_t end, std::int32_t* number,
                  const Put& put) {
-  const PointView view = points;  // of this loop only: not read again after each store
+  const PointView view = points;  // local, so that it is not read again after each store
   std::size_t n = 0;
   for (std::size_t i = begin; i < end; ++i) {
     number[n] = static_cast<std::int32_t>(view.index(i));
@@ -53,15 +54,16 @@ std::size_t load(const PointView& points, std::size_t begin, std::size_t end, st
   return n;
 }
 
-// Where some points go.
-struct Place {
+// Where load() stores points.
+struct LoadTarget {
   float *u, *v, *height;
   std::int32_t* number;
 };
 
-// Coordinates that the zones take as they are, but for the sign of one.
+// Loads floats for an up direction along an axis and a sensor at the origin: coordinates are only reordered,
+// and the sign of the height may change.
 std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
-                         const Place& to) {
+                         const LoadTarget& to) {
   const std::size_t step = view.step();
   const std::size_t u_at = (frame.nearest + 1) % 3 * step, v_at = (frame.nearest + 2) % 3 * step;
   const std::size_t height_at = static_cast<std::size_t>(frame.nearest) * step;
@@ -77,8 +79,8 @@ std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t e
 }
 
 template <typename T>
-std::size_t load_turned(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
-                        const Place& to) {
+std::size_t load_rotated(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
+                         const LoadTarget& to) {
   const std::size_t step = view.step();
   return load(view, begin, end, to.number, [&](const std::byte* x, std::size_t n) {
     const Coordinates p{load_coordinate<T>(x), load_coordinate<T>(x + step),
@@ -95,7 +97,7 @@ std::size_t load_turned(const PointView& view, std::size_t begin, std::size_t en
 
 GroundPoint ZoneFrame::point(const Coordinates& p) const {
   const double relative[3] = {p.x - sensor.x(), p.y - sensor.y(), p.z - sensor.z()};
-  if (along_axis) {  // The sums below would take 2 % of the time of a sweep to add zeros.
+  if (along_axis) {  // else the sums below would add zeros, 2 % of the time of a sweep
     return {in_float(relative[(nearest + 1) % 3]), in_float(relative[(nearest + 2) % 3]),
             in_float(up[nearest] * relative[nearest])};
   }
@@ -116,20 +118,20 @@ void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePa
   const FloatEnvironment environment;
   const bool is_float = view.scalar == ScalarType::float32;
   const bool upright = is_float && frame.along_axis && frame.sensor.isZero(0);
-  const auto load_batch = upright ? load_upright : is_float ? load_turned<float> : load_turned<double>;
+  const auto load_batch = upright ? load_upright : is_float ? load_rotated<float> : load_rotated<double>;
   std::size_t to = part.begin;
   for (std::size_t i = part.begin; i < part.end; i += kBatch) {
-    const Place batch{u_.data() + to, v_.data() + to, height.data() + to, number.data() + to};
+    const LoadTarget batch{u_.data() + to, v_.data() + to, height.data() + to, number.data() + to};
     const std::size_t count = load_batch(view, i, std::min(i + kBatch, part.end), frame, batch);
     float* const ranges = range.data() + to;
     std::uint16_t* const cells = cell.data() + to;
     for (std::size_t k = 0; k < count; ++k) {
       ranges[k] = range_of(batch.u[k], batch.v[k]);
-      cells[k] = static_cast<std::uint16_t>(cell_of(ranges[k], turn_of(batch.u[k], batch.v[k])));
+      cells[k] = static_cast<std::uint16_t>(cell_of(ranges[k], angle_in_turns(batch.u[k], batch.v[k])));
     }
     to += count;
   }
-  part.kept = to - part.begin;
+  part.valid = to - part.begin;
 }
 
 void ZonePoints::read(const PointView& view, const ZoneFrame& frame, const ParallelPolicy& policy) {
@@ -147,7 +149,7 @@ void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers
   numbers.resize(number.size());
   std::size_t count = 0;
   for (const ZonePart& part : parts) {
-    for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
+    for (std::size_t i = part.begin; i < part.begin + part.valid; ++i) {
       numbers[count] = number[i];
       count += cell[i] < rings * sector_count;
     }
@@ -155,58 +157,58 @@ void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers
   numbers.resize(count);
 }
 
-void ZonePoints::find_lows(const Slope& plane, ZonePart& part) {
+void ZonePoints::find_lowest(const Slope& plane, ZonePart& part) {
   const FloatEnvironment environment;
   const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
              slope_v = static_cast<float>(plane.slope_v);
-  std::vector<float>& low = part.cells.low;
-  low.assign(cell_count, no_low);
-  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
+  std::vector<float>& lowest = part.cells.lowest;
+  lowest.assign(cell_count, no_lowest);
+  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
     height[i] -= offset + (u_[i] * slope_u + v_[i] * slope_v);
-  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
-    low[cell[i]] = std::min(low[cell[i]], height[i]);
+  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
+    lowest[cell[i]] = std::min(lowest[cell[i]], height[i]);
 }
 
 void ZonePoints::fill_pits() {
-  float* const low = parts.front().cells.low.data();
+  float* const lowest = parts.front().cells.lowest.data();
   RingRow before, here, after;
-  before.fill(no_low);
-  here.copy(low);
+  before.fill(no_lowest);
+  here.copy(lowest);
   for (std::size_t ring = 0; ring + 1 < ring_count; ++ring) {
-    after.copy(low + (ring + 1) * sector_count);
-    float* const own = low + ring * sector_count;
+    after.copy(lowest + (ring + 1) * sector_count);
+    float* const own = lowest + ring * sector_count;
     for (std::size_t s = 0; s < sector_count; ++s) {
       const float left = std::min(before[s], std::min(here[s], after[s]));
       const float right = std::min(before[s + 2], std::min(here[s + 2], after[s + 2]));
       const float around = std::min(std::min(left, right), std::min(before[s + 1], after[s + 1]));
-      own[s] = here[s + 1] < around - pit_depth && around < no_low ? around : here[s + 1];
+      own[s] = here[s + 1] < around - pit_depth && around < no_lowest ? around : here[s + 1];
     }
     before = here;
     here = after;
   }
 }
 
-void ZonePoints::find_standing(const std::vector<float>& low, ZonePart& part) const {
-  std::vector<std::uint8_t>& stands = part.cells.stands;
-  stands.assign(cell_count, 0);
-  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
-    const float over = height[i] - low[cell[i]];
-    stands[cell[i]] |= static_cast<std::uint8_t>((over > stands_from) & (over < stands_to));
+void ZonePoints::find_objects(const std::vector<float>& lowest, ZonePart& part) const {
+  std::vector<std::uint8_t>& has_object = part.cells.has_object;
+  has_object.assign(cell_count, 0);
+  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i) {
+    const float over = height[i] - lowest[cell[i]];
+    has_object[cell[i]] |= static_cast<std::uint8_t>((over > object_from) & (over < object_to));
   }
 }
 
-void ZonePoints::place(const Slope& plane, const ParallelPolicy& policy) {
-  parts.for_each(policy, [&](ZonePart& part) { find_lows(plane, part); });
-  CellFacts& all = parts.front().cells;
+void ZonePoints::measure_from(const Slope& plane, const ParallelPolicy& policy) {
+  parts.for_each(policy, [&](ZonePart& part) { find_lowest(plane, part); });
+  CellSummary& all = parts.front().cells;
   for (const ZonePart& part : parts) {
     for (std::size_t i = 0; i < cell_count; ++i)
-      all.low[i] = std::min(all.low[i], part.cells.low[i]);
+      all.lowest[i] = std::min(all.lowest[i], part.cells.lowest[i]);
   }
   fill_pits();
-  parts.for_each(policy, [&](ZonePart& part) { find_standing(all.low, part); });
+  parts.for_each(policy, [&](ZonePart& part) { find_objects(all.lowest, part); });
   for (const ZonePart& part : parts) {
     for (std::size_t i = 0; i < cell_count; ++i)
-      all.stands[i] |= part.cells.stands[i];
+      all.has_object[i] |= part.cells.has_object[i];
   }
 }
 

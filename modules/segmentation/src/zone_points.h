@@ -1,83 +1,91 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The points and cells of GroundZones.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 #include "plane_search.h"
 #include "polar_cells.h"
 #include "up_frame.h"
 
 namespace pcl_bv {
 
-/// A place beside the sensor, and its height above it.
+/// A point in the frame of the zones: horizontal position and height relative to the sensor, metres.
 struct GroundPoint {
   float u, v, height;
 };
 
-/// height = offset + u * slope_u + v * slope_v
+/// A plane: height = offset + u * slope_u + v * slope_v.
 struct Slope {
   double offset, slope_u, slope_v;
 };
 
-/// The cloud as seen by the zones.
+/// The frame of the zones: horizontal axes, up and the sensor as the origin.
 struct ZoneFrame : UpFrame {
   Eigen::Vector3d sensor;
 
-  ZoneFrame(const Eigen::Vector3d& direction, const Eigen::Vector3d& place)
-      : UpFrame(direction), sensor(place) {}
+  ZoneFrame(const Eigen::Vector3d& direction, const Eigen::Vector3d& position)
+      : UpFrame(direction), sensor(position) {}
 
+  /// Converts a point of the cloud.
   GroundPoint point(const Coordinates& p) const;
+  /// Converts a plane of the cloud.
   Slope slope(const Plane& plane) const;
+  /// Returns the horizontal plane at `height` below the sensor, in the frame of the cloud.
   Plane level(double height) const;
 };
 
-/// What the cells of some points hold.
-struct CellFacts {
-  std::vector<float> low;            ///< Height of the lowest point over the plane, metres; no_low: none.
-  std::vector<std::uint8_t> stands;  ///< Whether something stands there: points above the lowest one.
+/// A summary of each cell, from some of the points.
+struct CellSummary {
+  /// Height of the lowest point above the plane, metres; no_lowest if empty.
+  std::vector<float> lowest;
+  /// Whether an object stands in the cell: it has points 0.3 to 2 m above the lowest one.
+  std::vector<std::uint8_t> has_object;
 };
 
-inline constexpr float no_low = 1e30F;
+inline constexpr float no_lowest = 1e30F;
 
-/// Points of a view that one thread takes.
+/// A part of the points of a view, which one thread takes.
 struct ZonePart {
-  std::size_t begin, end;  ///< In the view.
-  std::size_t kept;        ///< Valid ones, which lie from `begin` on.
-  CellFacts cells;
+  std::size_t begin, end;  ///< Range in the view.
+  std::size_t valid;       ///< Number of valid points, stored from `begin`.
+  CellSummary cells;
 };
 
-/// The valid points of a view, part by part in its order.
+/// The valid points of a view, part by part, in its order.
 class ZonePoints {
  public:
-  Parts<ZonePart> parts;
-  std::vector<std::int32_t> number;  ///< In the cloud.
+  PointParts<ZonePart> parts;
+  std::vector<std::int32_t> number;  ///< Index in the cloud.
   std::vector<std::uint16_t> cell;
-  std::vector<float> range;   ///< Metres from the centre.
-  std::vector<float> height;  ///< Metres above the plane that place() was told.
+  std::vector<float> range;  ///< Horizontal distance from the sensor, metres.
+  /// Metres above the sensor; after measure_from(), above its plane.
+  std::vector<float> height;
 
-  /// Replaces all points. O(n).
+  /// Replaces all points by the valid points of a view. O(n).
   void read(const PointView& view, const ZoneFrame& frame, const ParallelPolicy& policy);
 
-  /// Numbers of the points in the first `rings` rings.
+  /// Lists the cloud indices of the points in the first `rings` rings.
   void list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const;
 
-  /// Heights become those over `plane`; what all cells hold is then in that of the first part.
-  void place(const Slope& plane, const ParallelPolicy& policy);
+  /// Makes the heights relative to `plane`, and computes cells().
+  void measure_from(const Slope& plane, const ParallelPolicy& policy);
 
-  const CellFacts& cells() const { return parts.front().cells; }
+  /// Returns the summary of all cells, which measure_from() stores in the first part.
+  const CellSummary& cells() const { return parts.front().cells; }
 
  private:
   void read_part(const PointView& view, const ZoneFrame& frame, ZonePart& part);
-  void find_lows(const Slope& plane, ZonePart& part);
+  void find_lowest(const Slope& plane, ZonePart& part);
   void fill_pits();
-  void find_standing(const std::vector<float>& low, ZonePart& part) const;
+  void find_objects(const std::vector<float>& lowest, ZonePart& part) const;
 
   std::vector<float> u_, v_;
 };

@@ -7,52 +7,53 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "argument_checks.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "refusal.h"
 #include "vectors.h"
 
 namespace pcl_bv {
 namespace {
 
-// Questions that a thread takes at a time: some 20 us of them.
+// Number of queries that a thread takes at a time; they take about 20 us.
 constexpr std::size_t kBlock = 256;
 
-// Fewer than four blocks are done before another thread has come.
-std::size_t threads_for_questions(std::size_t count) {
+// Fewer than four blocks are finished before another thread has started.
+std::size_t threads_for_queries(std::size_t count) {
   return count / (4 * kBlock);
 }
 
-// Calls ask(begin, end) for blocks of `count` questions.
-template <typename Ask>
-void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
-  for_each_run(limit_threads(execution.parallel, threads_for_questions(count)), count, kBlock,
-               [&](std::size_t begin, std::size_t end) {
-                 const FloatEnvironment environment;
-                 ask(begin, end);
-               });
+// Calls query(begin, end) for blocks of the `count` queries.
+template <typename Query>
+void query_blocks(std::size_t count, const Execution& execution, const Query& query) {
+  for_each_range(limit_threads(execution.parallel, threads_for_queries(count)), count, kBlock,
+                 [&](std::size_t begin, std::size_t end) {
+                   const FloatEnvironment environment;
+                   query(begin, end);
+                 });
 }
 
-void require_in_memory(const PointView& places) {
-  if (places.source != nullptr) throw std::invalid_argument("PointTree: the places must be in memory");
+void require_in_memory(const PointView& query_points) {
+  if (query_points.source != nullptr)
+    throw std::invalid_argument("PointTree: the query points must be in memory");
 }
 
-Eigen::Vector3d place_of(const PointView& places, std::size_t i) {
-  return vector(load_point(places, i));
+Eigen::Vector3d query_point(const PointView& query_points, std::size_t i) {
+  return vector(load_point(query_points, i));
 }
 
-// ask(place, found) for each place, and all that was found in a row.
-template <typename Ask>
-void list_for_each(const PointView& places, const Execution& execution, NeighborLists& found,
-                   const Ask& ask) {
-  require_in_memory(places);
-  std::vector<std::vector<Neighbor>> blocks(places.count / kBlock + 1);
-  found.first.assign(places.count + 1, 0);
-  ask_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
+// Calls query(query point, one) for each query point and concatenates the results.
+template <typename Query>
+void list_for_each(const PointView& query_points, const Execution& execution, NeighborLists& found,
+                   const Query& query) {
+  require_in_memory(query_points);
+  std::vector<std::vector<Neighbor>> blocks(query_points.count / kBlock + 1);
+  found.first.assign(query_points.count + 1, 0);
+  query_blocks(query_points.count, execution, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor>& block = blocks[begin / kBlock];
     std::vector<Neighbor> one;
     for (std::size_t i = begin; i < end; ++i) {
-      ask(place_of(places, i), one);
+      query(query_point(query_points, i), one);
       found.first[i + 1] = one.size();
       block.insert(block.end(), one.begin(), one.end());
     }
@@ -66,45 +67,48 @@ void list_for_each(const PointView& places, const Execution& execution, Neighbor
 
 }  // namespace
 
-// The kernels themselves: a FloatEnvironment for each question would be an eighth of its time.
-void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
+// Calls the kernel directly: PointTree::nearest() sets a FloatEnvironment for each query, an eighth of its
+// time.
+void nearest(const PointTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
              double max_distance, const Execution& execution) {
-  require_in_memory(places);
+  require_in_memory(query_points);
   const Neighbor none{-1, std::numeric_limits<double>::infinity()};
   const double limit = square_limit(max_distance);
-  found.assign(places.count, none);
-  ask_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
+  found.assign(query_points.count, none);
+  query_blocks(query_points.count, execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Coordinates place = load_point(places, i);
-      if (is_valid(place)) found[i] = find_nearest(execution.isa, tree.packed(), place, limit).value_or(none);
+      const Coordinates point = load_point(query_points, i);
+      if (is_valid(point)) found[i] = find_nearest(execution.isa, tree.packed(), point, limit).value_or(none);
     }
   });
 }
 
-void nearest(const PointTree& tree, const PointView& places, std::size_t k, NeighborLists& found,
+void nearest(const PointTree& tree, const PointView& query_points, std::size_t k, NeighborLists& found,
              double max_distance, const Execution& execution) {
-  list_for_each(places, execution, found, [&](const Eigen::Vector3d& place, std::vector<Neighbor>& one) {
-    tree.nearest(place, k, one, max_distance);
-  });
+  list_for_each(query_points, execution, found,
+                [&](const Eigen::Vector3d& point, std::vector<Neighbor>& one) {
+                  tree.nearest(point, k, one, max_distance);
+                });
 }
 
-void near(const PointTree& tree, const PointView& places, double distance, NeighborLists& found,
+void near(const PointTree& tree, const PointView& query_points, double distance, NeighborLists& found,
           const Execution& execution) {
-  list_for_each(places, execution, found, [&](const Eigen::Vector3d& place, std::vector<Neighbor>& one) {
-    tree.near(place, distance, one);
-    std::sort(one.begin(), one.end());
-  });
+  list_for_each(query_points, execution, found,
+                [&](const Eigen::Vector3d& point, std::vector<Neighbor>& one) {
+                  tree.near(point, distance, one);
+                  std::sort(one.begin(), one.end());
+                });
 }
 
 void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution) {
   inside.resize(spheres.size());
-  ask_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
+  query_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Sphere& sphere = spheres[i];
-      inside[i] = static_cast<std::uint8_t>(
-          !sphere.empty() &&
-          any_in_ball(execution.isa, tree.packed(), coordinates(sphere.center()), sphere.contained_square()));
+      inside[i] = static_cast<std::uint8_t>(!sphere.empty() && any_in_ball(execution.isa, tree.packed(),
+                                                                           coordinates(sphere.center()),
+                                                                           sphere.max_squared_distance()));
     }
   });
 }
@@ -112,7 +116,7 @@ void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::
 void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
                 std::vector<std::uint8_t>& inside, const Execution& execution) {
   inside.resize(volumes.size());
-  ask_blocks(volumes.size(), execution, [&](std::size_t begin, std::size_t end) {
+  query_blocks(volumes.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       inside[i] = static_cast<std::uint8_t>(tree.any_inside(volumes[i]));
   });

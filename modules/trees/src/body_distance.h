@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Distances of points and boxes from a volume.
 #pragma once
 
 #include "box_relation.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 
-/// Distances from a volume that is not empty.
+/// Distances from a non-empty volume.
 class BodyDistance {
  public:
   explicit BodyDistance(const AnyVolume& volume) : body_(volume) {
@@ -17,14 +18,15 @@ class BodyDistance {
     size_ = taxicab3(box.min()) + taxicab3(box.max());
   }
 
-  double of(const Eigen::Vector3d& point) const { return distance(body_, point); }
+  double distance_to(const Eigen::Vector3d& point) const { return distance(body_, point); }
 
-  /// A lower bound of of(p) for every p in the box; NaN for an empty one. Distances differ by no more than
-  /// places do, and distance() is short of the true one by 1e-12 of it and of the sizes.
-  double at_least(const PlainBox& box) const {
+  /// Returns a lower bound of distance_to(p) for all p in the box; NaN for an empty box. Distances of two
+  /// points from the volume differ at most by the distance between the points. distance() is below the exact
+  /// distance by at most 1e-12 of the distance and of the sizes.
+  double lower_bound(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
-    const double reach = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = of(middle);
-    return away - reach - 0x1p-36 * (away + reach + size_ + taxicab3(middle));
+    const double radius = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = distance_to(middle);
+    return away - radius - 0x1p-36 * (away + radius + size_ + taxicab3(middle));
   }
 
  private:

@@ -14,9 +14,9 @@ std::size_t groups_of(std::size_t below) {
   return (below + kTreeWidth - 1) / kTreeWidth;
 }
 
-// What rounding to float, and the two roundings before, may have cost. Denormal floats have an error of their
-// own.
-float doubt(float rounded) {
+// Error bound of the rounding to float and of the two roundings before it. The second term is for denormal
+// floats.
+float rounding_error_bound(float rounded) {
   return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
 }
 
@@ -32,34 +32,35 @@ const BoxGroup& empty_group() {
   return group;
 }
 
-// A ball surely holds a point of a box once it reaches all of one side, at best from the middle of that side.
-float least_reached(const BoxGroup& group) {
-  float least = std::numeric_limits<float>::infinity();
+// Returns the squared radius of the smallest ball that covers a face of one of the boxes; the best centre is
+// the middle of the face. Each face of a tight box has a point, so the ball certainly holds one.
+float min_side_radius(const BoxGroup& group) {
+  float smallest = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
     const float x = group.high[0][k] - group.low[0][k], y = group.high[1][k] - group.low[1][k],
                 z = group.high[2][k] - group.low[2][k];
-    least = std::min({least, x * x + y * y, y * y + z * z, z * z + x * x});
+    smallest = std::min({smallest, x * x + y * y, y * y + z * z, z * z + x * x});
   }
-  return least / 4;
+  return smallest / 4;
 }
 
 }  // namespace
 
-void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds) {
+void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bounds) {
   boxes.levels = 0;
-  boxes.below[0] = items;
+  boxes.child_counts[0] = items;
   if (items == 0) {
     boxes.groups.clear();
     return;
   }
   do {
-    const std::size_t groups = groups_of(boxes.below[boxes.levels]);
+    const std::size_t groups = groups_of(boxes.child_counts[boxes.levels]);
     ++boxes.levels;
     boxes.first[boxes.levels] = boxes.first[boxes.levels - 1] + groups;
-    boxes.below[boxes.levels] = groups;
-  } while (boxes.below[boxes.levels] > 1);
+    boxes.child_counts[boxes.levels] = groups;
+  } while (boxes.child_counts[boxes.levels] > 1);
   boxes.groups.assign(boxes.first[boxes.levels], empty_group());
-  if (!(bounds.low.x <= bounds.high.x)) return;  // there are items, but nowhere
+  if (!(bounds.low.x <= bounds.high.x)) return;  // items without any position
   double half = 0;
   const auto middle = [&half](double low, double high) {
     const double at = low / 2 + high / 2;
@@ -68,7 +69,8 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds
   };
   boxes.origin = {middle(bounds.low.x, bounds.high.x), middle(bounds.low.y, bounds.high.y),
                   middle(bounds.low.z, bounds.high.z)};
-  // Smaller clouds than 2^-400 lie in one box: their squares would leave the range of double.
+  // Clouds with a half extent up to 2^-400 are not scaled, so all their boxes are nearly the same: the square
+  // of a larger scale would leave the range of double.
   boxes.scale = std::ldexp(1.0, half > 0x1p-400 ? -std::ilogb(half) - 1 : 0);
 }
 
@@ -76,16 +78,16 @@ void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, co
   BoxGroup& group = boxes.groups[item / kTreeWidth];
   const std::size_t k = item % kTreeWidth;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto least = static_cast<float>((low[axis] - boxes.origin[axis]) * boxes.scale);
-    const auto most = static_cast<float>((high[axis] - boxes.origin[axis]) * boxes.scale);
-    group.low[axis][k] = least - doubt(least);
-    group.high[axis][k] = most + doubt(most);
+    const auto smallest = static_cast<float>((low[axis] - boxes.origin[axis]) * boxes.scale);
+    const auto largest = static_cast<float>((high[axis] - boxes.origin[axis]) * boxes.scale);
+    group.low[axis][k] = smallest - rounding_error_bound(smallest);
+    group.high[axis][k] = largest + rounding_error_bound(largest);
   }
 }
 
 void raise_levels(BoxLevels& boxes) {
   for (std::size_t level = 1; level < boxes.levels; ++level) {
-    for (std::size_t item = 0; item < boxes.below[level]; ++item) {
+    for (std::size_t item = 0; item < boxes.child_counts[level]; ++item) {
       const BoxGroup& from = boxes.groups[boxes.first[level - 1] + item];
       BoxGroup& to = boxes.groups[boxes.first[level] + item / kTreeWidth];
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,9 +98,9 @@ void raise_levels(BoxLevels& boxes) {
   }
 }
 
-void find_least_reached(BoxLevels& boxes) {
-  boxes.least_reached.resize(boxes.groups.size());
-  std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.least_reached.begin(), least_reached);
+void find_min_side_radii(BoxLevels& boxes) {
+  boxes.min_side_radius.resize(boxes.groups.size());
+  std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.min_side_radius.begin(), min_side_radius);
 }
 
 }  // namespace pcl_bv

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Builds the levels of boxes (BoxLevels) of a tree.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +12,16 @@
 
 namespace pcl_bv {
 
-/// Makes room for the boxes of `items` items within the bounds, and chooses their frame.
-void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds);
+/// Allocates the boxes of `items` items within the bounds, and chooses their frame (origin and scale).
+void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bounds);
 
-/// Sets box `item` of level 0 to one around [low, high], rounded outward.
+/// Sets box `item` of level 0 to a box around [low, high], rounded outward.
 void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, const Coordinates& high);
 
-/// Sets the boxes of all levels but 0 from those below. O(items / 16), in the calling thread.
+/// Sets the boxes of level 1 and above from the levels below. O(items / 16), in the calling thread.
 void raise_levels(BoxLevels& boxes);
 
-/// Sets least_reached from the boxes. O(items), in the calling thread.
-void find_least_reached(BoxLevels& boxes);
+/// Sets BoxLevels::min_side_radius from the boxes. O(items), in the calling thread.
+void find_min_side_radii(BoxLevels& boxes);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of three in any order are good enough here: margins are a thousand times what rounding takes.
+// Sums of three terms may be added in any order here: the margins are a thousand times the rounding errors.
 
 #include "box_relation.h"
 
@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// A box about its centre, seen from the region's, and by how much what is computed of both may be wrong.
+// A box as half extents and a centre relative to the region's centre, and an error bound for comparisons.
 struct CenteredBox {
   Eigen::Vector3d center, half;
   double margin;
@@ -22,11 +22,11 @@ struct CenteredBox {
   CenteredBox(const ConvexRegion& region, const PlainBox& box)
       : center(0.5 * (box.low + box.high) - vector(region.center)), half(0.5 * (box.high - box.low)) {
     const double size = taxicab3(box.low) + taxicab3(box.high) + taxicab3(region.center);
-    margin = 0x1p-38 * (size + region.radius) + 4 * region.doubt + 0x1p-480;
+    margin = 0x1p-38 * (size + region.radius) + 4 * region.surface_error + 0x1p-480;
   }
 
   double along(const Direction& n) const { return dot3(n, center); }
-  double reach(const Direction& n) const {
+  double half_width(const Direction& n) const {
     return std::abs(n[0]) * half[0] + std::abs(n[1]) * half[1] + std::abs(n[2]) * half[2];
   }
 };
@@ -35,50 +35,51 @@ Relation relation_to_sides(const ConvexRegion& region, const PlainBox& box) {
   bool inside = true;
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    if (box.low[k] > region.high[axis] || box.high[k] < region.low[axis]) return Relation::apart;
+    if (box.low[k] > region.high[axis] || box.high[k] < region.low[axis]) return Relation::outside;
     inside = inside && box.low[k] >= region.low[axis] && box.high[k] <= region.high[axis];
   }
-  return inside ? Relation::holds : Relation::crosses;
+  return inside ? Relation::inside : Relation::crossing;
 }
 
 Relation relation_to_planes(const ConvexRegion& region, const CenteredBox& box) {
   bool inside = true;
   for (const HalfSpace& plane : region.planes) {
     const Direction n = {plane.x, plane.y, plane.z};
-    const double at = box.along(n), reach = box.reach(n);
-    if (at - reach > plane.limit + box.margin) return Relation::apart;
-    inside = inside && at + reach < plane.limit - box.margin;
+    const double at = box.along(n), half_width = box.half_width(n);
+    if (at - half_width > plane.limit + box.margin) return Relation::outside;
+    inside = inside && at + half_width < plane.limit - box.margin;
   }
-  return inside ? Relation::holds : Relation::crosses;
+  return inside ? Relation::inside : Relation::crossing;
 }
 
 Relation relation_to_ball(const ConvexRegion& region, const CenteredBox& box) {
   const Eigen::Vector3d at = box.center.cwiseAbs();
   const double nearest = (at - box.half).cwiseMax(0).norm(), farthest = (at + box.half).norm();
-  if (nearest > region.radius + box.margin) return Relation::apart;
-  return farthest < region.radius - box.margin ? Relation::holds : Relation::crosses;
+  if (nearest > region.radius + box.margin) return Relation::outside;
+  return farthest < region.radius - box.margin ? Relation::inside : Relation::crossing;
 }
 
 double weighted_square(double weight, double beyond) {
   return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite
 }
 
-// Slabs, and what is round: both by how far the box is along each axis at least and at most.
+// For slabs and bodies: compares the smallest and the largest distance of the box from the centre along each
+// axis.
 Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
   bool inside = true;
-  double least = 0, most = 0;
+  double smallest = 0, largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double at = std::abs(box.along(region.axes[i])), reach = box.reach(region.axes[i]);
-    const double near = at - reach - box.margin, far = at + reach + box.margin;
-    if (near > region.slab[i]) return Relation::apart;
+    const double at = std::abs(box.along(region.axes[i])), half_width = box.half_width(region.axes[i]);
+    const double near = at - half_width - box.margin, far = at + half_width + box.margin;
+    if (near > region.slab[i]) return Relation::outside;
     inside = inside && far < region.slab[i];
-    least += weighted_square(region.weight[i], near - region.core[i]);
-    most += weighted_square(region.weight[i], far - region.core[i]);
+    smallest += weighted_square(region.weight[i], near - region.core[i]);
+    largest += weighted_square(region.weight[i], far - region.core[i]);
   }
-  if (region.shape == RegionShape::slabs) return inside ? Relation::holds : Relation::crosses;
+  if (region.shape == RegionShape::slabs) return inside ? Relation::inside : Relation::crossing;
   const double square = region.radius * region.radius;
-  if (least > square) return Relation::apart;
-  return inside && most < square ? Relation::holds : Relation::crosses;
+  if (smallest > square) return Relation::outside;
+  return inside && largest < square ? Relation::inside : Relation::crossing;
 }
 
 }  // namespace

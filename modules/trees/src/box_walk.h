@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ways through boxes of boxes, for questions that are not the vector kernels'.
+// Traversals of levels of boxes, for queries without a vector kernel of their own.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace pcl_bv {
 
-/// Calls visit(item) for the items in groups whose bits pick(group's number) gives; ends where it returns
-/// true.
+/// Depth-first traversal. pick(group) returns the boxes of a group to enter, as bits. Calls visit(item) for
+/// the items entered; stops and returns true when visit returns true.
 template <typename Pick, typename Visit>
 bool walk(const BoxLevels& boxes, std::size_t level, std::size_t group, const Pick& pick,
           const Visit& visit) {
@@ -33,41 +33,43 @@ bool walk(const BoxLevels& boxes, const Pick& pick, const Visit& visit) {
   return boxes.levels != 0 && walk(boxes, boxes.levels - 1, 0, pick, visit);
 }
 
-/// Calls visit(item) for the items whose bound is at most limit(), which visit may lower: of each group at
-/// first where it is least. bounds(group's number) are those of its boxes, infinity where nothing is to be
-/// found; what it says of boxes that a group lacks does not matter.
+/// Calls visit(item) for the items whose lower bound is at most limit(), which visit may lower. In each
+/// group, boxes are entered in ascending order of their bounds. bounds(group) returns the bounds of the 16
+/// boxes of a group; infinity excludes a box. Its values for boxes that the group lacks are ignored.
 template <typename Bounds, typename Limit, typename Visit>
-void descend(const BoxLevels& boxes, std::size_t level, std::size_t group, const Bounds& bounds,
-             const Limit& limit, const Visit& visit) {
+void visit_nearest_first(const BoxLevels& boxes, std::size_t level, std::size_t group, const Bounds& bounds,
+                         const Limit& limit, const Visit& visit) {
   struct Child {
     double bound;
     std::size_t item;
   };
   std::array<Child, kTreeWidth> children;
   const auto of_boxes = bounds(boxes.first[level] + group);
-  const std::size_t first = group * kTreeWidth, count = std::min(kTreeWidth, boxes.below[level] - first);
-  const double most = std::min<double>(limit(), std::numeric_limits<double>::max());
-  std::size_t kept = 0;
+  const std::size_t first = group * kTreeWidth,
+                    count = std::min(kTreeWidth, boxes.child_counts[level] - first);
+  const double largest = std::min<double>(limit(), std::numeric_limits<double>::max());
+  std::size_t entered = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double bound = of_boxes[k];
-    if (!(bound <= most)) continue;
-    std::size_t place = kept++;  // mostly they are few: in order as they come
-    for (; place > 0 && bound < children[place - 1].bound; --place)
-      children[place] = children[place - 1];
-    children[place] = {bound, first + k};
+    if (!(bound <= largest)) continue;
+    std::size_t position = entered++;  // insertion sort, as mostly few are left
+    for (; position > 0 && bound < children[position - 1].bound; --position)
+      children[position] = children[position - 1];
+    children[position] = {bound, first + k};
   }
-  for (std::size_t c = 0; c < kept && children[c].bound <= limit(); ++c) {
+  for (std::size_t c = 0; c < entered && children[c].bound <= limit(); ++c) {
     if (level == 0) {
       visit(children[c].item);
     } else {
-      descend(boxes, level - 1, children[c].item, bounds, limit, visit);
+      visit_nearest_first(boxes, level - 1, children[c].item, bounds, limit, visit);
     }
   }
 }
 
 template <typename Bounds, typename Limit, typename Visit>
-void descend(const BoxLevels& boxes, const Bounds& bounds, const Limit& limit, const Visit& visit) {
-  if (boxes.levels != 0) descend(boxes, boxes.levels - 1, 0, bounds, limit, visit);
+void visit_nearest_first(const BoxLevels& boxes, const Bounds& bounds, const Limit& limit,
+                         const Visit& visit) {
+  if (boxes.levels != 0) visit_nearest_first(boxes, boxes.levels - 1, 0, bounds, limit, visit);
 }
 
 }  // namespace pcl_bv

@@ -7,16 +7,16 @@
 #include <bit>
 #include <stdexcept>
 
-#include "grown.h"
-#include "image.h"
+#include "argument_checks.h"
+#include "inflated.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/policy.h"
-#include "pcl_bv/volumes/pairs.h"
-#include "refusal.h"
+#include "pcl_bv/volumes/pair_queries.h"
+#include "rotatable.h"
 #include "sphere_around.h"
+#include "transformed_point.h"
 #include "tree_overlap.h"
-#include "turnable.h"
 #include "vectors.h"
 #include "volume_boxes.h"
 #include "volume_walk.h"
@@ -27,45 +27,50 @@ namespace {
 void require(const Eigen::Isometry3d& pose, double margin) {
   if (!pose.matrix().allFinite()) throw std::invalid_argument("within(): the pose must be finite");
   if (!(margin >= 0 && margin <= kMaxCoordinate))
-    refuse("within(): the margin must be from 0 to 1e100", margin);
+    throw_out_of_range_value("within(): the margin must be from 0 to 1e100", margin);
 }
 
 struct Prepared {
   ConvexBody body;
-  AnyVolume turning;  // of a kind that can be turned, holding the volume
-  Sphere around;      // holding it, too, if one is known
+  AnyVolume rotatable_volume;  // the volume, or a larger one, as a type that can be rotated
+  Sphere bounding_sphere;      // a sphere around the volume; empty if none is known
 
   explicit Prepared(const AnyVolume& volume)
-      : body(volume), turning(turnable(volume)), around(sphere_around(extent_of(volume))) {}
+      : body(volume),
+        rotatable_volume(rotatable(volume)),
+        bounding_sphere(sphere_around(extent_of(volume))) {}
 };
 
-// Whether a point may be near a volume where it is now: a fiftieth of the time of touches().
-bool may_touch(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double stretch,
-               double margin) {
+// Returns whether a point may be within `margin` of a moved volume. Conservative; takes a fiftieth of the
+// time of is_within().
+bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
+                   double stretch, double margin) {
   if (volume.body.empty()) return false;
-  if (volume.around.empty()) return true;
-  const Image center = image_of(pose, coordinates(volume.around.center()));
-  return any_within(points, center, volume.around.radius() * stretch + margin);
+  if (volume.bounding_sphere.empty()) return true;
+  const TransformedPoint center = transform_point(pose, coordinates(volume.bounding_sphere.center()));
+  return any_within(points, center, volume.bounding_sphere.radius() * stretch + margin);
 }
 
-// Of a volume where it is now.
-bool touches(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double margin) {
-  const ConvexBody body = volume.body.moved(pose);
-  const PointView places = points.packed().view();
-  return walk_inside(points.isa(), points.packed(), grown(transformed(volume.turning, pose), margin),
+// Returns whether a point is within `margin` of a moved volume.
+bool is_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
+               double margin) {
+  const ConvexBody body = volume.body.transformed(pose);
+  const PointView view = points.packed().view();
+  return walk_inside(points.isa(), points.packed(),
+                     inflated(transformed(volume.rotatable_volume, pose), margin),
                      [&](std::size_t packet, std::uint32_t bits) {
                        for (; bits != 0; bits &= bits - 1) {
                          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-                         const Coordinates p = load_point(places, packet * kTreeWidth + lane);
+                         const Coordinates p = load_point(view, packet * kTreeWidth + lane);
                          if (distance(body, vector(p)) <= margin) return true;
                        }
                        return false;
                      });
 }
 
-// What is within `margin` of a volume where it is now is in here.
-PlaceBounds extent_near(const AnyVolume& turning, const Eigen::Isometry3d& pose, double margin) {
-  PlaceBounds box = extent_of(transformed(turning, pose));
+// Returns a box around everything within `margin` of a moved volume.
+PositionBounds extent_near(const AnyVolume& volume, const Eigen::Isometry3d& pose, double margin) {
+  PositionBounds box = extent_of(transformed(volume, pose));
   box.low = {-add_up(-box.low.x, margin), -add_up(-box.low.y, margin), -add_up(-box.low.z, margin)};
   box.high = {add_up(box.high.x, margin), add_up(box.high.y, margin), add_up(box.high.z, margin)};
   return box;
@@ -83,7 +88,7 @@ MovingVolumes::MovingVolumes(std::vector<AnyVolume> volumes) {
   const FloatEnvironment environment;
   auto state = std::make_shared<State>();
   state->volumes = std::move(volumes);
-  std::vector<PlaceBounds> extents;
+  std::vector<PositionBounds> extents;
   for (const AnyVolume& volume : state->volumes) {
     state->prepared.emplace_back(volume);
     extents.push_back(extent_of(volume));
@@ -98,24 +103,26 @@ const std::vector<AnyVolume>& MovingVolumes::volumes() const {
 
 namespace {
 
-// Calls found(i) for the volumes that a point is near, ascending; ends where that returns true.
+// Calls found(i) for the volumes within `margin` of a point, ascending. Stops and returns true when found()
+// returns true.
 template <typename Found>
-bool each_touched(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
-                  double margin, const Found& found) {
+bool each_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
+                 double margin, const Found& found) {
   const FloatEnvironment environment;
   require(pose, margin);
   const std::vector<Prepared>& prepared = volumes.state().prepared;
-  const double stretch = stretch_of(pose);
+  const double stretch = max_stretch(pose);
   for (std::size_t i = 0; i < prepared.size(); ++i) {
-    if (may_touch(points, prepared[i], pose, stretch, margin) && touches(points, prepared[i], pose, margin) &&
-        found(static_cast<std::int32_t>(i))) {
+    if (may_be_within(points, prepared[i], pose, stretch, margin) &&
+        is_within(points, prepared[i], pose, margin) && found(static_cast<std::int32_t>(i))) {
       return true;
     }
   }
   return false;
 }
 
-// Calls found(i, j) for the pairs that are near, by j; ends where that returns true.
+// Calls found(i, j) for the pairs of volumes within `margin`, in the order of j. Stops and returns true when
+// found() returns true.
 template <typename Found>
 bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                double margin, const Found& found) {
@@ -125,8 +132,8 @@ bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const 
   for (std::size_t j = 0; j < moving.prepared.size(); ++j) {
     const Prepared& other = moving.prepared[j];
     if (other.body.empty()) continue;
-    const PlaceBounds near = extent_near(other.turning, pose, margin);
-    const ConvexBody body = other.body.moved(pose);
+    const PositionBounds near = extent_near(other.rotatable_volume, pose, margin);
+    const ConvexBody body = other.body.transformed(pose);
     const bool ended = state.boxes.visit(state.boxes.query(near.low, near.high), [&](std::uint32_t i) {
       return within(state.prepared[i].body, body, margin) &&
              found(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
@@ -146,14 +153,14 @@ bool within(const PointTree& points, const PointTree& others, const Eigen::Isome
 
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin) {
-  return each_touched(points, volumes, pose, margin, [](std::int32_t) { return true; });
+  return each_within(points, volumes, pose, margin, [](std::int32_t) { return true; });
 }
 
 void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
-                 double margin, std::vector<std::int32_t>& touched) {
-  touched.clear();
-  each_touched(points, volumes, pose, margin, [&](std::int32_t i) {
-    touched.push_back(i);
+                 double margin, std::vector<std::int32_t>& indices) {
+  indices.clear();
+  each_within(points, volumes, pose, margin, [&](std::int32_t i) {
+    indices.push_back(i);
     return false;
   });
 }

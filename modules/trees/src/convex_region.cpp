@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -20,7 +20,7 @@ Direction direction(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// More than what contains() of any volume adds to it, along an axis.
+// Returns more than contains() of any volume type accepts beyond the volume, along an axis.
 double margin(double coordinate) {
   return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
 }
@@ -29,7 +29,7 @@ ConvexRegion around(const AnyVolume& volume, RegionShape shape, const Eigen::Vec
                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity()) {
   const Aabb tight = aabb(volume);
   const double size = std::max(tight.min().cwiseAbs().maxCoeff(), tight.max().cwiseAbs().maxCoeff());
-  const Aabb box = aabb(grown(volume, margin(size)));
+  const Aabb box = aabb(inflated(volume, margin(size)));
   ConvexRegion region;
   region.shape = shape;
   region.low = coordinates(box.min());
@@ -48,8 +48,8 @@ Eigen::Matrix3d axes_about(const Eigen::Vector3d& unit) {
   return axes;
 }
 
-// Half-spaces seen from a centre, as they are added. A normal along an axis gives the box a side: contains()
-// adds less than margin() to it.
+// Collects half-spaces relative to a centre. A normal along an axis also gives the box a side: contains()
+// accepts less than margin() beyond it.
 class Planes {
  public:
   explicit Planes(const Aabb& box) : center_(box.empty() ? Eigen::Vector3d::Zero().eval() : box.center()) {
@@ -63,13 +63,14 @@ class Planes {
     const double length = normal.stableNorm();
     const Eigen::Vector3d n = normal / length;
     region_.planes.push_back({n.x(), n.y(), n.z(), offset / length - dot3(n, center_)});
-    region_.doubt = std::max(region_.doubt, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
+    region_.surface_error =
+        std::max(region_.surface_error, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
     bound(n, offset / length, region_.low.x, region_.high.x, 0);
     bound(n, offset / length, region_.low.y, region_.high.y, 1);
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
-  // Where planes along the axes leave the region open, all of them together may not.
+  // If the planes along the axes leave the box unbounded, all planes together may bound it.
   template <typename Volume>
   const ConvexRegion& region_within(const Volume& volume) {
     const Coordinates &low = region_.low, &high = region_.high;
@@ -82,8 +83,8 @@ class Planes {
   }
 
  private:
-  // Not a normal that is only nearly along the axis: n . p also has what a small component makes of a
-  // coordinate that is 10^16 times the others.
+  // Only normals exactly along the axis. A nearly aligned normal has another small component, which matters
+  // in n . p if the coordinate there is 10^16 times the others.
   static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) return;
     if (n[axis] == 1) high = std::min(high, offset + margin(offset));
@@ -130,7 +131,8 @@ ConvexRegion region_of(const Obb& box) {
 }
 
 ConvexRegion region_of(const Cylinder& cylinder) {
-  ConvexRegion region = around(cylinder, RegionShape::body, cylinder.center(), axes_about(cylinder.axis()));
+  ConvexRegion region =
+      around(cylinder, RegionShape::rounded, cylinder.center(), axes_about(cylinder.axis()));
   region.slab[0] = cylinder.half_height();
   region.weight = {0, 1, 1};
   region.radius = cylinder.radius();
@@ -141,15 +143,15 @@ ConvexRegion region_of(const Capsule& capsule) {
   const Eigen::Vector3d edge = capsule.b() - capsule.a();
   const double length = edge.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(edge / length) : Eigen::Vector3d::UnitX();
-  ConvexRegion region = around(capsule, RegionShape::body, capsule.a() + 0.5 * edge, axes_about(unit));
-  region.doubt = 0x1p-50 * (taxicab3(capsule.a()) + taxicab3(capsule.b()));
+  ConvexRegion region = around(capsule, RegionShape::rounded, capsule.a() + 0.5 * edge, axes_about(unit));
+  region.surface_error = 0x1p-50 * (taxicab3(capsule.a()) + taxicab3(capsule.b()));
   region.core[0] = 0.5 * length;
   region.radius = capsule.radius();
   return region;
 }
 
 ConvexRegion region_of(const Ellipsoid& ellipsoid) {
-  ConvexRegion region = around(ellipsoid, RegionShape::body, ellipsoid.center(), ellipsoid.axes());
+  ConvexRegion region = around(ellipsoid, RegionShape::rounded, ellipsoid.center(), ellipsoid.axes());
   region.radius = ellipsoid.radii().maxCoeff();
   for (int i = 0; i < 3; ++i) {
     const double r = ellipsoid.radii()[i];

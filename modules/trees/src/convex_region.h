@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Converts volumes to the regions that the kernel region_states() tests.
 #pragma once
 
 #include "pcl_bv/kernels/region_states.h"
@@ -8,8 +9,8 @@
 
 namespace pcl_bv {
 
-/// What contains() of a volume that is not empty says, for the kernel: `inside` there is so here, `outside`
-/// too.
+/// Returns the region of a non-empty volume. Where the kernel says `inside` or `outside`, contains() of the
+/// volume agrees.
 ConvexRegion convex_region(const AnyVolume& volume);
 
 }  // namespace pcl_bv

@@ -5,10 +5,10 @@
 #include <bit>
 #include <limits>
 
+#include "argument_checks.h"
 #include "pcl_bv/kernels/swept_ball.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
-#include "refusal.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -32,26 +32,26 @@ class FirstHit final : public PacketVisitor {
     for (; points != 0; points &= points - 1) {
       const std::size_t at = packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(points));
       const auto inside =
-          Sphere(vector(load_point(places_, at)), ball_.radius).intersect(origin_, direction_);
+          Sphere(vector(load_point(points_, at)), ball_.radius).intersect(origin_, direction_);
       if (!inside) continue;
-      const PointHit hit{tree_.numbers[at], inside->enter};
+      const PointHit hit{tree_.indices[at], inside->enter};
       if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
     }
-    return best_.index < 0 ? std::numeric_limits<float>::max() : ball_.latest(best_.t);
+    return best_.index < 0 ? std::numeric_limits<float>::max() : ball_.latest_entry(best_.t);
   }
 
  private:
   const PackedTree& tree_;
-  PointView places_ = tree_.view();
+  PointView points_ = tree_.view();
   Eigen::Vector3d origin_, direction_;
   SweptBall ball_;
   PointHit best_{-1, 0};
 };
 
-// Of a sphere that does not move.
-std::optional<PointHit> lowest_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
+// Returns the point with the smallest index inside a sphere that does not move.
+std::optional<PointHit> smallest_index_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
   std::vector<Neighbor> found;
-  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.contained_square(), found);
+  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.max_squared_distance(), found);
   if (found.empty()) return std::nullopt;
   const auto lower = [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; };
   return PointHit{std::min_element(found.begin(), found.end(), lower)->index, 0};
@@ -63,9 +63,9 @@ std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, cons
                                              double radius) const {
   const FloatEnvironment environment;
   if (!(radius >= 0 && radius <= kMaxCoordinate))
-    refuse("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
+    throw_out_of_range_value("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
-  if (direction.isZero(0)) return lowest_inside(isa_, tree_, Sphere(origin, radius));
+  if (direction.isZero(0)) return smallest_index_inside(isa_, tree_, Sphere(origin, radius));
   return FirstHit(tree_, origin, direction, radius).among(isa_);
 }
 

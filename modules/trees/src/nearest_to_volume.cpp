@@ -6,11 +6,11 @@
 #include <limits>
 #include <tuple>
 
+#include "argument_checks.h"
 #include "body_distance.h"
 #include "box_walk.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
-#include "refusal.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -22,29 +22,29 @@ class NearestToVolume {
       : tree_(tree), body_(volume), best_{kNone, limit} {}
 
   std::optional<PointDistance> run() {
-    descend(
-        tree_.boxes, [&](std::size_t group) { return least_distances(tree_.boxes.groups[group]); },
-        [&] { return best_.distance; }, [&](std::size_t packet) { ask_packet(packet); });
+    visit_nearest_first(
+        tree_.boxes, [&](std::size_t group) { return min_distances(tree_.boxes.groups[group]); },
+        [&] { return best_.distance; }, [&](std::size_t packet) { test_packet(packet); });
     return best_.index == kNone ? std::nullopt : std::optional(best_);
   }
 
  private:
   static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
 
-  std::array<double, kTreeWidth> least_distances(const BoxGroup& group) const {
-    std::array<double, kTreeWidth> least;
-    for (std::size_t k = 0; k < kTreeWidth; ++k)
-      least[k] = body_.at_least(plain_box(tree_.boxes, group, k));  // NaN of boxes that the group lacks
-    return least;
+  std::array<double, kTreeWidth> min_distances(const BoxGroup& group) const {
+    std::array<double, kTreeWidth> distances;
+    for (std::size_t k = 0; k < kTreeWidth; ++k)  // NaN for boxes that the group lacks
+      distances[k] = body_.lower_bound(plain_box(tree_.boxes, group, k));
+    return distances;
   }
 
-  void ask_packet(std::size_t packet) {
+  void test_packet(std::size_t packet) {
     const PointView points = tree_.view();
     for (std::size_t k = 0; k < kTreeWidth; ++k) {
       const std::size_t i = packet * kTreeWidth + k;
       const Coordinates p = load_point(points, i);
       if (!is_valid(p)) continue;
-      const PointDistance found{tree_.numbers[i], body_.of(vector(p))};
+      const PointDistance found{tree_.indices[i], body_.distance_to(vector(p))};
       if (std::tie(found.distance, found.index) < std::tie(best_.distance, best_.index)) best_ = found;
     }
   }

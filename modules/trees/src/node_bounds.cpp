@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All sums here are of some terms below a few times 1 + |place|, in double, so off by less than 2^-45 of
-// that, which is nothing beside the slack of 2^-20 of it: no bound adds a margin of its own.
+// All sums here have a few terms below a few times 1 + |point| in double, so their errors are below 2^-45 of
+// that. This is negligible against the margin of 2^-20, so no bound adds a margin of its own.
 
 #include "node_bounds.h"
 
@@ -17,7 +17,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "reaches.h"
+#include "support_bounds.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -36,16 +36,19 @@ void clip(double start, double slope, double low, double high, double& enter, do
   exit = std::min(exit, std::max(a, b));
 }
 
-// Infinity if nothing is left of t >= 0; what underflow may have added there is kept.
+// Returns where the ray enters, at least 0; infinity if the interval has no t >= 0. The margin accepts
+// what underflow may have added to the interval.
 double entered(const FrameRay& ray, double enter, double exit) {
-  return enter - ray.margin <= exit + ray.margin ? std::max(0.0, enter - ray.margin) : kInfinity;
+  return enter - ray.underflow_margin <= exit + ray.underflow_margin
+             ? std::max(0.0, enter - ray.underflow_margin)
+             : kInfinity;
 }
 
 }  // namespace
 
-FramePlace::FramePlace(const VolumeBoxes& boxes, const Coordinates& place) {
-  at = (vector(place) - vector(boxes.levels().origin)) * boxes.levels().scale;
-  slack = VolumeBoxes::slack(at.cwiseAbs().maxCoeff());
+FramePoint::FramePoint(const VolumeBoxes& boxes, const Coordinates& point) {
+  at = (vector(point) - vector(boxes.levels().origin)) * boxes.levels().scale;
+  margin = VolumeBoxes::margin(at.cwiseAbs().maxCoeff());
 }
 
 FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction)
@@ -53,29 +56,29 @@ FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Co
   const int length = std::ilogb(vector(direction).cwiseAbs().maxCoeff());
   u = vector(direction).unaryExpr([&](double x) { return std::ldexp(x, -length); });
   exponent = length + std::ilogb(boxes.levels().scale);
-  margin = std::ldexp(0x1p-1020, exponent);
+  underflow_margin = std::ldexp(0x1p-1020, exponent);
 }
 
 double FrameRay::time(double t) const {
   return std::ldexp(t, exponent);
 }
 
-double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
+double distance_to_box(const FramePoint& point, const BoxGroup& group, std::size_t k) {
   double squares = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double at = place.at[axis],
+    const double at = point.at[axis],
                  gap = std::max(0.0, std::max(group.low[axis][k] - at, at - group.high[axis][k]));
     squares += gap * gap;
   }
-  return std::max(0.0, std::sqrt(squares) - 2 * place.slack);
+  return std::max(0.0, std::sqrt(squares) - 2 * point.margin);
 }
 
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
-  if (group.low[0][k] > group.high[0][k]) return kInfinity;  // nothing inside
+  if (group.low[0][k] > group.high[0][k]) return kInfinity;  // empty
   double enter = 0, exit = kInfinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.slack,
-         group.high[axis][k] + ray.from.slack, enter, exit);
+    clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.margin,
+         group.high[axis][k] + ray.from.margin, enter, exit);
   }
   return entered(ray, enter, exit);
 }
@@ -84,13 +87,13 @@ template <typename Shape, typename Item, typename Join>
 void NodeShapes::fill(std::vector<Shape>& shapes, const BoxLevels& levels, const ParallelPolicy& policy,
                       const Item& item, const Join& join) {
   shapes.assign(levels.groups.size() * kTreeWidth, Shape());
-  for_each_run(policy, levels.below[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
+  for_each_range(policy, levels.child_counts[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       shapes[i] = item(i);
   });
   for (std::size_t level = 1; level < levels.levels; ++level) {
-    for (std::size_t i = 0; i < levels.below[level]; ++i) {
+    for (std::size_t i = 0; i < levels.child_counts[level]; ++i) {
       const Shape* const below = shapes.data() + (levels.first[level - 1] + i) * kTreeWidth;
       shapes[levels.first[level] * kTreeWidth + i] = join(below, kTreeWidth);
     }
@@ -107,7 +110,7 @@ void NodeShapes::measure(NodeBounds kind, const VolumeBoxes& boxes, const std::v
     fill(
         slabs_, boxes.levels(), policy,
         [&](std::size_t item) {
-          return has_box(item) ? slabs_of(boxes, volumes[boxes.number(item)]) : Slabs();
+          return has_box(item) ? slabs_of(boxes, volumes[boxes.volume_index(item)]) : Slabs();
         },
         [](const Slabs* slabs, std::size_t count) {
           Slabs all;
@@ -119,7 +122,7 @@ void NodeShapes::measure(NodeBounds kind, const VolumeBoxes& boxes, const std::v
     fill(
         balls_, boxes.levels(), policy,
         [&](std::size_t item) {
-          return has_box(item) ? ball_of(boxes, volumes[boxes.number(item)]) : Ball();
+          return has_box(item) ? ball_of(boxes, volumes[boxes.volume_index(item)]) : Ball();
         },
         [](const Ball* balls, std::size_t count) { return joined(balls, count); });
   }
@@ -131,10 +134,10 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   slabs.min.fill(-std::numeric_limits<float>::infinity());
   slabs.max.fill(std::numeric_limits<float>::infinity());
   const Aabb box = aabb(volume);
-  if (box.empty()) return slabs;  // a k-DOP of slabs that miss each other
+  if (box.empty()) return slabs;  // a k-DOP whose slabs have no common point
   const SlabBounds<kSlabs, double> bounds(volume);
-  const double margin = 2 * contained_margin(box);
-  for (std::size_t i = 3; i < kSlabs; ++i) {  // boxes are of the others
+  const double margin = 2 * contains_margin(box);
+  for (std::size_t i = 3; i < kSlabs; ++i) {  // the box bounds the first three
     Expansion low, high;
     low.add_dot(-cube_vector(i), boxes.levels().origin);
     high = low;
@@ -145,18 +148,18 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
 }
 
 NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& volume) {
-  const PlaceBounds extent = extent_of(volume);
+  const PositionBounds extent = extent_of(volume);
   const Eigen::Vector3d size = vector(extent.high) - vector(extent.low);
   double radius = 0.5 * norm3(size);
   Eigen::Vector3d center = 0.5 * vector(extent.low) + 0.5 * vector(extent.high);
   if (const auto* const sphere = std::get_if<Sphere>(&volume)) {
-    radius = sphere->radius() + contained_margin(sphere->aabb());
+    radius = sphere->radius() + contains_margin(sphere->aabb());
     center = sphere->center();
   }
   Ball ball;
-  ball.center = FramePlace(boxes, coordinates(center)).at.cast<float>();
+  ball.center = FramePoint(boxes, coordinates(center)).at.cast<float>();
   ball.radius =
-      float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // of it, and of the centre
+      float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // errors of radius and centre
   return ball;
 }
 
@@ -177,28 +180,28 @@ NodeShapes::Ball NodeShapes::joined(const Ball* balls, std::size_t count) {
   return all;
 }
 
-double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
+double NodeShapes::distance(std::size_t shape, const FramePoint& point) const {
   double farthest = 0;
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
     for (std::size_t i = 3; i < kSlabs; ++i) {
-      const double s = dot3(cube_vector(i), place.at);
+      const double s = dot3(cube_vector(i), point.at);
       farthest = std::max(farthest, std::max(slabs.min[i] - s, s - slabs.max[i]) / 1.7320508075688774);
     }
   } else if (!balls_.empty()) {
     const Ball& ball = balls_[shape];
-    farthest = norm3(Eigen::Vector3d(place.at - ball.center.cast<double>())) - ball.radius;
+    farthest = norm3(Eigen::Vector3d(point.at - ball.center.cast<double>())) - ball.radius;
   }
-  return std::max(0.0, farthest - 2 * place.slack);
+  return std::max(0.0, farthest - 2 * point.margin);
 }
 
-std::uint32_t NodeShapes::may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const {
-  std::uint32_t held = 0;
+std::uint32_t NodeShapes::may_contain(std::size_t group, std::uint32_t bits, const FramePoint& point) const {
+  std::uint32_t found = 0;
   for (; bits != 0; bits &= bits - 1) {
     const int k = std::countr_zero(bits);
-    if (distance(group * kTreeWidth + static_cast<std::size_t>(k), place) <= 0) held |= 1U << k;
+    if (distance(group * kTreeWidth + static_cast<std::size_t>(k), point) <= 0) found |= 1U << k;
   }
-  return held;
+  return found;
 }
 
 double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
@@ -208,22 +211,22 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
     if (slabs.min[3] > slabs.max[3]) return kInfinity;
     for (std::size_t i = 3; i < kSlabs; ++i) {
       const Eigen::Vector3d d = cube_vector(i);
-      clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.slack,
-           slabs.max[i] + 4 * ray.from.slack, enter, exit);
+      clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.margin,
+           slabs.max[i] + 4 * ray.from.margin, enter, exit);
     }
   } else if (!balls_.empty()) {
     const Ball& ball = balls_[shape];
     if (ball.radius < 0) return kInfinity;
     const Eigen::Vector3d q = ball.center.cast<double>() - ray.from.at;
-    const double radius = ball.radius + 4 * ray.from.slack, uu = dot3(ray.u, ray.u),
+    const double radius = ball.radius + 4 * ray.from.margin, uu = dot3(ray.u, ray.u),
                  nearest = dot3(q, ray.u) / uu;
-    const double least =
-        dot3(q, q) - nearest * nearest * uu;  // off by 2^-48 |q|^2; (4 slack)^2 is 2^-38 of it at least
-    const double half = radius * radius - least;
+    // The error is below 2^-48 |q|^2, and (4 margin)^2 is at least 2^-38 |q|^2.
+    const double min_square = dot3(q, q) - nearest * nearest * uu;
+    const double half = radius * radius - min_square;
     if (half < 0) return kInfinity;
-    const double reach = std::sqrt(half / uu);
-    enter = std::max(0.0, nearest - reach);
-    exit = nearest + reach;
+    const double half_length = std::sqrt(half / uu);
+    enter = std::max(0.0, nearest - half_length);
+    exit = nearest + half_length;
   }
   return entered(ray, enter, exit);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What nodes of a VolumeTree may have besides their boxes. All is in the frame of the boxes.
+// Bounds of the nodes of a VolumeTree in addition to their boxes, all in the frame of the boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,49 +14,54 @@
 
 namespace pcl_bv {
 
-/// A place there, and how far from a node's bounds a volume may be that it matters to.
-struct FramePlace {
+/// A query point in the frame of the boxes, and the margin by which bounds are extended.
+struct FramePoint {
   Eigen::Vector3d at;
-  double slack;  ///< By coordinate.
+  /// Margin of each coordinate: VolumeBoxes::margin().
+  double margin;
 
-  FramePlace(const VolumeBoxes& boxes, const Coordinates& place);
+  FramePoint(const VolumeBoxes& boxes, const Coordinates& point);
 
-  /// Whether bounds of nodes can be told from there: beyond 2^500 squares leave the range of double.
+  /// Returns whether distances to bounds can be computed: beyond 2^500 squares leave the range of double.
   bool is_in_range() const { return at.cwiseAbs().maxCoeff() < 0x1p500; }
 };
 
-/// A ray there: at + t u. The greatest component of u is between 1 and 2.
+/// A ray in the frame of the boxes: at + t u, where `at` is from.at. The largest component of u is from 1 to
+/// 2.
 struct FrameRay {
-  FramePlace from;
+  FramePoint from;
   Eigen::Vector3d u;
-  int exponent;   ///< t of the ray there is t 2^exponent of the one here.
-  double margin;  ///< What intersect() may add to both ends where they underflow, with room.
+  int exponent;             ///< t in the frame is 2^exponent times t of the given ray.
+  double underflow_margin;  ///< Bound of what underflow in intersect() adds to either end.
 
   FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction);
-  double time(double t) const;  ///< Rounds down, and up to infinity.
+  /// Converts t of the given ray to the frame. Overflow gives infinity.
+  double time(double t) const;
 };
 
+/// The slabs or spheres of all nodes, if the tree has any.
 class NodeShapes {
  public:
-  /// Of items 0, 1, ... that `volumes` has under the boxes' numbers.
+  /// Builds the shapes. Item i is volumes[boxes.volume_index(i)].
   void measure(NodeBounds kind, const VolumeBoxes& boxes, const std::vector<AnyVolume>& volumes,
                const ParallelPolicy& policy);
 
   bool none() const { return slabs_.empty() && balls_.empty(); }
 
-  /// The shape of box k of group g is number 16 g + k. A lower bound of the distance from a place, 0 where
-  /// the place may be inside; of t where a ray enters, infinity if it misses.
-  double distance(std::size_t shape, const FramePlace& place) const;
+  /// The shape of box k of group g has the number 16 g + k. distance() is a lower bound of the distance from
+  /// a query point, 0 if the point may be inside. enter() is a lower bound of t where a ray enters, infinity
+  /// if the ray misses.
+  double distance(std::size_t shape, const FramePoint& point) const;
   double enter(std::size_t shape, const FrameRay& ray) const;
 
-  /// Of the boxes of a group, as bits, those whose shape may hold a place.
-  std::uint32_t may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const;
+  /// Returns those of the boxes `bits` of a group whose shape may hold the query point, as bits.
+  std::uint32_t may_contain(std::size_t group, std::uint32_t bits, const FramePoint& point) const;
 
  private:
   using Slabs = SlabBounds<7, float>;
   struct Ball {
     Eigen::Vector3f center = Eigen::Vector3f::Zero();
-    float radius = -std::numeric_limits<float>::infinity();  // nothing inside
+    float radius = -std::numeric_limits<float>::infinity();  // empty
   };
 
   template <typename Shape, typename Item, typename Join>
@@ -70,10 +75,10 @@ class NodeShapes {
   std::vector<Ball> balls_;
 };
 
-/// A lower bound of the distance from a place to a box, 0 where the place may be inside.
-double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k);
+/// Returns a lower bound of the distance from a query point to a box; 0 if the point may be inside.
+double distance_to_box(const FramePoint& point, const BoxGroup& group, std::size_t k);
 
-/// A lower bound of t where a ray enters a box, given by its sides; infinity if it misses.
+/// Returns a lower bound of t where a ray enters a box; infinity if the ray misses.
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k);
 
 }  // namespace pcl_bv

@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality proves a bound: weights w >= 0 whose normals sum up to d, but for a residual r, give
-// d . p <= sum of w offset + |r|_1 |p|, whatever rounding did to the search for them. |p| is the greatest
-// coordinate. contains() and intersect() allow each plane less than 2^-46 |n| |p| besides, which the weights
-// multiply. With such bounds for the six directions along the axes, B at most and in doubt by e |p| at most,
-// |p| <= B + e |p|, so |p| <= 2 B.
+// Bounds are proven by weak duality. If weights w >= 0 make the sum of w n equal to d up to a residual r,
+// then
+//   d . p <= sum of w offset + |r|_1 |p|
+// for every p of the body, however inaccurate the search for the weights was. Here |p| is the largest
+// absolute coordinate of p, and |n| that of n. contains() and intersect() also accept points beyond a plane
+// by less than 2^-46 |n| |p|; the weights multiply this as well.
+//
+// Six bounds along the axes then bound |p| itself. If all are at most B, with an error of at most e |p|, then
+//   |p| <= B + e |p|, so |p| <= 2 B.
 
 #include "plane_body.h"
 
@@ -22,17 +26,18 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kFences = 6;
-// More says that planes are nearly parallel where the body ends: its end is then no place worth to know.
-constexpr double kMostDoubt = 0x1p-26;
+// Largest error bound, relative to |p|, that is accepted. A larger one means nearly parallel planes: the
+// vertex is ill-conditioned and its bound useless.
+constexpr double kMaxErrorBound = 0x1p-26;
 
-double greatest(const Eigen::Vector3d& v) {
+double max_abs(const Eigen::Vector3d& v) {
   return v.cwiseAbs().maxCoeff();
 }
 
 }  // namespace
 
 PlaneBody::PlaneBody(const Kdop& kdop) {
-  if (!set_out(kdop.aabb())) return;
+  if (!add_fences(kdop.aabb())) return;
   for (std::size_t i = 0; i < kdop.size(); ++i) {
     add(kdop.set()->direction(i), kdop.max(i));
     add(-kdop.set()->direction(i), -kdop.min(i));
@@ -41,17 +46,17 @@ PlaneBody::PlaneBody(const Kdop& kdop) {
 }
 
 PlaneBody::PlaneBody(const Hull& hull) {
-  if (!set_out(hull.aabb())) return;
+  if (!add_fences(hull.aabb())) return;
   for (const HullPlane& plane : hull.planes())
     add(plane.normal, plane.offset);
   prove_box();
 }
 
-// Puts up the fences about where the body is thought to be.
-bool PlaneBody::set_out(const Aabb& about) {
+// Adds the fences: the sides of a box around the expected body, with a margin. The search starts from them.
+bool PlaneBody::add_fences(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
-  const double margin = (about.max() - about.min()).sum() + 0x1p-30 * greatest(origin_) + 0x1p-900;
+  const double margin = (about.max() - about.min()).sum() + 0x1p-30 * max_abs(origin_) + 0x1p-900;
   for (int k = 0; k < 3; ++k) {
     add(Eigen::Vector3d::Unit(k), about.max()[k] + margin);
     add(-Eigen::Vector3d::Unit(k), margin - about.min()[k]);
@@ -60,12 +65,12 @@ bool PlaneBody::set_out(const Aabb& about) {
 }
 
 void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
-  if (normal.isZero(0)) return;  // says nothing of where the body ends
+  if (normal.isZero(0)) return;  // bounds nothing
   planes_.push_back({normal, offset});
-  local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
+  local_offsets_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
-// Fences are left out: no bound may rest on them, and a corner beyond them is proven all the same.
+// Skips the fences: no bound may rest on them, and a vertex beyond them can be proven as well.
 std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point) const {
   const double tolerance = 0x1p-44 * taxicab3(point);
   std::optional<std::size_t> side;
@@ -73,7 +78,7 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
   for (std::size_t i = kFences; i < planes_.size(); ++i) {
     const Eigen::Vector3d& n = planes_[i].normal;
     const double length = norm3(n);
-    const double excess = (dot3(n, point) - local_[i]) / length - tolerance;
+    const double excess = (dot3(n, point) - local_offsets_[i]) / length - tolerance;
     if (excess > worst) {
       worst = excess;
       side = i;
@@ -82,80 +87,83 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
   return side;
 }
 
-// The dual simplex method. Every step keeps the weights sound; the limit is against cycling.
-PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
-  Corner corner{{}, direction.cwiseAbs()};
+// The dual simplex method (Lemke 1954). After every step the weights are valid; the limit on the steps ends a
+// cycle.
+PlaneBody::PlaneVertex PlaneBody::optimal_vertex(const Eigen::Vector3d& direction) const {
+  PlaneVertex vertex{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)
-    corner.sides[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
+    vertex.planes[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
   for (std::size_t step = 0; step < 4 * planes_.size(); ++step) {
     Eigen::Matrix3d normals;
     Eigen::Vector3d offsets;
     for (int k = 0; k < 3; ++k) {
-      const std::size_t side = corner.sides[static_cast<std::size_t>(k)];
+      const std::size_t side = vertex.planes[static_cast<std::size_t>(k)];
       normals.row(k) = planes_[side].normal.transpose();
-      offsets[k] = local_[side];
+      offsets[k] = local_offsets_[side];
     }
     const Eigen::Matrix3d inverse = normals.inverse();
     const std::optional<std::size_t> side = most_violated(inverse * offsets);
     if (!side) break;
-    // Compared as if all normals were of length 1: long ones would hide short ones.
-    const Eigen::Vector3d share = inverse.transpose() * planes_[*side].normal,
-                          of_units = share.cwiseProduct(normals.rowwise().norm());
+    // Compares as if all normals had length 1; otherwise long normals would hide short ones.
+    const Eigen::Vector3d component = inverse.transpose() * planes_[*side].normal,
+                          of_units = component.cwiseProduct(normals.rowwise().norm());
     Eigen::Index leaving = 0;
     const double change =
-        (of_units.array() > 0x1p-40 * greatest(of_units))
-            .select(corner.weights.cwiseQuotient(share), Eigen::Vector3d::Constant(kInfinity))
+        (of_units.array() > 0x1p-40 * max_abs(of_units))
+            .select(vertex.weights.cwiseQuotient(component), Eigen::Vector3d::Constant(kInfinity))
             .minCoeff(&leaving);
     if (change == kInfinity) break;
-    corner.weights = (corner.weights - change * share).cwiseMax(0.0);
-    corner.weights[leaving] = change;
-    corner.sides[static_cast<std::size_t>(leaving)] = *side;
+    vertex.weights = (vertex.weights - change * component).cwiseMax(0.0);
+    vertex.weights[leaving] = change;
+    vertex.planes[static_cast<std::size_t>(leaving)] = *side;
   }
-  return corner;
+  return vertex;
 }
 
 PlaneBody::Proof PlaneBody::prove(const Eigen::Vector3d& direction) const {
-  const Corner corner = farthest(direction);
-  Expansion bound, doubt;
+  const PlaneVertex vertex = optimal_vertex(direction);
+  Expansion bound, error_bound;
   std::array<Expansion, 3> residual;
   for (std::size_t k = 0; k < 3; ++k)
     residual[k].add(direction[static_cast<Eigen::Index>(k)]);
   for (std::size_t i = 0; i < 3; ++i) {
-    const double weight = corner.weights[static_cast<Eigen::Index>(i)];
-    if (corner.sides[i] < kFences || weight == 0) continue;
-    const HullPlane& plane = planes_[corner.sides[i]];
+    const double weight = vertex.weights[static_cast<Eigen::Index>(i)];
+    if (vertex.planes[i] < kFences || weight == 0) continue;
+    const HullPlane& plane = planes_[vertex.planes[i]];
     bound.add_product(weight, plane.offset).add(multiply_up(weight, kSmallestNormal));
-    doubt.add(multiply_up(weight, 0x1p-46 * greatest(plane.normal)));
+    error_bound.add(multiply_up(weight, 0x1p-46 * max_abs(plane.normal)));
     for (std::size_t k = 0; k < 3; ++k)
       residual[k].add_product(-weight, plane.normal[static_cast<Eigen::Index>(k)]);
   }
   for (const Expansion& part : residual)
-    doubt.add(part.magnitude_up());
-  return {bound.up(), doubt.up()};
+    error_bound.add(part.magnitude_up());
+  return {bound.up(), error_bound.up()};
 }
 
 void PlaneBody::prove_box() {
-  std::array<Proof, 6> proofs;  // along x, y, z, then the other way
-  double reach = 0;
+  std::array<Proof, 6> proofs;  // along x, y, z, then -x, -y, -z
+  double largest = 0;
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     proofs[i] = prove((i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i % 3)));
-    reach = std::max(reach, std::abs(proofs[i].bound));
-    if (!(proofs[i].doubt <= kMostDoubt && 2 * reach < kInfinity)) return;
+    largest = std::max(largest, std::abs(proofs[i].bound));
+    if (!(proofs[i].error_bound <= kMaxErrorBound && 2 * largest < kInfinity)) return;
   }
-  const auto end = [&](const Proof& proof) {
-    return add_up(proof.bound, multiply_up(proof.doubt, 2 * reach));
+  const auto upper_bound = [&](const Proof& proof) {
+    return add_up(proof.bound, multiply_up(proof.error_bound, 2 * largest));
   };
-  const Aabb box(-Eigen::Vector3d(end(proofs[3]), end(proofs[4]), end(proofs[5])),
-                 {end(proofs[0]), end(proofs[1]), end(proofs[2])});
-  if (!box.empty()) box_ = box;  // empty: no point is in all planes, which contains() need not know
+  const Aabb box(-Eigen::Vector3d(upper_bound(proofs[3]), upper_bound(proofs[4]), upper_bound(proofs[5])),
+                 {upper_bound(proofs[0]), upper_bound(proofs[1]), upper_bound(proofs[2])});
+  // An empty box proves that no point is in all half-spaces. contains() may still accept points by rounding,
+  // so no box is stored.
+  if (!box.empty()) box_ = box;
 }
 
-double PlaneBody::reach_up(const Eigen::Vector3d& direction) const {
+double PlaneBody::support_bound_up(const Eigen::Vector3d& direction) const {
   if (!box_) return kInfinity;
   const Proof proof = prove(direction);
-  if (!(proof.doubt <= kMostDoubt * taxicab3(direction))) return kInfinity;
-  const double size = std::max(greatest(box_->min()), greatest(box_->max()));
-  return add_up(proof.bound, multiply_up(proof.doubt, size));
+  if (!(proof.error_bound <= kMaxErrorBound * taxicab3(direction))) return kInfinity;
+  const double size = std::max(max_abs(box_->min()), max_abs(box_->max()));
+  return add_up(proof.bound, multiply_up(proof.error_bound, size));
 }
 
 std::optional<Aabb> PlaneBody::box() const {

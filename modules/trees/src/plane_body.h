@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a body reaches that half-spaces enclose: linear programs in three variables whose answers are
-// proven.
+// Support values of a body that half-spaces enclose: linear programs in three variables with proven results.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,41 +14,43 @@
 
 namespace pcl_bv {
 
-/// All p with normal . p <= offset for each plane, by exact arithmetic or as Hull::contains() and
+/// All points with normal . p <= offset for each plane, by exact arithmetic or as Hull::contains() and
 /// Kdop::contains() compute it.
 class PlaneBody {
  public:
   explicit PlaneBody(const Kdop& kdop);
   explicit PlaneBody(const Hull& hull);
 
-  /// An upper bound of direction . p; tight to some units in the last place of the coordinates and 2^-48 of
-  /// the weights with which the planes prove it. Infinity where they prove none: not every body of planes is
-  /// bounded. O(planes), some ten times.
-  double reach_up(const Eigen::Vector3d& direction) const;
+  /// Returns an upper bound of direction . p. Infinity if the planes prove no bound, as a body of planes need
+  /// not be bounded. Tight to a few units in the last place of the coordinates and 2^-48 of the weights with
+  /// which the planes prove it. O(planes), about ten passes over them.
+  double support_bound_up(const Eigen::Vector3d& direction) const;
 
-  /// A box around all p; none if that cannot be proven.
+  /// Returns a box around all points; nothing if no box is proven.
   std::optional<Aabb> box() const;
 
  private:
+  // direction . p <= bound + error_bound |p|, where |p| is the largest absolute coordinate of p
   struct Proof {
-    double bound;  // of direction . p, but for
-    double doubt;  // times the greatest |coordinate| of p
+    double bound;
+    double error_bound;
   };
-  struct Corner {
-    std::array<std::size_t, 3> sides;
-    Eigen::Vector3d weights;  // of the sides' normals: they sum up to the direction
+  // A vertex: the intersection of three planes.
+  struct PlaneVertex {
+    std::array<std::size_t, 3> planes;
+    Eigen::Vector3d weights;  // of the planes' normals; the weighted sum is the direction
   };
 
-  bool set_out(const Aabb& about);
+  bool add_fences(const Aabb& about);
   void add(const Eigen::Vector3d& normal, double offset);
-  Corner farthest(const Eigen::Vector3d& direction) const;
+  PlaneVertex optimal_vertex(const Eigen::Vector3d& direction) const;
   std::optional<std::size_t> most_violated(const Eigen::Vector3d& point) const;
   Proof prove(const Eigen::Vector3d& direction) const;
   void prove_box();
 
-  // The first six are sides of a box that should hold the body and that no bound may rest on.
+  // The first six are fences: sides of a box that should hold the body. No bound may rest on them.
   std::vector<HullPlane> planes_;
-  std::vector<double> local_;  // offsets as seen from origin_
+  std::vector<double> local_offsets_;  // offsets relative to origin_
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::optional<Aabb> box_;
 };

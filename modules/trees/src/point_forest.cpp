@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "argument_checks.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "refusal.h"
 
 namespace pcl_bv {
 namespace {
@@ -17,19 +17,19 @@ namespace {
 template <typename T>
 using Rows = std::vector<T>;
 
-// Writes a tree's points at their numbers, three coordinates each.
+// Writes the points of a tree to the rows of their indices, three coordinates each.
 template <typename T>
 void write_points(const PackedTree& tree, T* rows) {
   const PointView points = tree.view();
   for (std::size_t place = 0; place < tree.count; ++place) {
     const Coordinates p = load_point(points, place);
-    T* const row = rows + 3 * static_cast<std::size_t>(tree.numbers[place]);
+    T* const row = rows + 3 * static_cast<std::size_t>(tree.indices[place]);
     for (std::size_t axis = 0; axis < 3; ++axis)
       row[axis] = static_cast<T>(p[axis]);
   }
 }
 
-// Called 0, 1, ... as they are visited.
+// Copies the visited points to rows, so that their indices become 0, 1, ...
 template <typename T>
 Rows<T> rows_of(const PointView& points) {
   Rows<T> rows(3 * points.count);
@@ -62,9 +62,9 @@ void PointForest::insert(const PointView& points, const Execution& execution) {
   for (; kind_ == ForestTrees::merged && kept > 0 && trees_[kept - 1].count < 2 * count; --kept)
     count += trees_[kept - 1].count;
   if (kept < trees_.size()) {
-    std::vector<Tree> together(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
-    together.push_back(std::move(newest));
-    newest = joined(together.data(), together.size(), execution);
+    std::vector<Tree> to_merge(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
+    to_merge.push_back(std::move(newest));
+    newest = joined(to_merge.data(), to_merge.size(), execution);
     trees_.resize(kept);
   }
   trees_.push_back(std::move(newest));
@@ -75,12 +75,12 @@ PointForest::Tree PointForest::joined(const Tree* trees, std::size_t count, cons
   const std::uint64_t first = trees[0].first,
                       points = trees[count - 1].first + trees[count - 1].count - first;
   if (points > std::numeric_limits<std::int32_t>::max())
-    throw std::invalid_argument("PointForest: a tree takes 2147483647 points at most, not " +
-                                std::to_string(points));
+    throw std::invalid_argument("PointForest: the merged tree would have " + std::to_string(points) +
+                                " points, must be at most 2147483647");
   const bool floats = std::all_of(trees, trees + count, [](const Tree& tree) {
     return tree.tree.packed().scalar == ScalarType::float32 || tree.tree.empty();
   });
-  // What is not valid stays NaN.
+  // Rows of invalid points stay NaN.
   const auto build = [&]<typename T>(T nan) {
     Rows<T> rows(3 * points, nan);
     for (std::size_t i = 0; i < count; ++i)
@@ -94,7 +94,7 @@ PointForest::Tree PointForest::joined(const Tree* trees, std::size_t count, cons
 
 void PointForest::drop_oldest() {
   if (kind_ == ForestTrees::merged)
-    throw std::logic_error("PointForest: batches whose trees are merged cannot be taken out");
+    throw std::logic_error("PointForest: drop_oldest() needs a forest of ForestTrees::kept");
   if (!trees_.empty()) trees_.pop_front();
 }
 
@@ -117,7 +117,8 @@ void PointForest::nearest(const Eigen::Vector3d& place, std::size_t k, std::vect
   found.clear();
   require_distance("PointForest", max_distance);
   std::vector<Neighbor> of_tree;
-  // From the largest tree on, which mostly has them: the others then are asked about less.
+  // Merged trees start with the largest, which mostly has the nearest points; they limit the search in the
+  // others.
   for (const Tree& tree : trees_) {
     double limit = max_distance;
     if (k > 0 && found.size() == k) limit = std::min(limit, next_up(sqrt_up(found.back().squared_distance)));

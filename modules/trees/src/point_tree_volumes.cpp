@@ -31,7 +31,7 @@ void PointTree::all_inside(const AnyVolume& volume, std::vector<std::int32_t>& i
   walk_inside(isa_, tree_, volume, [&](std::size_t packet, std::uint32_t bits) {
     for (; bits != 0; bits &= bits - 1)
       indices.push_back(
-          tree_.numbers[packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(bits))]);
+          tree_.indices[packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(bits))]);
     return false;
   });
   std::sort(indices.begin(), indices.end());

@@ -7,22 +7,22 @@
 #include <stdexcept>
 
 #include "box_relation.h"
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "turnable.h"
+#include "rotatable.h"
 
 namespace pcl_bv {
 namespace {
 
 void require_rigid(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d axes = pose.linear();
-  const Eigen::Matrix3d skew = axes.transpose() * axes - Eigen::Matrix3d::Identity();
-  if (!pose.matrix().allFinite() || !(skew.cwiseAbs().maxCoeff() <= 1e-6))
+  const Eigen::Matrix3d deviation = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  if (!pose.matrix().allFinite() || !(deviation.cwiseAbs().maxCoeff() <= 1e-6))
     throw std::invalid_argument("PosedTree: a pose must be finite, its axes unit and orthogonal to 1e-6");
 }
 
-// The inverse of what is nearly a rotation, to rounding: the transpose, and one step of Newton's.
+// Inverts a near-rotation to rounding: one Newton step from the transpose.
 Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d axes = pose.linear(), transposed = axes.transpose();
   Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
@@ -31,25 +31,25 @@ Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   return back;
 }
 
-// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the product of the axes differs from the
-// identity by, and rounding.
-double difference(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double reach) {
-  const Eigen::Matrix3d turned = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
-  const double place = taxicab3(pose.translation()) + taxicab3(back.translation());
-  return turned.cwiseAbs().sum() * reach + 0x1p-46 * (reach + place);
+// Upper bound of |back (pose p) - p| for |p|_1 <= max_norm: the product of the axes minus the identity, and
+// rounding.
+double round_trip_error(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double max_norm) {
+  const Eigen::Matrix3d deviation = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
+  const double translations = taxicab3(pose.translation()) + taxicab3(back.translation());
+  return deviation.cwiseAbs().sum() * max_norm + 0x1p-46 * (max_norm + translations);
 }
 
-// The greatest |p|_1 of the tree's points, or more, by its topmost boxes. Of a point it is 2^-401 or more:
-// what underflow takes from products is covered, too.
-double reach_of(const BoxLevels& boxes) {
-  double reach = 0;
-  if (boxes.groups.empty()) return reach;
+// Upper bound of |p|_1 for the points of the tree, from its topmost boxes. It is at least 2^-401 if the tree
+// has points, so bounds relative to it cover underflow of products, too.
+double max_taxicab_norm(const BoxLevels& boxes) {
+  double max_norm = 0;
+  if (boxes.groups.empty()) return max_norm;
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
     const PlainBox box = plain_box(boxes, boxes.groups.back(), k);
     if (box.low.x() <= box.high.x())
-      reach = std::max(reach, box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).sum());
+      max_norm = std::max(max_norm, box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).sum());
   }
-  return reach;
+  return max_norm;
 }
 
 }  // namespace
@@ -58,20 +58,20 @@ PosedTree::PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose) : tre
   const FloatEnvironment environment;
   require_rigid(pose);
   back_ = inverse(pose);
-  rounding_ = difference(back_, pose, reach_of(tree.packed().boxes));
+  rounding_ = round_trip_error(back_, pose, max_taxicab_norm(tree.packed().boxes));
 }
 
-std::optional<Neighbor> PosedTree::nearest(const Eigen::Vector3d& place, double max_distance) const {
-  return tree_.nearest(back_ * place, max_distance);
+std::optional<Neighbor> PosedTree::nearest(const Eigen::Vector3d& point, double max_distance) const {
+  return tree_.nearest(back_ * point, max_distance);
 }
 
-void PosedTree::nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,
+void PosedTree::nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
                         double max_distance) const {
-  tree_.nearest(back_ * place, k, found, max_distance);
+  tree_.nearest(back_ * point, k, found, max_distance);
 }
 
-void PosedTree::near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const {
-  tree_.near(back_ * place, distance, found);
+void PosedTree::near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const {
+  tree_.near(back_ * point, distance, found);
 }
 
 bool PosedTree::any_inside(const AnyVolume& volume) const {
@@ -93,7 +93,7 @@ std::optional<PointHit> PosedTree::first_hit(const Eigen::Vector3d& origin, cons
 
 AnyVolume PosedTree::moved_back(const AnyVolume& volume) const {
   const FloatEnvironment environment;
-  return grown(transformed(turnable(volume), back_), rounding_);
+  return inflated(transformed(rotatable(volume), back_), rounding_);
 }
 
 }  // namespace pcl_bv

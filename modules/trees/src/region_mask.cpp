@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "argument_checks.h"
 #include "convex_region.h"
-#include "grown.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "inflated.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "refusal.h"
+#include "pcl_bv/points/point_source.h"
 #include "region_runs.h"
 #include "vectors.h"
 #include "volume_boxes.h"
@@ -19,12 +19,12 @@
 namespace pcl_bv {
 namespace {
 
-std::vector<AnyVolume> grown_volumes(const std::vector<Region>& regions) {
+std::vector<AnyVolume> inflated_volumes(const std::vector<Region>& regions) {
   std::vector<AnyVolume> volumes;
   for (const auto& [volume, padding] : regions) {
     if (!(padding >= 0 && padding <= kMaxCoordinate))
-      refuse("RegionMask: the padding of a region must be from 0 to 1e100", padding);
-    if (!empty(volume)) volumes.push_back(grown(volume, padding));
+      throw_out_of_range_value("RegionMask: the padding of a region must be from 0 to 1e100", padding);
+    if (!empty(volume)) volumes.push_back(inflated(volume, padding));
   }
   return volumes;
 }
@@ -39,7 +39,7 @@ RegionTests tests_of(const std::vector<AnyVolume>& volumes) {
 
 std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volumes) {
   const FloatEnvironment environment;
-  std::vector<PlaceBounds> extents;
+  std::vector<PositionBounds> extents;
   extents.reserve(volumes.size());
   for (const AnyVolume& volume : volumes)
     extents.push_back(extent_of(volume));
@@ -48,7 +48,7 @@ std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volume
   return boxes;
 }
 
-// Two chunks are some 50 us of work: less is not worth waking a thread.
+// Two chunks take about 50 us; for less, starting a thread does not pay.
 std::size_t threads_for_chunks(std::size_t chunks) {
   return chunks / 2;
 }
@@ -56,18 +56,18 @@ std::size_t threads_for_chunks(std::size_t chunks) {
 }  // namespace
 
 RegionMask::RegionMask(const std::vector<Region>& regions)
-    : volumes_(grown_volumes(regions)), tests_(tests_of(volumes_)) {
+    : volumes_(inflated_volumes(regions)), tests_(tests_of(volumes_)) {
   if (volumes_.size() > kFewRegions) boxes_ = boxes_of(volumes_);
 }
 
 bool RegionMask::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
-  const Coordinates place = coordinates(point);
-  if (!is_valid(place)) return false;
-  const auto ask = [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); };
-  if (!boxes_) return std::any_of(volumes_.begin(), volumes_.end(), ask);
-  return boxes_->visit(boxes_->query(place, place),
-                       [&](std::uint32_t number) { return ask(volumes_[number]); });
+  const Coordinates position = coordinates(point);
+  if (!is_valid(position)) return false;
+  const auto contains_point = [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); };
+  if (!boxes_) return std::any_of(volumes_.begin(), volumes_.end(), contains_point);
+  return boxes_->visit(boxes_->query(position, position),
+                       [&](std::uint32_t index) { return contains_point(volumes_[index]); });
 }
 
 void RegionMask::mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const {

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/run_boxes.h"
+#include "pcl_bv/points/chunks.h"
 #include "spatial_order.h"
 
 namespace pcl_bv {
@@ -15,10 +15,10 @@ namespace {
 
 using Chosen = std::vector<std::uint32_t>;
 
-// What a point takes, in tests of a packet's points against a region of a list of all (0.16 ns on AVX-512,
-// 0.5 on SSE4): finding the regions that its run reaches, and testing each of those; and sorting, 25 ns, and
-// all that after it.
-constexpr double kToChoose = 6, kToTestChosen = 1.6, kToSort = 150;
+// Costs a point. The unit is the test of a point against one region of the complete list (0.16 ns with
+// AVX-512, 0.5 ns with SSE4). kChooseCost: finding the regions whose boxes overlap the run of the point.
+// kTestChosenCost: testing one of these. kSortCost: sorting the points (25 ns) and everything after that.
+constexpr double kChooseCost = 6, kTestChosenCost = 1.6, kSortCost = 150;
 constexpr std::size_t kRunsOfSample = 16;
 
 void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
@@ -26,8 +26,8 @@ void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
   if (!(run.low[0] <= run.high[0] && run.low[1] <= run.high[1] && run.low[2] <= run.high[2])) return;
   const BoxQuery query =
       boxes.query({run.low[0], run.low[1], run.low[2]}, {run.high[0], run.high[1], run.high[2]});
-  boxes.visit(query, [&](std::uint32_t number) {
-    chosen.push_back(number);
+  boxes.visit(query, [&](std::uint32_t index) {
+    chosen.push_back(index);
     return false;
   });
 }
@@ -35,7 +35,7 @@ void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
 struct Runs {
   std::array<RunBox, kChunkPoints / kRunPoints> boxes;
   std::size_t count;
-  Chosen chosen, next;  // regions
+  Chosen chosen, next;  // lists of regions
 
   void measure(UsableIsa isa, const PointView& points) {
     run_boxes(isa, points, boxes.data());
@@ -43,28 +43,28 @@ struct Runs {
   }
 };
 
-// A chunk's valid points, sorted.
+// The valid points of a chunk, sorted.
 template <typename T>
 struct SortedPoints {
   SpatialOrder<T> order;
   std::vector<std::uint8_t> states;
 
-  // Returns how many there are.
+  // Loads and sorts the points; returns their number.
   std::size_t load(const PointView& points) {
-    PlacedItem<T>* const items = order.reset(points.count);
+    PositionedItem<T>* const items = order.reset(points.count);
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
-      PlacedItem<T>& item = items[count];
-      load_point(points, i, item.place);
-      item.number = static_cast<std::int32_t>(i);
-      count += is_valid({item.place[0], item.place[1], item.place[2]});
+      PositionedItem<T>& item = items[count];
+      load_point(points, i, item.position);
+      item.index = static_cast<std::int32_t>(i);
+      count += is_valid({item.position[0], item.position[1], item.position[2]});
     }
     order.sort(count, Serial{});
     return count;
   }
 };
 
-// Kept by each thread: fresh memory of a megabyte costs more than what is done in it.
+// Retained by each thread: allocating a megabyte takes longer than the work on it.
 struct Scratch {
   Runs runs;
   SortedPoints<float> floats;
@@ -72,34 +72,34 @@ struct Scratch {
 };
 
 Scratch& scratch() {
-  thread_local Scratch kept;
-  return kept;
+  thread_local Scratch reused;
+  return reused;
 }
 
-// Regions that a run reaches, by a sample.
-double regions_reached(const VolumeBoxes& boxes, Runs& runs) {
+// Estimates the mean number of regions whose boxes overlap a run, from a sample of the runs.
+double mean_overlapping_regions(const VolumeBoxes& boxes, Runs& runs) {
   const std::size_t step = std::max<std::size_t>(1, runs.count / kRunsOfSample);
-  std::size_t reached = 0, looked = 0;
-  for (std::size_t run = 0; run < runs.count; run += step, ++looked) {
+  std::size_t overlaps = 0, sampled = 0;
+  for (std::size_t run = 0; run < runs.count; run += step, ++sampled) {
     choose(boxes, runs.boxes[run], runs.next);
-    reached += runs.next.size();
+    overlaps += runs.next.size();
   }
-  return static_cast<double>(reached) / static_cast<double>(std::max<std::size_t>(looked, 1));
+  return static_cast<double>(overlaps) / static_cast<double>(std::max<std::size_t>(sampled, 1));
 }
 
-enum class Way { all, in_order, sorted };
+enum class TestStrategy { all, in_order, sorted };
 
-Way cheapest(const VolumeBoxes& boxes, Runs& runs) {
-  const double by_runs = kToChoose + kToTestChosen * regions_reached(boxes, runs);
+TestStrategy cheapest(const VolumeBoxes& boxes, Runs& runs) {
+  const double by_runs = kChooseCost + kTestChosenCost * mean_overlapping_regions(boxes, runs);
   const auto by_all = static_cast<double>(boxes.size());
-  if (by_all <= std::min(by_runs, kToSort)) return Way::all;
-  return by_runs <= kToSort ? Way::in_order : Way::sorted;
+  if (by_all <= std::min(by_runs, kSortCost)) return TestStrategy::all;
+  return by_runs <= kSortCost ? TestStrategy::in_order : TestStrategy::sorted;
 }
 
 void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& regions,
                      const VolumeBoxes& boxes, Runs& runs, std::uint8_t* states) {
   runs.chosen.clear();
-  std::size_t begin = 0;  // of the points that runs.chosen is for
+  std::size_t begin = 0;  // first point that runs.chosen is for
   const auto flush = [&](std::size_t end) {
     if (runs.chosen.empty()) {
       std::fill(states + begin, states + end, static_cast<std::uint8_t>(RegionState::outside));
@@ -124,11 +124,11 @@ void states_sorted(UsableIsa isa, const PointView& points, const RegionTests& re
   const std::size_t count = sorted.load(points);
   std::fill(states, states + points.count, static_cast<std::uint8_t>(RegionState::outside));
   sorted.states.resize(count);
-  const PointView view = PointView::of(sorted.order[0].place, sizeof(PlacedItem<T>), count);
+  const PointView view = PointView::of(sorted.order[0].position, sizeof(PositionedItem<T>), count);
   runs.measure(isa, view);
   states_in_order(isa, view, regions, boxes, runs, sorted.states.data());
   for (std::size_t i = 0; i < count; ++i)
-    states[sorted.order[i].number] = sorted.states[i];
+    states[sorted.order[i].index] = sorted.states[i];
 }
 
 }  // namespace
@@ -137,10 +137,10 @@ void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionT
                            const VolumeBoxes& boxes, std::uint8_t* states) {
   auto& [runs, floats, doubles] = scratch();
   runs.measure(isa, points);
-  const Way way = cheapest(boxes, runs);
-  if (way == Way::all) {
+  const TestStrategy strategy = cheapest(boxes, runs);
+  if (strategy == TestStrategy::all) {
     region_states(isa, points, regions, states);
-  } else if (way == Way::in_order) {
+  } else if (strategy == TestStrategy::in_order) {
     states_in_order(isa, points, regions, boxes, runs, states);
   } else if (points.scalar == ScalarType::float32) {
     states_sorted(isa, points, regions, boxes, runs, floats, states);

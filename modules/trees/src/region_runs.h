@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Tests points against many regions, run by run.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,9 @@
 
 namespace pcl_bv {
 
-/// The states of at most kChunkPoints points, as region_states() gives them but for which are unclear, by
-/// testing each run of points against those regions only whose boxes it reaches. `boxes` are those of the
-/// regions.
+/// Sets the states of at most kChunkPoints points. They are as from region_states(), except that other points
+/// may be `unclear`. Each run of points is tested only against regions whose boxes overlap the box of the
+/// run. `boxes` are the boxes of `regions`.
 void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionTests& regions,
                            const VolumeBoxes& boxes, std::uint8_t* states);
 

@@ -9,7 +9,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "reaches.h"
+#include "support_bounds.h"
 
 namespace pcl_bv {
 namespace {
@@ -32,22 +32,23 @@ template <std::size_t N, typename T>
 SlabBounds<N, T>::SlabBounds(const AnyVolume& volume) : SlabBounds() {
   if (pcl_bv::empty(volume)) return;
   const FloatEnvironment environment;
-  const Reaches found = reaches(volume, N);
+  const CubeSupportBounds found = cube_support_bounds(volume, N);
   for (std::size_t i = 0; i < N; ++i) {
     min[i] = T(0) - rounded_up<T>(found.down[i]);  // never -0
     max[i] = T(0) + rounded_up<T>(found.up[i]);
   }
 }
 
-// A sum of three terms is off by 2 2^-53 of their magnitudes at most.
+// The rounding error of a sum of three terms is at most 2 2^-53 of their magnitudes.
 template <std::size_t N, typename T>
 bool SlabBounds<N, T>::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   for (std::size_t i = 0; i < N; ++i) {
     const CubeDirection& d = kCubeDirections[i];
     const double s = (d[0] * point.x() + d[1] * point.y()) + d[2] * point.z();
-    const double doubt = i < 3 ? 0 : 4 * kU * taxicab3(point);
-    if (!(s - doubt <= static_cast<double>(max[i]) && s + doubt >= static_cast<double>(min[i]))) return false;
+    const double error_bound = i < 3 ? 0 : 4 * kUnitRoundoff * taxicab3(point);
+    if (!(s - error_bound <= static_cast<double>(max[i]) && s + error_bound >= static_cast<double>(min[i])))
+      return false;
   }
   return true;
 }

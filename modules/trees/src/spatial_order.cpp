@@ -13,8 +13,8 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kParts = 4;
-constexpr std::size_t kMostBins = 1024;
+constexpr std::size_t kMaxParts = 4;
+constexpr std::size_t kMaxBins = 1024;
 
 // The longest side of the box around a run.
 struct Side {
@@ -27,7 +27,7 @@ Side longest_side(const ItemRun<T>& run) {
   Extremes<T> extremes;
   for (std::size_t i = 0; i < run.count; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      extremes.add(axis, run.items[i].place[axis]);
+      extremes.add(axis, run.items[i].position[axis]);
   }
   const auto [low, high] = extremes.bounds();
   Side longest{};
@@ -37,9 +37,9 @@ Side longest_side(const ItemRun<T>& run) {
   return longest;
 }
 
-// Where the parts of a run begin, and where the last one ends.
+// The positions in a run where its parts begin, and where the last part ends.
 struct Cuts {
-  std::array<std::size_t, kParts + 1> at{};
+  std::array<std::size_t, kMaxParts + 1> at{};
   std::size_t parts;
 
   explicit Cuts(std::size_t count) {
@@ -47,68 +47,69 @@ struct Cuts {
     while (unit * kTreeWidth < count)
       unit *= kTreeWidth;
     const std::size_t units = (count + unit - 1) / unit;
-    parts = std::min(units, kParts);
+    parts = std::min(units, kMaxParts);
     for (std::size_t p = 0; p < parts; ++p)
       at[p] = units * p / parts * unit;
     at[parts] = count;
   }
 };
 
-// Writes each item's bin, ascending along the side, and counts them.
+// Writes the bin of each item, ascending along the side, and counts the items of each bin.
 template <typename T>
 void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
   std::fill_n(counts, bins, 0U);
-  // Rounding may take the last place to the end of the last bin, not beyond.
+  // Rounding may move the last item to the end of the last bin, but not beyond it.
   const double per_length = (static_cast<double>(bins) - 0x1p-20) / side.length;
   for (std::size_t i = 0; i < run.count; ++i) {
-    const double along = static_cast<double>(run.items[i].place[side.axis]) - side.low;
+    const double along = static_cast<double>(run.items[i].position[side.axis]) - side.low;
     const auto bin = static_cast<std::uint16_t>(static_cast<std::int32_t>(along * per_length));
     run.bins[i] = bin;
     ++counts[bin];
   }
 }
 
-// Where the bins that a cut goes through, and the bins between those, begin.
+// Groups the bins to buckets: a bin that a cut passes through is one bucket, all bins between two of these
+// are another. `begin` has the first position of each bucket.
 struct Buckets {
-  std::array<std::uint8_t, kMostBins> of_bin;
-  std::array<std::size_t, 2 * kParts> begin{};
-  std::array<std::size_t, kParts + 1> of_cut{};  // of the bin that it goes through
+  std::array<std::uint8_t, kMaxBins> of_bin;
+  std::array<std::size_t, 2 * kMaxParts> begin{};
+  std::array<std::size_t, kMaxParts + 1> of_cut{};  // bucket of the bin that the cut passes through
 
   Buckets(const Cuts& cuts, std::size_t bins, const std::uint32_t* counts) {
-    std::size_t place = 0, bucket = 0, cut = 1;
+    std::size_t position = 0, bucket = 0, cut = 1;
     for (std::size_t bin = 0; bin < bins; ++bin) {
-      const std::size_t end = place + counts[bin];
+      const std::size_t end = position + counts[bin];
       const bool through = cut < cuts.parts && cuts.at[cut] < end;
-      if (through && place > begin[bucket]) begin[++bucket] = place;
+      if (through && position > begin[bucket]) begin[++bucket] = position;
       of_bin[bin] = static_cast<std::uint8_t>(bucket);
       if (through) {
         for (; cut < cuts.parts && cuts.at[cut] < end; ++cut)
           of_cut[cut] = bucket;
         begin[++bucket] = end;
       }
-      place = end;
+      position = end;
     }
-    std::fill(begin.begin() + static_cast<std::ptrdiff_t>(bucket) + 1, begin.end(), place);
+    std::fill(begin.begin() + static_cast<std::ptrdiff_t>(bucket) + 1, begin.end(), position);
   }
 };
 
 template <typename T>
 void move_items(const ItemRun<T>& run, const Buckets& buckets) {
-  std::array<std::size_t, 2 * kParts> place = buckets.begin;
+  std::array<std::size_t, 2 * kMaxParts> position = buckets.begin;
   for (std::size_t i = 0; i < run.count; ++i)
-    run.other[place[buckets.of_bin[run.bins[i]]]++] = run.items[i];
+    run.other[position[buckets.of_bin[run.bins[i]]]++] = run.items[i];
 }
 
-// Moves the items to `other`, those of each part to where it is.
+// Moves the items to `other`, each to the positions of its part.
 template <typename T>
 void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
-  std::array<std::uint32_t, kMostBins> counts;
-  const std::size_t bins = std::min(kMostBins, run.count);
+  std::array<std::uint32_t, kMaxBins> counts;
+  const std::size_t bins = std::min(kMaxBins, run.count);
   fill_bins(run, side, bins, counts.data());
   const Buckets buckets(cuts, bins, counts.data());
   move_items(run, buckets);
-  const auto precedes = [axis = side.axis](const PlacedItem<T>& a, const PlacedItem<T>& b) {
-    return a.place[axis] < b.place[axis] || (a.place[axis] == b.place[axis] && a.number < b.number);
+  const auto precedes = [axis = side.axis](const PositionedItem<T>& a, const PositionedItem<T>& b) {
+    return a.position[axis] < b.position[axis] || (a.position[axis] == b.position[axis] && a.index < b.index);
   };
   for (std::size_t c = 1; c < cuts.parts; ++c) {
     const std::size_t bucket = buckets.of_cut[c];
@@ -118,11 +119,11 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   }
 }
 
-// Cuts a run and calls take(part) for its parts; a run that needs no cut is done.
+// Cuts a run and calls take(part) for its parts. A run that needs no cut is only moved to its buffer.
 template <typename T, typename Take>
 void cut_run(const ItemRun<T>& run, const Take& take) {
   const Side side = run.count > kTreeWidth ? longest_side(run) : Side{};
-  if (!(side.length > 1e-290)) {  // few, or all in one place
+  if (!(side.length > 1e-290)) {  // few items, or all at the same position
     if (!run.in_place) std::copy_n(run.items, run.count, run.other);
     return;
   }
@@ -137,8 +138,8 @@ void sort_run(const ItemRun<T>& run) {
   cut_run(run, [](const ItemRun<T>& part) { sort_run(part); });
 }
 
-// How many runs threads share. Fewer than 8192 items are sorted before another thread has come; four runs a
-// thread even out what they take.
+// Number of runs that threads share. A thread takes at least 8192 items: fewer are sorted before another
+// thread has started. Four runs a thread balance the load.
 std::size_t runs_for(std::size_t threads, std::size_t items) {
   threads = std::min(threads, items / 8192);
   return threads > 1 ? 4 * threads : 1;
@@ -147,7 +148,7 @@ std::size_t runs_for(std::size_t threads, std::size_t items) {
 }  // namespace
 
 template <typename T>
-PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
+PositionedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
   items_.resize(count);
   buffer_.resize(count);
   bins_.resize(count);
@@ -157,16 +158,16 @@ PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
 template <typename T>
 void SpatialOrder<T>::sort(std::size_t count, const ParallelPolicy& policy) {
   runs_.assign(1, {items_.data(), buffer_.data(), bins_.data(), count, true});
-  share_out(runs_for(thread_count(policy), count), policy);
+  split_for_threads(runs_for(thread_count(policy), count), policy);
   for_each_chunk(policy, runs_.size(), [&](std::size_t r) { sort_run(runs_[r]); });
 }
 
 template <typename T>
-void SpatialOrder<T>::share_out(std::size_t runs, const ParallelPolicy& policy) {
+void SpatialOrder<T>::split_for_threads(std::size_t runs, const ParallelPolicy& policy) {
   while (!runs_.empty() && runs_.size() < runs) {
-    parts_.assign(runs_.size() * kParts, {});
+    parts_.assign(runs_.size() * kMaxParts, {});
     for_each_chunk(policy, runs_.size(), [&](std::size_t r) {
-      std::size_t p = r * kParts;
+      std::size_t p = r * kMaxParts;
       cut_run(runs_[r], [&](const ItemRun<T>& part) { parts_[p++] = part; });
     });
     runs_.clear();

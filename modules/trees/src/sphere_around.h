@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A sphere around a box.
 #pragma once
 
 #include "pcl_bv/numeric/constants.h"
@@ -11,14 +12,14 @@
 
 namespace pcl_bv {
 
-/// Around a box; empty for one that is infinite or nowhere. Roundings are below 2^-50 (reach + |low|_1 +
-/// |high|_1); the radius grows by 2^-45 of that.
-inline Sphere sphere_around(const PlaceBounds& box) {
+/// Returns a sphere around a box; empty for an empty or infinite box. Rounding errors are below 2^-50 of
+/// radius + |low|_1 + |high|_1; the radius grows by 2^-45 of this sum.
+inline Sphere sphere_around(const PositionBounds& box) {
   const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
   if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};
   const Eigen::Vector3d middle = 0.5 * low + 0.5 * high;
-  const double reach = norm3((high - middle).eval());
-  return {middle, reach + 0x1p-45 * (reach + taxicab3(low) + taxicab3(high)) + kSmallestNormal};
+  const double radius = norm3((high - middle).eval());
+  return {middle, radius + 0x1p-45 * (radius + taxicab3(low) + taxicab3(high)) + kSmallestNormal};
 }
 
 }  // namespace pcl_bv

@@ -14,7 +14,8 @@
 namespace pcl_bv {
 namespace {
 
-constexpr PlaceBounds kNowhere = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr PositionBounds kEmptyBounds = {{kInfinity, kInfinity, kInfinity},
+                                         {-kInfinity, -kInfinity, -kInfinity}};
 
 template <typename T>
 std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
@@ -25,7 +26,7 @@ std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
   }
 }
 
-void widen(PlaceBounds& bounds, const PlaceBounds& other) {
+void merge_into(PositionBounds& bounds, const PositionBounds& other) {
   bounds.low = {std::min(bounds.low.x, other.low.x), std::min(bounds.low.y, other.low.y),
                 std::min(bounds.low.z, other.low.z)};
   bounds.high = {std::max(bounds.high.x, other.high.x), std::max(bounds.high.y, other.high.y),
@@ -33,21 +34,21 @@ void widen(PlaceBounds& bounds, const PlaceBounds& other) {
 }
 
 template <typename T>
-void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
-  std::size_t place = part.begin;
+void load_part(const PointView& points, LoadPart& part, PositionedItem<T>* to) {
+  std::size_t position = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    PlacedItem<T>& item = to[place];
-    load_point(points, i, item.place);
-    item.number = static_cast<std::int32_t>(points.index(i));
-    if (is_valid({item.place[0], item.place[1], item.place[2]})) ++place;
+    PositionedItem<T>& item = to[position];
+    load_point(points, i, item.position);
+    item.index = static_cast<std::int32_t>(points.index(i));
+    if (is_valid({item.position[0], item.position[1], item.position[2]})) ++position;
   }
-  part.valid = place - part.begin;
+  part.valid = position - part.begin;
 }
 
-// Returns how many are valid.
+// Loads the valid points and returns their number.
 template <typename T>
-std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<LoadPart>& parts,
-                 PlacedItem<T>* to) {
+std::size_t load(const PointView& points, const ParallelPolicy& policy, PointParts<LoadPart>& parts,
+                 PositionedItem<T>* to) {
   parts.cut(points.count, policy);
   parts.for_each(policy, [&](LoadPart& part) { load_part(points, part, to); });
   std::size_t count = 0;
@@ -59,7 +60,7 @@ std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<Lo
 }
 
 template <typename T>
-PlaceBounds bounds_of(const PointPacket<T>& packet) {
+PositionBounds bounds_of(const PointPacket<T>& packet) {
   Extremes<T> extremes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < kTreeWidth; ++k)
@@ -68,31 +69,31 @@ PlaceBounds bounds_of(const PointPacket<T>& packet) {
   return extremes.bounds();
 }
 
-// Calls fill(p, packet) for all packets, and then sets the boxes around what is in them.
+// Calls fill(p, packet) for all packets, and then sets the boxes around their points.
 template <typename T, typename Fill>
-void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPart>& parts,
+void fill_packets(PackedTree& tree, const ParallelPolicy& policy, PointParts<PacketPart>& parts,
                   const Fill& fill) {
   std::vector<PointPacket<T>>& packets = packets_of<T>(tree);
   parts.cut(packets.size(), policy);
   parts.for_each(policy, [&](PacketPart& part) {
-    part.bounds = kNowhere;
+    part.bounds = kEmptyBounds;
     for (std::size_t p = part.begin; p < part.end; ++p) {
       fill(p, packets[p]);
-      widen(part.bounds, bounds_of(packets[p]));
+      merge_into(part.bounds, bounds_of(packets[p]));
     }
   });
-  PlaceBounds all = kNowhere;
+  PositionBounds all = kEmptyBounds;
   for (const PacketPart& part : parts)
-    widen(all, part.bounds);
+    merge_into(all, part.bounds);
   reset_levels(tree.boxes, packets.size(), all);
   parts.for_each(policy, [&](const PacketPart& part) {
     for (std::size_t p = part.begin; p < part.end; ++p) {
-      const PlaceBounds box = bounds_of(packets[p]);
+      const PositionBounds box = bounds_of(packets[p]);
       if (box.low.x <= box.high.x) set_item_box(tree.boxes, p, box.low, box.high);
     }
   });
   raise_levels(tree.boxes);
-  find_least_reached(tree.boxes);
+  find_min_side_radii(tree.boxes);
 }
 
 template <typename T>
@@ -102,19 +103,19 @@ void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& s
   order.sort(tree.count, policy);
   const std::size_t packets = (tree.count + kTreeWidth - 1) / kTreeWidth;
   packets_of<T>(tree).resize(packets);
-  tree.numbers.resize(packets * kTreeWidth);
+  tree.indices.resize(packets * kTreeWidth);
   fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     const std::size_t first = p * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
     for (std::size_t k = 0; k < count; ++k) {
-      const PlacedItem<T>& item = order[first + k];
+      const PositionedItem<T>& item = order[first + k];
       for (std::size_t axis = 0; axis < 3; ++axis)
-        *packet.at(axis, k) = item.place[axis];
-      tree.numbers[first + k] = static_cast<std::int32_t>(item.number);
+        *packet.at(axis, k) = item.position[axis];
+      tree.indices[first + k] = static_cast<std::int32_t>(item.index);
     }
     for (std::size_t k = count; k < kTreeWidth; ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         *packet.at(axis, k) = std::numeric_limits<T>::quiet_NaN();
-      tree.numbers[first + k] = -1;
+      tree.indices[first + k] = -1;
     }
   });
 }
@@ -124,7 +125,7 @@ void refit(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& sc
   fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     for (std::size_t k = 0; k < kTreeWidth && p * kTreeWidth + k < tree.count; ++k) {
       T xyz[3];
-      load_point(cloud, static_cast<std::size_t>(tree.numbers[p * kTreeWidth + k]) - cloud.first, xyz);
+      load_point(cloud, static_cast<std::size_t>(tree.indices[p * kTreeWidth + k]) - cloud.first, xyz);
       const bool valid = is_valid({xyz[0], xyz[1], xyz[2]});
       for (std::size_t axis = 0; axis < 3; ++axis)
         *packet.at(axis, k) = valid ? xyz[axis] : std::numeric_limits<T>::quiet_NaN();

@@ -1,39 +1,42 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Builds the PackedTree of a PointTree.
 #pragma once
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/packed_tree.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/parts.h"
+#include "pcl_bv/points/point_view.h"
 #include "spatial_order.h"
 
 namespace pcl_bv {
 
+/// A part of the points, which one thread loads.
 struct LoadPart {
-  std::size_t begin = 0, end = 0;  ///< Points.
-  std::size_t valid = 0;           ///< Of them; they are stored from `begin` on.
+  std::size_t begin = 0, end = 0;  ///< Range of the points.
+  std::size_t valid = 0;           ///< Number of valid points; they are stored from `begin`.
 };
 
+/// A part of the packets, which one thread fills.
 struct PacketPart {
-  std::size_t begin = 0, end = 0;  ///< Packets.
-  PlaceBounds bounds{};
+  std::size_t begin = 0, end = 0;  ///< Range of the packets.
+  PositionBounds bounds{};
 };
 
-/// What building and measuring need, kept for the next cloud.
+/// Buffers for building and refitting, reused for the next cloud.
 struct TreeScratch {
-  Parts<LoadPart> loads;
-  Parts<PacketPart> packets;
+  PointParts<LoadPart> loads;
+  PointParts<PacketPart> packets;
   SpatialOrder<float> floats;
   SpatialOrder<double> doubles;
 };
 
-/// Replaces the tree by one of the view's valid points.
+/// Replaces the tree by the tree of the view's valid points.
 void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch,
                 PackedTree& tree);
 
-/// Takes the coordinates of the tree's points from a cloud that has them all, and measures its boxes again.
+/// Reads new coordinates of the tree's points from a cloud that has all of them, and recomputes the boxes.
 void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree);
 
 }  // namespace pcl_bv

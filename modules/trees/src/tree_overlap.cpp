@@ -4,13 +4,14 @@
 #include "tree_overlap.h"
 
 #include "box_relation.h"
-#include "grown.h"
+#include "inflated.h"
 #include "volume_walk.h"
 
 namespace pcl_bv {
 namespace {
 
-// The boxes of the tree that moves, as long as a point of the other one is near; then point by point.
+// Descends into the boxes of the moved tree that are near a point of the other tree, and tests the points of
+// their packets.
 class TreeOverlap {
  public:
   TreeOverlap(const PointTree& points, const PackedTree& moving, const Eigen::Isometry3d& pose, double margin)
@@ -30,7 +31,7 @@ class TreeOverlap {
 
  private:
   bool near(const PlainBox& box) const {
-    const AnyVolume moved = grown(Obb(Aabb(box.low, box.high)).transformed(pose_), margin_);
+    const AnyVolume moved = inflated(Obb(Aabb(box.low, box.high)).transformed(pose_), margin_);
     return walk_inside(points_.isa(), points_.packed(), moved,
                        [](std::size_t, std::uint32_t) { return true; });
   }
@@ -39,7 +40,7 @@ class TreeOverlap {
     const PointView view = moving_.view();
     for (std::size_t k = 0; k < kTreeWidth; ++k) {
       const Coordinates p = load_point(view, packet * kTreeWidth + k);
-      if (is_valid(p) && any_within(points_, image_of(pose_, p), margin_)) return true;
+      if (is_valid(p) && any_within(points_, transform_point(pose_, p), margin_)) return true;
     }
     return false;
   }
@@ -52,11 +53,11 @@ class TreeOverlap {
 
 }  // namespace
 
-// 2^-48 is for the six roundings of Neighbor's squares, the two here and two of the distance: 2^-49 in all.
-// This square does not underflow: an image's error is 2^-500 or more.
-bool any_within(const PointTree& points, const Image& place, double distance) {
-  const double reach = distance + place.error;
-  return any_in_ball(points.isa(), points.packed(), place.place, reach * reach * (1 + 0x1p-48));
+// The factor 1 + 2^-48 covers the six roundings of Neighbor::squared_distance, the two here and two in
+// `distance`: 2^-49 in all. The square does not underflow because the error of an image is at least 2^-500.
+bool any_within(const PointTree& points, const TransformedPoint& point, double distance) {
+  const double limit = distance + point.error;
+  return any_in_ball(points.isa(), points.packed(), point.position, limit * limit * (1 + 0x1p-48));
 }
 
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,

@@ -1,21 +1,23 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Tests whether points of two trees are near each other.
 #pragma once
 
 #include <Eigen/Geometry>
 
-#include "image.h"
 #include "pcl_bv/trees/point_tree.h"
+#include "transformed_point.h"
 
 namespace pcl_bv {
 
-/// Whether a point is within `distance` of a place, of which the image is given, as image_of() has it. Never
-/// false where one is, also if the distance is rounded twice; errs by 2^-48 of the distance and by the
-/// image's error. Of an error and a distance both below 2^-500 squares may underflow.
-bool any_within(const PointTree& points, const Image& place, double distance);
+/// Returns whether any point of the tree is within `distance` of the exact transformed point that `point`
+/// approximates (transform_point()). Never false if one is, even if `distance` has been rounded twice. May be
+/// true for points farther by 2^-48 of the distance and twice the error of `point`. Squares underflow if both
+/// the error and the distance are below 2^-500.
+bool any_within(const PointTree& points, const TransformedPoint& point, double distance);
 
-/// within() of collision.h, for two trees that have points.
+/// Implements within() of collision.h for two trees that have points.
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
                   double margin);
 

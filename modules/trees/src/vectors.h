@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Conversions between Coordinates and Eigen vectors.
 #pragma once
 
 #include <Eigen/Core>

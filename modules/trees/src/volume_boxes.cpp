@@ -10,17 +10,17 @@
 namespace pcl_bv {
 namespace {
 
-bool is_somewhere(const PlaceBounds& extent) {
+bool is_nonempty(const PositionBounds& extent) {
   return extent.low.x <= extent.high.x && extent.low.y <= extent.high.y && extent.low.z <= extent.high.z;
 }
 
-bool has_box(const PlaceBounds& extent) {
-  return is_somewhere(extent) && is_valid(extent.low) && is_valid(extent.high);
+bool has_box(const PositionBounds& extent) {
+  return is_nonempty(extent) && is_valid(extent.low) && is_valid(extent.high);
 }
 
-PlaceBounds around(const std::vector<PlaceBounds>& extents) {
-  PlaceBounds all = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (const PlaceBounds& extent : extents) {
+PositionBounds around(const std::vector<PositionBounds>& extents) {
+  PositionBounds all = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (const PositionBounds& extent : extents) {
     if (!has_box(extent)) continue;
     all.low = coordinates(vector(all.low).cwiseMin(vector(extent.low)));
     all.high = coordinates(vector(all.high).cwiseMax(vector(extent.high)));
@@ -30,11 +30,11 @@ PlaceBounds around(const std::vector<PlaceBounds>& extents) {
 
 }  // namespace
 
-double contained_margin(const Aabb& box) {
+double contains_margin(const Aabb& box) {
   return 0x1p-36 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) + 0x1p-470;
 }
 
-PlaceBounds extent_of(const AnyVolume& volume) {
+PositionBounds extent_of(const AnyVolume& volume) {
   const Aabb box = aabb(volume);
   if (empty(volume)) return {coordinates(box.min()), coordinates(box.max())};
   if (std::holds_alternative<Kdop>(volume) || std::holds_alternative<Hull>(volume)) {
@@ -42,51 +42,51 @@ PlaceBounds extent_of(const AnyVolume& volume) {
     return {coordinates(vector(region.low).cwiseMin(box.min())),
             coordinates(vector(region.high).cwiseMax(box.max()))};
   }
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(contained_margin(box));
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(contains_margin(box));
   return {coordinates(box.min() - margin), coordinates(box.max() + margin)};
 }
 
-void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy) {
-  const PlaceBounds all = around(extents);
+void VolumeBoxes::build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy) {
+  const PositionBounds all = around(extents);
   SpatialOrder<double> order;
-  PlacedItem<double>* const items = order.reset(extents.size());
-  // A place for those without a box, which must be valid also if no volume has one.
+  PositionedItem<double>* const items = order.reset(extents.size());
+  // Position in the order for volumes without a box; valid also if no volume has a box.
   const auto anywhere = [&](std::size_t axis) { return std::min(all.low[axis], kMaxCoordinate); };
   for (std::size_t i = 0; i < extents.size(); ++i) {
-    items[i].number = static_cast<std::int64_t>(i);
+    items[i].index = static_cast<std::int64_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double middle = extents[i].low[axis] / 2 + extents[i].high[axis] / 2;
-      items[i].place[axis] = has_box(extents[i]) ? middle : anywhere(axis);
+      items[i].position[axis] = has_box(extents[i]) ? middle : anywhere(axis);
     }
   }
   order.sort(extents.size(), policy);
   order_.resize(extents.size());
   for (std::size_t item = 0; item < extents.size(); ++item)
-    order_[item] = static_cast<std::uint32_t>(order[item].number);
+    order_[item] = static_cast<std::uint32_t>(order[item].index);
   refit(extents);
 }
 
-void VolumeBoxes::refit(const std::vector<PlaceBounds>& extents) {
+void VolumeBoxes::refit(const std::vector<PositionBounds>& extents) {
   reset_levels(boxes_, extents.size(), around(extents));
-  everywhere_.clear();
+  without_box_.clear();
   for (std::size_t item = 0; item < extents.size(); ++item) {
-    const PlaceBounds& extent = extents[order_[item]];
+    const PositionBounds& extent = extents[order_[item]];
     if (has_box(extent)) {
       set_item_box(boxes_, item, extent.low, extent.high);
-    } else if (is_somewhere(extent)) {
-      everywhere_.push_back(order_[item]);
+    } else if (is_nonempty(extent)) {
+      without_box_.push_back(order_[item]);
     }
   }
-  std::sort(everywhere_.begin(), everywhere_.end());
+  std::sort(without_box_.begin(), without_box_.end());
   raise_levels(boxes_);
 }
 
 BoxQuery VolumeBoxes::query(const Coordinates& low, const Coordinates& high) const {
   BoxQuery query;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double least = to_frame(low[axis], axis), most = to_frame(high[axis], axis);
-    query.low[axis] = static_cast<float>(std::clamp(least - slack(least), -0x1p100, 0x1p100));
-    query.high[axis] = static_cast<float>(std::clamp(most + slack(most), -0x1p100, 0x1p100));
+    const double low_x = to_frame(low[axis], axis), high_x = to_frame(high[axis], axis);
+    query.low[axis] = static_cast<float>(std::clamp(low_x - margin(low_x), -0x1p100, 0x1p100));
+    query.high[axis] = static_cast<float>(std::clamp(high_x + margin(high_x), -0x1p100, 0x1p100));
   }
   return query;
 }

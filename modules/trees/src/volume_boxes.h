@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What trees of volumes share: boxes of boxes around them, and the walk through them.
+// Levels of boxes around volumes and their traversal, shared by all trees of volumes.
 #pragma once
 
 #include <algorithm>
@@ -18,65 +18,67 @@
 
 namespace pcl_bv {
 
-/// Volumes that a thread measures at a time: some 20 us.
+/// Number of volumes that a thread measures at a time; takes about 20 us.
 inline constexpr std::size_t kVolumesOfChunk = 64;
 
-/// What contains() of a volume in a box may add to it, in any direction, and more: each adds less than 2^-45
-/// of the distance and the sizes to each of up to three distances that are at right angles.
-double contained_margin(const Aabb& box);
+/// Returns an upper bound of the distance from a volume in `box` at which contains() may accept a point.
+/// contains() of each type exceeds the volume by less than 2^-45 of the distance and the sizes, along each of
+/// up to three perpendicular distances.
+double contains_margin(const Aabb& box);
 
-/// A box around all that contains() of a volume may hold, and around aabb(). Of an empty volume low is above
-/// high; of one that no box is known for (planes need not enclose anything), infinite.
-PlaceBounds extent_of(const AnyVolume& volume);
+/// Returns a box around aabb() and all points that contains() may accept. For an empty volume `low` is above
+/// `high`. For a volume without a known box (planes may bound no body) it is infinite.
+PositionBounds extent_of(const AnyVolume& volume);
 
-/// Sides of a box as those of a BoxGroup are compared with.
+/// A box in float, in the frame of the boxes, to compare with a BoxGroup.
 struct BoxQuery {
   float low[3], high[3];
 };
 
-/// Boxes around volumes, by their numbers.
+/// Levels of boxes around volumes.
 class VolumeBoxes {
  public:
-  /// Chooses the order, too. O(n log n).
-  void build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy);
+  /// Chooses the order of the volumes and builds the boxes. O(n log n).
+  void build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy);
 
-  /// Of the same number of volumes, which have moved: the order stays.
-  void refit(const std::vector<PlaceBounds>& extents);
+  /// Rebuilds the boxes of the same number of volumes after they have moved; the order stays.
+  void refit(const std::vector<PositionBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
   std::size_t size() const { return order_.size(); }
-  std::uint32_t number(std::size_t item) const { return order_[item]; }
+  /// Returns the index of the volume in position `item` of the order.
+  std::uint32_t volume_index(std::size_t item) const { return order_[item]; }
 
-  /// Those without a box, ascending.
-  const std::vector<std::uint32_t>& everywhere() const { return everywhere_; }
+  /// Returns the indices of the volumes without a box, ascending.
+  const std::vector<std::uint32_t>& without_box() const { return without_box_; }
 
-  /// How far from its box, in the frame of the boxes, anything may be that an answer about a place or a ray
-  /// from there depends on. Roundings of double are less than 2^-40 of the distance and the sizes, what they
-  /// are multiplied with in flat ellipsoids and sharp hulls is below 2^20: the others are asked without a box
-  /// (see volume_tree.cpp).
-  static double slack(double place) { return 0x1p-20 * (1 + std::abs(place)); }
+  /// Margin by which queries at a coordinate x, in the frame of the boxes, extend the boxes: a volume
+  /// whose extended box a point or a ray misses cannot change the answer. Rounding errors in double are below
+  /// 2^-40 of the distance and the sizes. Flat ellipsoids and sharp hulls amplify them by less than 2^20;
+  /// volumes with a larger factor are tested without a box (see volume_tree.cpp).
+  static double margin(double x) { return 0x1p-20 * (1 + std::abs(x)); }
 
   double to_frame(double coordinate, std::size_t axis) const {
     return (coordinate - boxes_.origin[axis]) * boxes_.scale;
   }
 
-  /// All that is between low and high, and what slack() says.
+  /// Returns the box [low, high], extended by margin().
   BoxQuery query(const Coordinates& low, const Coordinates& high) const;
 
-  /// Calls visit(number) for those without a box, then for those whose box overlaps; ends where it returns
-  /// true.
+  /// Calls visit(index) for the volumes without a box, then for those whose box overlaps the query. Stops and
+  /// returns true when visit returns true.
   template <typename Visit>
   bool visit(const BoxQuery& query, const Visit& visit) const;
 
  private:
   BoxLevels boxes_;
-  std::vector<std::uint32_t> order_;  // number of each item
-  std::vector<std::uint32_t> everywhere_;
+  std::vector<std::uint32_t> order_;  // index of the volume in each position
+  std::vector<std::uint32_t> without_box_;
 };
 
-/// The boxes of a group that overlap a box, as bits.
+/// Returns the boxes of a group that overlap a box, as bits.
 inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
-  // Products of 0 and 1 instead of branches: so the compiler makes vectors of it.
+  // Uses values 0 and 1 instead of branches, so that the compiler vectorises the loop.
   alignas(64) std::uint32_t out[kTreeWidth];
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
     const float x = std::max(group.low[0][k] - query.high[0], query.low[0] - group.high[0][k]);
@@ -92,8 +94,8 @@ inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
 
 template <typename Visit>
 bool VolumeBoxes::visit(const BoxQuery& query, const Visit& visit) const {
-  for (const std::uint32_t number : everywhere_) {
-    if (visit(number)) return true;
+  for (const std::uint32_t index : without_box_) {
+    if (visit(index)) return true;
   }
   return walk(
       boxes_, [&](std::size_t group) { return overlapping(boxes_.groups[group], query); },

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The data of a VolumeTree: its volumes and the bounds of its nodes.
 #pragma once
 
 #include <array>
@@ -18,27 +19,29 @@ struct VolumeTree::Nodes {
   NodeBounds kind = NodeBounds::aabb;
   VolumeBoxes boxes;
   NodeShapes shapes;
-  std::vector<std::uint32_t> loose;  // those that rays ask without a box
+  std::vector<std::uint32_t> too_flat_for_rays;  // flat ellipsoids, which rays test without a box
 
-  void measure(bool anew, const Execution& execution);
+  /// Builds the boxes and shapes: in a new order if `new_order`, else in the present order.
+  void measure(bool new_order, const Execution& execution);
 
-  /// Calls visit(number of the volume) for those that may hold a place, and those without a box; ends where
-  /// it returns true.
+  /// Calls visit(index) for the volumes that may hold a point, and for those without a box. Stops and returns
+  /// true when visit returns true.
   template <typename Visit>
-  bool visit_near(const Coordinates& place, const Visit& visit) const {
-    const BoxQuery query = boxes.query(place, place);
+  bool visit_candidates_at(const Coordinates& point, const Visit& visit) const {
+    const BoxQuery query = boxes.query(point, point);
     if (shapes.none()) return boxes.visit(query, visit);
-    const FramePlace at(boxes, place);
-    for (const std::uint32_t number : boxes.everywhere()) {
-      if (visit(number)) return true;
+    const FramePoint at(boxes, point);
+    for (const std::uint32_t index : boxes.without_box()) {
+      if (visit(index)) return true;
     }
     const auto pick = [&](std::size_t group) {
-      return shapes.may_hold(group, overlapping(boxes.levels().groups[group], query), at);
+      return shapes.may_contain(group, overlapping(boxes.levels().groups[group], query), at);
     };
-    return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
+    return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.volume_index(item)); });
   }
 
-  /// Calls visit(number) for the volumes whose bound(group, k) is at most limit(), as descend() says.
+  /// Calls visit(index) for the volumes whose bound(group, k) is at most limit(), in the order of
+  /// visit_nearest_first().
   template <typename Bound, typename Limit, typename Visit>
   void nearest_first(const Bound& bound, const Limit& limit, const Visit& visit) const {
     const auto bounds = [&](std::size_t group) {
@@ -47,7 +50,8 @@ struct VolumeTree::Nodes {
         found[k] = bound(group, k);
       return found;
     };
-    descend(boxes.levels(), bounds, limit, [&](std::size_t item) { visit(boxes.number(item)); });
+    visit_nearest_first(boxes.levels(), bounds, limit,
+                        [&](std::size_t item) { visit(boxes.volume_index(item)); });
   }
 };
 

@@ -14,8 +14,9 @@
 namespace pcl_bv {
 namespace {
 
-// Those whose ends of a ray may be farther from them than slack() covers.
-bool is_loose(const AnyVolume& volume) {
+// Returns whether the ends of a ray's interval may be farther from the volume than VolumeBoxes::margin()
+// covers.
+bool is_too_flat_for_rays(const AnyVolume& volume) {
   const auto* const ellipsoid = std::get_if<Ellipsoid>(&volume);
   return ellipsoid != nullptr && !ellipsoid->empty() &&
          !(ellipsoid->radii().maxCoeff() <= 0x1p20 * ellipsoid->radii().minCoeff());
@@ -27,27 +28,29 @@ void require_usable(const std::vector<AnyVolume>& volumes, const Execution& exec
     what << "VolumeTree: takes 0 to 2147483647 volumes, not " << volumes.size();
     throw std::invalid_argument(what.str());
   }
-  if (execution.supports != nullptr) throw std::invalid_argument("VolumeTree: takes no supports");
+  if (execution.supports != nullptr)
+    throw std::invalid_argument("VolumeTree: Execution::supports must be null");
 }
 
 }  // namespace
 
-void VolumeTree::Nodes::measure(bool anew, const Execution& execution) {
-  std::vector<PlaceBounds> extents(volumes.size());
-  for_each_run(execution.parallel, volumes.size(), kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
-    const FloatEnvironment environment;
-    for (std::size_t i = begin; i < end; ++i)
-      extents[i] = extent_of(volumes[i]);
-  });
-  if (anew) {
+void VolumeTree::Nodes::measure(bool new_order, const Execution& execution) {
+  std::vector<PositionBounds> extents(volumes.size());
+  for_each_range(execution.parallel, volumes.size(), kVolumesOfChunk,
+                 [&](std::size_t begin, std::size_t end) {
+                   const FloatEnvironment environment;
+                   for (std::size_t i = begin; i < end; ++i)
+                     extents[i] = extent_of(volumes[i]);
+                 });
+  if (new_order) {
     boxes.build(extents, execution.parallel);
   } else {
     boxes.refit(extents);
   }
   shapes.measure(kind, boxes, volumes, execution.parallel);
-  loose.clear();
+  too_flat_for_rays.clear();
   for (std::uint32_t i = 0; i < volumes.size(); ++i) {
-    if (is_loose(volumes[i])) loose.push_back(i);
+    if (is_too_flat_for_rays(volumes[i])) too_flat_for_rays.push_back(i);
   }
 }
 
@@ -67,7 +70,7 @@ void VolumeTree::refit(std::vector<AnyVolume> volumes, const Execution& executio
   require_usable(volumes, execution);
   if (volumes.size() != size()) {
     std::ostringstream what;
-    what << "VolumeTree: refit() takes as many volumes as there are, " << size() << ", not "
+    what << "VolumeTree: refit() takes " << size() << " volumes, as many as the tree has, not "
          << volumes.size();
     throw std::invalid_argument(what.str());
   }
@@ -95,7 +98,7 @@ void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>
                             const Execution& execution) const {
   constexpr std::size_t rays_of_chunk = 256;
   hits.resize(rays.size());
-  for_each_run(execution.parallel, rays.size(), rays_of_chunk, [&](std::size_t begin, std::size_t end) {
+  for_each_range(execution.parallel, rays.size(), rays_of_chunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       hits[i] = first_hit(rays[i].origin, rays[i].direction).value_or(VolumeHit{-1, {}});

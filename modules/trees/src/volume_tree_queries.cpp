@@ -4,23 +4,23 @@
 #include <algorithm>
 #include <utility>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "argument_checks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/volumes/pairs.h"
-#include "refusal.h"
+#include "pcl_bv/points/point_source.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "vectors.h"
 #include "volume_nodes.h"
 
 namespace pcl_bv {
 namespace {
 
-bool before(const VolumeHit& a, const VolumeHit& b) {
+bool is_before(const VolumeHit& a, const VolumeHit& b) {
   return std::pair(a.interval.enter, a.index) < std::pair(b.interval.enter, b.index);
 }
 
-bool before(const VolumeDistance& a, const VolumeDistance& b) {
+bool is_before(const VolumeDistance& a, const VolumeDistance& b) {
   return std::pair(a.distance, a.index) < std::pair(b.distance, b.index);
 }
 
@@ -28,50 +28,50 @@ std::uint32_t count_of(const std::vector<AnyVolume>& volumes) {
   return static_cast<std::uint32_t>(volumes.size());
 }
 
-// Calls visit for all volumes: places and rays beyond 1e100 leave the range of what boxes are compared in.
+// Calls visit for all volumes. Needed for points and rays beyond 1e100, which cannot be compared with boxes.
 template <typename Visit>
 bool visit_all(const std::vector<AnyVolume>& volumes, const Visit& visit) {
-  for (std::uint32_t number = 0; number < count_of(volumes); ++number) {
-    if (visit(number)) return true;
+  for (std::uint32_t index = 0; index < count_of(volumes); ++index) {
+    if (visit(index)) return true;
   }
   return false;
 }
 
 template <typename Nodes, typename Visit>
 bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Visit& visit) {
-  const auto ask = [&](std::uint32_t number) {
-    return contains(nodes.volumes[number], point) && visit(number);
+  const auto visit_if_containing = [&](std::uint32_t index) {
+    return contains(nodes.volumes[index], point) && visit(index);
   };
-  return is_valid(coordinates(point)) ? nodes.visit_near(coordinates(point), ask)
-                                      : visit_all(nodes.volumes, ask);
+  return is_valid(coordinates(point)) ? nodes.visit_candidates_at(coordinates(point), visit_if_containing)
+                                      : visit_all(nodes.volumes, visit_if_containing);
 }
 
-// Calls visit for the volumes that a ray may hit where their bound is at most limit(), t in the unit of the
-// ray; for some twice.
+// Calls visit for the volumes that a ray may hit and whose lower bound of t is at most limit(), in the unit
+// of the ray. Some volumes are visited twice.
 template <typename Nodes, typename Limit, typename Visit>
-void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                 const Limit& limit, const Visit& visit) {
-  const auto ask = [&](std::uint32_t number) {
-    visit(number);
+void visit_ray_candidates(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                          const Limit& limit, const Visit& visit) {
+  const auto visit_one = [&](std::uint32_t index) {
+    visit(index);
     return false;
   };
   if (!is_valid(coordinates(origin)) || !direction.allFinite()) {
-    visit_all(nodes.volumes, ask);
+    visit_all(nodes.volumes, visit_one);
     return;
   }
   if (direction.isZero(0)) {
-    nodes.visit_near(coordinates(origin), ask);
+    nodes.visit_candidates_at(coordinates(origin), visit_one);
     return;
   }
   const FrameRay ray(nodes.boxes, coordinates(origin), coordinates(direction));
   if (!ray.from.is_in_range()) {
-    visit_all(nodes.volumes, ask);
+    visit_all(nodes.volumes, visit_one);
     return;
   }
-  for (const std::uint32_t number : nodes.boxes.everywhere())
-    visit(number);
-  for (const std::uint32_t number : nodes.loose)
-    visit(number);
+  for (const std::uint32_t index : nodes.boxes.without_box())
+    visit(index);
+  for (const std::uint32_t index : nodes.too_flat_for_rays)
+    visit(index);
   const auto bound = [&](std::size_t group, std::size_t k) {
     const double enter = enter_box(ray, nodes.boxes.levels().groups[group], k);
     if (nodes.shapes.none() || enter == kInfinity) return enter;
@@ -99,8 +99,8 @@ bool VolumeTree::any_containing(const Eigen::Vector3d& point) const {
 void VolumeTree::all_containing(const Eigen::Vector3d& point, std::vector<std::int32_t>& indices) const {
   const FloatEnvironment environment;
   indices.clear();
-  visit_containing(*nodes_, point, [&](std::uint32_t number) {
-    indices.push_back(static_cast<std::int32_t>(number));
+  visit_containing(*nodes_, point, [&](std::uint32_t index) {
+    indices.push_back(static_cast<std::int32_t>(index));
     return false;
   });
   std::sort(indices.begin(), indices.end());
@@ -113,11 +113,11 @@ void VolumeTree::first_containing(const PointView& points, std::vector<std::int3
     const FloatEnvironment environment;
     const LoadedPoints part = load_chunk(points, chunk);
     for (std::size_t i = 0; i < part.view().count; ++i) {
-      std::int32_t& lowest = first[chunk * kChunkPoints + i];
-      lowest = -1;
-      visit_containing(*nodes_, vector(load_point(part.view(), i)), [&](std::uint32_t number) {
-        const auto found = static_cast<std::int32_t>(number);
-        if (lowest < 0 || found < lowest) lowest = found;
+      std::int32_t& smallest = first[chunk * kChunkPoints + i];
+      smallest = -1;
+      visit_containing(*nodes_, vector(load_point(part.view(), i)), [&](std::uint32_t index) {
+        const auto found = static_cast<std::int32_t>(index);
+        if (smallest < 0 || found < smallest) smallest = found;
         return false;
       });
     }
@@ -129,11 +129,11 @@ std::optional<VolumeHit> VolumeTree::first_hit(const Eigen::Vector3d& origin,
   const FloatEnvironment environment;
   std::optional<VolumeHit> first;
   const auto limit = [&] { return first ? first->interval.enter : kInfinity; };
-  visit_along(*nodes_, origin, direction, limit, [&](std::uint32_t number) {
-    const auto interval = intersect(nodes_->volumes[number], origin, direction);
+  visit_ray_candidates(*nodes_, origin, direction, limit, [&](std::uint32_t index) {
+    const auto interval = intersect(nodes_->volumes[index], origin, direction);
     if (!interval) return;
-    const VolumeHit hit = {static_cast<std::int32_t>(number), *interval};
-    if (!first || before(hit, *first)) first = hit;
+    const VolumeHit hit = {static_cast<std::int32_t>(index), *interval};
+    if (!first || is_before(hit, *first)) first = hit;
   });
   return first;
 }
@@ -142,23 +142,23 @@ void VolumeTree::all_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& d
                          std::vector<VolumeHit>& hits) const {
   const FloatEnvironment environment;
   hits.clear();
-  visit_along(
+  visit_ray_candidates(
       *nodes_, origin, direction, [] { return kInfinity; },
-      [&](std::uint32_t number) {
-        const auto interval = intersect(nodes_->volumes[number], origin, direction);
-        if (interval) hits.push_back({static_cast<std::int32_t>(number), *interval});
+      [&](std::uint32_t index) {
+        const auto interval = intersect(nodes_->volumes[index], origin, direction);
+        if (interval) hits.push_back({static_cast<std::int32_t>(index), *interval});
       });
   sort_unique(hits);
 }
 
-void VolumeTree::all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const {
+void VolumeTree::all_with_box_overlapping(const Aabb& box, std::vector<std::int32_t>& indices) const {
   const FloatEnvironment environment;
   indices.clear();
   if (box.empty()) return;
   nodes_->boxes.visit(nodes_->boxes.query(coordinates(box.min()), coordinates(box.max())),
-                      [&](std::uint32_t number) {
-                        if (aabb(nodes_->volumes[number]).overlaps(box))
-                          indices.push_back(static_cast<std::int32_t>(number));
+                      [&](std::uint32_t index) {
+                        if (aabb(nodes_->volumes[index]).overlaps(box))
+                          indices.push_back(static_cast<std::int32_t>(index));
                         return false;
                       });
   std::sort(indices.begin(), indices.end());
@@ -169,10 +169,10 @@ void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32
   indices.clear();
   if (empty(volume)) return;
   const ConvexBody body(volume);
-  const PlaceBounds extent = extent_of(volume);
-  nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), [&](std::uint32_t number) {
-    if (overlaps(ConvexBody(nodes_->volumes[number]), body))
-      indices.push_back(static_cast<std::int32_t>(number));
+  const PositionBounds extent = extent_of(volume);
+  nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), [&](std::uint32_t index) {
+    if (overlaps(ConvexBody(nodes_->volumes[index]), body))
+      indices.push_back(static_cast<std::int32_t>(index));
     return false;
   });
   std::sort(indices.begin(), indices.end());
@@ -182,25 +182,24 @@ std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, 
   const FloatEnvironment environment;
   require_distance("VolumeTree", max_distance);
   std::optional<VolumeDistance> nearest;
-  const auto visit = [&](std::uint32_t number) {
-    if (empty(nodes_->volumes[number])) return false;
-    const VolumeDistance found = {static_cast<std::int32_t>(number),
-                                  distance(nodes_->volumes[number], point)};
-    if (found.distance <= max_distance && (!nearest || before(found, *nearest))) nearest = found;
+  const auto visit = [&](std::uint32_t index) {
+    if (empty(nodes_->volumes[index])) return false;
+    const VolumeDistance found = {static_cast<std::int32_t>(index), distance(nodes_->volumes[index], point)};
+    if (found.distance <= max_distance && (!nearest || is_before(found, *nearest))) nearest = found;
     return false;
   };
-  const FramePlace place(nodes_->boxes, coordinates(point));
-  if (!is_valid(coordinates(point)) || !place.is_in_range()) {
+  const FramePoint query_point(nodes_->boxes, coordinates(point));
+  if (!is_valid(coordinates(point)) || !query_point.is_in_range()) {
     visit_all(nodes_->volumes, visit);
     return nearest;
   }
-  for (const std::uint32_t number : nodes_->boxes.everywhere())
-    visit(number);
+  for (const std::uint32_t index : nodes_->boxes.without_box())
+    visit(index);
   const double scale = nodes_->boxes.levels().scale;
   const auto bound = [&](std::size_t group, std::size_t k) {
-    const double box = distance_to_box(place, nodes_->boxes.levels().groups[group], k);
+    const double box = distance_to_box(query_point, nodes_->boxes.levels().groups[group], k);
     if (nodes_->shapes.none()) return box;
-    return std::max(box, nodes_->shapes.distance(group * kTreeWidth + k, place));
+    return std::max(box, nodes_->shapes.distance(group * kTreeWidth + k, query_point));
   };
   const auto limit = [&] { return (nearest ? nearest->distance : max_distance) * scale; };
   nodes_->nearest_first(bound, limit, visit);

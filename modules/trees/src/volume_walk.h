@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The points of a tree that are inside a volume: whole boxes where they are, point by point at its surface.
+// Finds the points of a tree that are inside a volume: whole boxes if they are inside, single points near the
+// surface.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 
 namespace pcl_bv {
 
-/// A volume that is not empty, as walks ask about it.
+/// A non-empty volume, prepared for tests against the boxes and packets of a tree.
 class VolumeProbe {
  public:
   explicit VolumeProbe(const AnyVolume& volume)
@@ -26,7 +27,8 @@ class VolumeProbe {
     return relation(region_, plain_box(boxes, group, k));
   }
 
-  /// Which of a packet's points contains() holds for, as bits; those that it lacks are NaN, so outside.
+  /// Returns for which points of a packet contains() holds, as bits. Lanes without a point are NaN, so
+  /// outside.
   std::uint32_t inside(UsableIsa isa, const PackedTree& tree, std::size_t packet) const {
     const PointView points = tree.view().slice(packet * kTreeWidth, kTreeWidth);
     std::array<std::uint8_t, kTreeWidth> states;
@@ -49,8 +51,8 @@ class VolumeProbe {
   RegionTests tests_;
 };
 
-/// Calls found(packet, bits) for packets of which some points are inside, in order; ends, with true, where
-/// that says true.
+/// Calls found(packet, bits), in order, for each packet with points inside. Stops and returns true when
+/// found() returns true.
 template <typename Found>
 class VolumeWalk {
  public:
@@ -63,34 +65,35 @@ class VolumeWalk {
   bool visit(std::size_t level, std::size_t number) const {
     const BoxLevels& boxes = tree_.boxes;
     const BoxGroup& group = boxes.groups[boxes.first[level] + number];
-    const std::size_t first = number * kTreeWidth, end = std::min(first + kTreeWidth, boxes.below[level]);
+    const std::size_t first = number * kTreeWidth,
+                      end = std::min(first + kTreeWidth, boxes.child_counts[level]);
     for (std::size_t item = first; item < end; ++item) {
       switch (volume_.relation_to(boxes, group, item - first)) {
-        case Relation::apart:
+        case Relation::outside:
           break;
-        case Relation::holds:
-          if (take_all(level, item)) return true;
+        case Relation::inside:
+          if (report_all(level, item)) return true;
           break;
-        case Relation::crosses:
-          if (level == 0 ? take(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item))
+        case Relation::crossing:
+          if (level == 0 ? report(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item))
             return true;
       }
     }
     return false;
   }
 
-  bool take(std::size_t packet, std::uint32_t bits) const { return bits != 0 && found_(packet, bits); }
+  bool report(std::size_t packet, std::uint32_t bits) const { return bits != 0 && found_(packet, bits); }
 
-  bool take_all(std::size_t level, std::size_t item) const {
+  bool report_all(std::size_t level, std::size_t item) const {
     const std::size_t packets = std::size_t{1} << 4 * level;
-    const std::size_t end = std::min((item + 1) * packets, tree_.boxes.below[0]);
+    const std::size_t end = std::min((item + 1) * packets, tree_.boxes.child_counts[0]);
     for (std::size_t packet = item * packets; packet < end; ++packet) {
-      if (take(packet, valid_points(packet))) return true;
+      if (report(packet, valid_points(packet))) return true;
     }
     return false;
   }
 
-  // All that are not NaN.
+  // Returns the lanes of a packet that are not NaN, as bits.
   std::uint32_t valid_points(std::size_t packet) const {
     const auto bits_of = [](const auto& points) {
       std::uint32_t bits = 0;
@@ -108,7 +111,7 @@ class VolumeWalk {
   const Found& found_;
 };
 
-/// The same for any volume.
+/// Walks the points inside any volume; an empty volume has none. Otherwise as VolumeWalk.
 template <typename Found>
 bool walk_inside(UsableIsa isa, const PackedTree& tree, const AnyVolume& volume, const Found& found) {
   if (empty(volume)) return false;

@@ -14,12 +14,12 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-// Squares of anything between 2^-400 and 2^400 are far from both ends of double; below, a factor of 2^600
-// lifts them.
+// Squares of values between 2^-400 and 2^400 are well inside the range of double. Smaller values are
+// multiplied by 2^600 first.
 constexpr double kSmallExtent = 0x1p-400;
 constexpr double kLift = 0x1p600;
 
-// Adds sign * (a - b)^2, six terms. a - b = d + e exactly.
+// Adds sign * (a - b)^2 exactly, as three products: a - b = d + e, where e is the rounding error of d.
 void add_square_of_difference(Expansion& sum, double a, double b, double sign) {
   const double d = a - b;
   const double e = Expansion().add(a).add(-b).add(-d).value();
@@ -42,24 +42,24 @@ double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return norm_up(difference);
 }
 
-bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
+bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
   const double slack = r - s;
   const Eigen::Vector3d q = a - b;
   const double d2 = dot3(q, q);
-  // d2 is off by at most 5 units of 2^-53 and slack^2 by 3; 2^-48 is 32 of them.
-  constexpr double doubt = 0x1p-48;
+  // The relative errors of d2 and slack^2 are at most 5 * 2^-53 and 3 * 2^-53; 2^-48 is 32 * 2^-53.
+  constexpr double error_bound = 0x1p-48;
   const double limit = slack * slack;
   if (limit > kSmallExtent * kSmallExtent) {
-    if (d2 < limit * (1 - doubt)) return true;
-    if (d2 > limit * (1 + doubt)) return false;
+    if (d2 < limit * (1 - error_bound)) return true;
+    if (d2 > limit * (1 + error_bound)) return false;
   } else if (q.cwiseAbs().maxCoeff() < kSmallExtent && r > 0 && r < kSmallExtent) {
-    return within(a * kLift, b * kLift, r * kLift, s * kLift);
+    return ball_inside_ball(a * kLift, b * kLift, r * kLift, s * kLift);
   }
   Expansion excess;
   for (int i = 0; i < 3; ++i)
     add_square_of_difference(excess, a[i], b[i], 1);
   add_square_of_difference(excess, r, s, -1);
-  return excess.sign() <= 0 && excess.certain();
+  return excess.sign() <= 0 && excess.is_lossless();
 }
 
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {
@@ -69,7 +69,7 @@ Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {
   return {-upper(-center), upper(center)};
 }
 
-double skew(const Eigen::Matrix3d& axes) {
+double orthonormality_error(const Eigen::Matrix3d& axes) {
   if (!axes.allFinite()) return kNan;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
@@ -79,7 +79,7 @@ double skew(const Eigen::Matrix3d& axes) {
   return worst;
 }
 
-double stretch_up(const Eigen::Matrix3d& m) {
+double matrix_norm_up(const Eigen::Matrix3d& m) {
   double result = 0;
   for (int i = 0; i < 3; ++i) {
     double row = 0;
@@ -90,7 +90,7 @@ double stretch_up(const Eigen::Matrix3d& m) {
   return sqrt_up(result);
 }
 
-MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
+TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
   const Eigen::Vector3d moved = transform * p;
   Eigen::Vector3d error;
   for (int i = 0; i < 3; ++i) {

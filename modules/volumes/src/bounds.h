@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lengths with a known side of the error, and what a stored isometry, which is never quite one, does to them.
-// What several sources share is in a namespace of its own: other layers have internals with names like these.
+// Upper bounds of lengths, also after a stored isometry, whose matrix is rarely exactly orthonormal. Code
+// that several sources share is in the namespace volumes_internal, because other modules have internal
+// functions of similar names.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,31 +13,31 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// |v| and |a - b| in exact arithmetic, rounded up.
+/// Upper bounds of |v| and of |a - b|, by exact arithmetic.
 double norm_up(const Eigen::Vector3d& v);
 double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// Whether |a - b| <= r - s by exact arithmetic, for r >= s >= 0. False also where products underflow so far
-/// that it cannot be decided.
-bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s);
+/// Returns whether |a - b| <= r - s by exact arithmetic, for r >= s >= 0. Also returns false if products
+/// underflow so far that the comparison cannot be decided.
+bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s);
 
-/// The box of all center + q with |q[i]| <= half[i], by exact arithmetic.
+/// Returns a box that encloses all center + q with |q[i]| <= half[i], by exact arithmetic.
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half);
 
-/// How far axes, in columns, are from orthonormal: the greatest entry of axes' axes - 1 in magnitude. NaN for
-/// axes that are not finite.
-double skew(const Eigen::Matrix3d& axes);
+/// Returns how far the columns of `axes` are from orthonormal: the largest magnitude of an entry of
+/// axes' axes - 1. NaN if an entry of `axes` is not finite.
+double orthonormality_error(const Eigen::Matrix3d& axes);
 
-/// How much the matrix stretches any vector: |M| <= sqrt(max row sum of |M'M|), rounded up; 1 for the
+/// Returns an upper bound of |M v| / |v| over all v: sqrt(max row sum of |M'M|), rounded up; 1 for the
 /// identity.
-double stretch_up(const Eigen::Matrix3d& m);
+double matrix_norm_up(const Eigen::Matrix3d& m);
 
-/// The image of a point, rounded, and an upper bound of its distance from the exact one.
-struct MovedPoint {
+/// A transformed point, rounded, and an upper bound of its distance from the exact transformed point.
+struct TransformedPoint {
   Eigen::Vector3d point;
   double error;
 };
-MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
+TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
 
 /// An upper bound of |m v - factor w|, by exact arithmetic.
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,

@@ -23,8 +23,9 @@ using namespace volumes_internal;
 
 namespace {
 
-// Of a point q seen from the end a; the foot of the perpendicular is on the segment to the end e seen from
-// there. An error of the foot lengthens the distance, by less than itself.
+// Returns the distance of a point from a segment; q is the point and e the segment's second end, both
+// relative to its first end. An error of the foot of the perpendicular increases the distance, by less than
+// that error.
 double distance_to_segment(const Eigen::Vector3d& q, const Eigen::Vector3d& e) {
   const double length = e.stableNorm();
   if (length == 0) return q.stableNorm();
@@ -53,8 +54,9 @@ Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radi
   radius_ = radius + 0.0;
 }
 
-// Rounding moves q and e by U = 2^-53 of themselves, the foot by less than 12 U (|q| + |e|), the distance by
-// that and 6 U of itself. Where it matters, |q| is at most |e| + radius: 2^-47 of all three is more.
+// Rounding moves q and e by U = 2^-53 of themselves, the foot of the perpendicular by less than
+// 12 U (|q| + |e|) and the distance by that plus 6 U of itself. Near the surface, the distance is about the
+// radius, so the tolerance of 32 U (|q|_1 + |e|_1 + radius) exceeds the sum.
 bool Capsule::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
@@ -98,15 +100,15 @@ std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
-  // Grown by the rounding of the axis; contains() is as generous.
+  // The radius is inflated by the rounding error of the axis; contains() has a similar tolerance.
   const double size = (b_ - a_).lpNorm<1>() + radius_;
-  const double grown = radius_ + 0x1p-46 * size + kSmallestNormal;
+  const double inflated = radius_ + 0x1p-46 * size + kSmallestNormal;
   std::optional<RayInterval> all;
-  unite(Sphere(a_, grown).intersect(origin, direction), all);
-  unite(Sphere(b_, grown).intersect(origin, direction), all);
+  unite(Sphere(a_, inflated).intersect(origin, direction), all);
+  unite(Sphere(b_, inflated).intersect(origin, direction), all);
   if (a_ != b_) {
     const double half = (b_ - a_).stableNorm() / 2;
-    unite(Cylinder(center(), b_ - a_, grown, half * (1 + 0x1p-48)).intersect(origin, direction), all);
+    unite(Cylinder(center(), b_ - a_, inflated, half * (1 + 0x1p-48)).intersect(origin, direction), all);
   }
   if (contains(origin)) unite(RayInterval{0, all ? all->exit : 0}, all);
   return all;
@@ -120,7 +122,7 @@ Aabb Capsule::aabb() const {
 Mesh Capsule::mesh() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  constexpr int sides = 24, steps = 6;  // from the equator of a half sphere to near its pole
+  constexpr int sides = 24, steps = 6;  // `steps` rings from the equator of a half sphere to near its pole
   const bool is_sphere = a_ == b_;
   const Triad triad(is_sphere ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
                               : Eigen::Vector3d((b_ - a_).stableNormalized()));
@@ -137,9 +139,9 @@ Mesh Capsule::mesh() const {
 Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const MovedPoint a = move_point(transform, a_), b = move_point(transform, b_);
+  const TransformedPoint a = transform_point(transform, a_), b = transform_point(transform, b_);
   const double radius =
-      add_up(multiply_up(radius_, stretch_up(transform.linear())), std::max(a.error, b.error));
+      add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), std::max(a.error, b.error));
   return {a.point, b.point, radius};
 }
 

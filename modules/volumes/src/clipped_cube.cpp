@@ -44,7 +44,7 @@ void ClippedCube::cut(const Eigen::Vector3d& normal, double offset, double round
   }
 }
 
-// Nothing is below the plane: what remains is the face, edge or vertex on it.
+// No vertex is below the plane: only the face, edge or vertex on the plane remains.
 void ClippedCube::collapse() {
   Loop remaining;
   for (const Loop& loop : loops_) {
@@ -60,13 +60,13 @@ void ClippedCube::collapse() {
 
 void ClippedCube::clip() {
   crossings_.clear();
-  std::vector<Loop> kept;
+  std::vector<Loop> remaining;
   for (Loop& loop : loops_) {
     if (std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) < 0; })) continue;
-    const bool whole = std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) > 0; });
-    kept.push_back(whole ? std::move(loop) : clip_loop(loop));
+    const bool is_uncut = std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) > 0; });
+    remaining.push_back(is_uncut ? std::move(loop) : clip_loop(loop));
   }
-  loops_ = std::move(kept);
+  loops_ = std::move(remaining);
   close();
 }
 
@@ -77,12 +77,12 @@ ClippedCube::Loop ClippedCube::clip_loop(const Loop& loop) {
     if (height(a) <= 0) part.push_back(a);
     if ((height(a) < 0 && height(b) > 0) || (height(a) > 0 && height(b) < 0)) part.push_back(crossing(a, b));
   }
-  // An edge seen from both sides meets its crossing twice.
+  // A loop of two vertices passes its edge twice and would have the new vertex twice.
   part.erase(std::unique(part.begin(), part.end()), part.end());
   return part;
 }
 
-// The new vertex on an edge, the same from either of its faces.
+// Returns the new vertex on an edge, the same one for both faces of the edge.
 std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
   if (a > b) std::swap(a, b);
   for (const Crossing& c : crossings_) {
@@ -96,8 +96,8 @@ std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
   return vertex;
 }
 
-// Adds the loops that close the surface: the edges that lack their opposite, run the other way round. Both
-// ends of such an edge are on the plane.
+// Adds the loops (caps) that close the surface. They consist of the edges on the plane whose opposite edge is
+// missing, in reverse direction.
 void ClippedCube::close() {
   std::vector<std::pair<std::int32_t, std::int32_t>> open;
   for (const Loop& loop : loops_) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The unit cube, cut by half-spaces one after another.
+// Clips the unit cube by half-spaces, one after another.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,21 +10,22 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A convex polytope inside the unit cube, as a closed surface of vertex loops. Every cut leaves it closed,
-/// whatever rounding does: a cut edge gets one new vertex for both its faces, and the cap is the boundary of
-/// what remains. Where it collapses it goes on as a polygon seen from both sides (rank 2), an edge (1) or a
-/// vertex (0).
+/// A convex polytope inside the unit cube, as a closed surface of vertex loops. Every cut leaves the surface
+/// closed in spite of rounding: an edge that is cut gets one new vertex, which both its faces share, and the
+/// cap is the boundary of the remaining faces. A polytope that collapses becomes a polygon with two sides
+/// (rank 2), an edge (rank 1) or a vertex (rank 0).
 class ClippedCube {
  public:
   using Loop = std::vector<std::int32_t>;
 
   ClippedCube();
 
-  /// Keeps normal . y <= offset. What is within 2^-42 of the normal's largest component of the plane, plus
-  /// the `rounding` of the offset, counts as on it. A normal of 0 cuts nothing.
+  /// Keeps the points with normal . y <= offset. A vertex is treated as on the plane if |normal . y - offset|
+  /// is at most 2^-42 of the normal's largest component plus `rounding`, the error bound of the offset. A
+  /// normal of 0 cuts nothing.
   void cut(const Eigen::Vector3d& normal, double offset, double rounding = 0);
 
-  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Including those cut away.
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Also vertices cut off.
   const std::vector<Loop>& loops() const { return loops_; }                   ///< None if nothing is left.
   int rank() const { return rank_; }
 
@@ -36,15 +37,15 @@ class ClippedCube {
   void close();
   double& height(std::int32_t vertex) { return heights_[vertex]; }
 
-  struct Crossing {
+  struct Crossing {  // the new vertex on the edge from a to b
     std::int32_t a, b, vertex;
   };
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Loop> loops_;
   int rank_ = 3;
-  // Of the current cut:
-  std::vector<double> heights_;  // above the plane, per vertex; exactly 0 for what counts as on it
+  // State of the current cut:
+  std::vector<double> heights_;  // height of each vertex above the plane; exactly 0 if treated as on it
   std::vector<Crossing> crossings_;
 };
 

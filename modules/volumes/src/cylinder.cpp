@@ -22,17 +22,18 @@ using namespace volumes_internal;
 
 namespace {
 
-// Of q seen from the centre: how far along the axis, and how far from it.
-struct Seen {
-  double along;
-  Eigen::Vector3d across;  // q x axis: as long as q is far from the axis
+// The components of a vector q from the centre, along and across the axis.
+struct AxisComponents {
+  double along;           // q . axis
+  Eigen::Vector3d cross;  // q x axis, whose length is the distance of q from the axis
 };
 
-Seen see(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
+AxisComponents axis_components(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(q, axis), q.cross(axis)};
 }
 
-// The vector if it is of length 1 to 2^-50 already, else made so: what was normalised once stays as it is.
+// Returns the vector unchanged if its squared length is 1 to 2^-50, else normalised. So a vector that was
+// normalised once never changes again.
 Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
   const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
   return unit.array() + 0.0;
@@ -63,16 +64,16 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
   half_height_ = half_height + 0.0;
 }
 
-// Each component of q is off by U = 2^-53 of itself, along by 5 U |q|_1, across by 6 U |q|_1 in each
-// component, 11 in length, the length's own rounding is 4 U of it and that of |axis| another 4: 32 U |q|_1 is
-// more than each.
+// Errors, with U = 2^-53: each component of q is off by U of itself, `along` by 5 U |q|_1, each component of
+// `cross` by 6 U |q|_1 and its length by 11 U |q|_1. Computing the length adds 4 U of it, and |axis| another
+// 4 U. The tolerance of 32 U |q|_1 exceeds all sums of these.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
   const Eigen::Vector3d q = point - center_;
-  const auto [along, across] = see(axis_, q);
-  const double doubt = 0x1p-48 * taxicab3(q) + kSmallestNormal;
-  return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt &&
+  const auto [along, cross] = axis_components(axis_, q);
+  const double error_bound = 0x1p-48 * taxicab3(q) + kSmallestNormal;
+  return std::abs(along) <= half_height_ + error_bound && cross.stableNorm() <= radius_ + error_bound &&
          point.allFinite();
 }
 
@@ -89,10 +90,10 @@ double Cylinder::surface_area() const {
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  // Of d nearly along the axis, what is left of subtracting that would be rounding, in any direction.
-  const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));
+  // For d nearly parallel to the axis, d - (d . axis) axis would be rounding noise in any direction.
+  const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
-         radius_ * across.stableNormalized();
+         radius_ * perpendicular.stableNormalized();
 }
 
 double Cylinder::distance(const Eigen::Vector3d& point) const {
@@ -100,36 +101,36 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
   if (point.hasNaN()) return kNan;
   if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
-  const auto [along, across] = see(axis_, point - center_);
+  const auto [along, cross] = axis_components(axis_, point - center_);
   return Eigen::Vector2d(std::max(0.0, std::abs(along) - half_height_),
-                         std::max(0.0, across.stableNorm() - radius_))
+                         std::max(0.0, cross.stableNorm() - radius_))
       .stableNorm();
 }
 
-// Where the ray is between the ends, it is no farther from the origin than |q| + half_height and the radius
-// tell, and all of this is off by less than `doubt`: a cylinder that has grown by it holds the true one.
-// (Half of it covers the positions, half the roots.)
+// The part of the ray inside the cylinder is no farther from the ray's origin than |q|, half_height and the
+// radius allow, so its ends are off by less than `error_bound`: half of that covers the positions, half the
+// square roots. A cylinder that is inflated by `error_bound` therefore encloses the exact cylinder.
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const auto [exponent, u] = ScaledDirection(direction);
     const Eigen::Vector3d q = origin - center_;
-    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + kSmallestNormal;
+    const double error_bound = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + kSmallestNormal;
     const bool held = contains(origin);
-    const auto [along, across] = see(axis_, q);
-    const auto [step, turn] = see(axis_, u);
-    const double height = std::max(half_height_, held ? std::abs(along) : 0) + doubt;
-    const double slope_doubt = 0x1p-48 * u.lpNorm<1>();
+    const auto [along, cross] = axis_components(axis_, q);
+    const auto [step, step_cross] = axis_components(axis_, u);
+    const double height = std::max(half_height_, held ? std::abs(along) : 0) + error_bound;
+    const double slope_error_bound = 0x1p-48 * u.lpNorm<1>();
     RayClip scaled;
-    scaled.keep(step - slope_doubt, height - along);
-    scaled.keep(-step - slope_doubt, height + along);
-    const double radius = std::max(radius_, held ? across.stableNorm() : 0) + doubt;
-    const double speed = turn.stableNorm();
+    scaled.keep(step - slope_error_bound, height - along);
+    scaled.keep(-step - slope_error_bound, height + along);
+    const double radius = std::max(radius_, held ? cross.stableNorm() : 0) + error_bound;
+    const double speed = step_cross.stableNorm();
     if (speed > 0) {
-      const double nearest = -dot3(across / speed, turn / speed);
-      const double h = (across + nearest * turn).stableNorm();
-      scaled.keep_near(nearest, h, radius, speed, 0);
-    } else if (across.stableNorm() > radius) {
+      const double nearest = -dot3(cross / speed, step_cross / speed);
+      const double h = (cross + nearest * step_cross).stableNorm();
+      scaled.keep_within_radius(nearest, h, radius, speed, 0);
+    } else if (cross.stableNorm() > radius) {
       return ray.keep(0, -1);
     }
     const auto found = scaled.interval();
@@ -138,17 +139,17 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-// |axis| is 1 to 2^-50, so each half extent is off by no more than 2^-49 of the sum of sizes.
+// |axis| is 1 to 2^-50, so each half extent is off by at most 2^-49 (half_height + radius).
 Aabb Cylinder::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  Eigen::Vector3d grown;
+  Eigen::Vector3d inflated;
   for (int i = 0; i < 3; ++i) {
     const double a = axis_[i], b = axis_[(i + 1) % 3], c = axis_[(i + 2) % 3];
     const double half = half_height_ * std::abs(a) + radius_ * std::sqrt(b * b + c * c);
-    grown[i] = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
+    inflated[i] = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
   }
-  return box_around(center_, grown);
+  return box_around(center_, inflated);
 }
 
 Mesh Cylinder::mesh() const {
@@ -158,21 +159,22 @@ Mesh Cylinder::mesh() const {
                    Triad(axis_), 48);
 }
 
-// A point center + s axis + v goes to the moved centre + s (length w + e) + M v, with w the new axis and e,
-// small, what the rounding of it leaves; M v reaches along w as far as v along M' w, which is the old axis
-// and, again, little else.
+// A point center + s axis + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) +
+// M v, where w is the new axis and e the small error M axis - length w. The projection of M v on w is that of
+// v on M' w. M' w is `length` times the old axis plus a small error. Since v is perpendicular to the old
+// axis, only the error counts, and `back` bounds its projection.
 Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const MovedPoint center = move_point(transform, center_);
-  const Eigen::Vector3d turned = m * axis_;
-  const Eigen::Vector3d axis = unit_axis(turned);
-  const double length = turned.stableNorm();
+  const TransformedPoint center = transform_point(transform, center_);
+  const Eigen::Vector3d rotated = m * axis_;
+  const Eigen::Vector3d axis = unit_axis(rotated);
+  const double length = rotated.stableNorm();
   const double e = multiply_up(half_height_ * (1 + 0x1p-49), difference_up(m, axis_, length, axis));
   const double back = multiply_up(radius_ * (1 + 0x1p-49), difference_up(m.transpose(), axis, length, axis_));
   const double moved = add_up(center.error, e);
-  const double radius = add_up(multiply_up(radius_, stretch_up(m)), moved);
+  const double radius = add_up(multiply_up(radius_, matrix_norm_up(m)), moved);
   const double height = add_up(multiply_up(half_height_, length), add_up(moved, back));
   return {center.point, axis, multiply_up(radius, 1 + 0x1p-48), multiply_up(height, 1 + 0x1p-48)};
 }

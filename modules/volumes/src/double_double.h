@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers of twice the digits of a double, for differences of nearly equal ones. Values about 1: nothing is
-// said about over- and underflow.
+// Double-double numbers, with twice the digits of a double, for differences of nearly equal numbers. Meant
+// for values near 1: overflow and underflow are not handled.
 #pragma once
 
 #include <cmath>
 
 namespace pcl_bv::volumes_internal {
 
-/// hi + lo, |lo| at most half a unit in the last place of hi. Sums and products are off by some 2^-103 of the
-/// terms (Dekker 1971; Knuth's TwoSum).
+/// The number hi + lo, with |lo| at most half a unit in the last place of hi. The errors of sums and products
+/// are about 2^-103 of their terms (Dekker 1971; Knuth's TwoSum).
 struct DoubleDouble {
   DoubleDouble(double value = 0) : hi(value), lo(0) {}
-  DoubleDouble(double high, double low) : hi(high + low), lo(low - (hi - high)) {}  // |high| >= |low|
+  DoubleDouble(double high, double low) : hi(high + low), lo(low - (hi - high)) {}  // needs |high| >= |low|
 
   explicit operator double() const { return hi + lo; }
 

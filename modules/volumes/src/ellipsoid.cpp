@@ -28,7 +28,7 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
     : Ellipsoid() {
   const FloatEnvironment environment;
   if ((radii.array() < 0).any()) return;
-  if (!center.allFinite() || !radii.allFinite() || !(skew(axes) <= 1e-12)) {
+  if (!center.allFinite() || !radii.allFinite() || !(orthonormality_error(axes) <= 1e-12)) {
     throw std::invalid_argument(
         "Ellipsoid: center and radii must be finite and the axes orthonormal to 1e-12 "
         "(or any radius negative, for an empty ellipsoid)");
@@ -38,15 +38,15 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
   radii_ = radii.array() + 0.0;
 }
 
-// Each axis . q is off by at most 5 U |q|_1 (U = 2^-53), the quotients, squares and sums by 6 U more.
+// Each axis . q is off by at most 5 U |q|_1 (U = 2^-53); quotients, squares and the sum add 6 U.
 bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d q = point - center_;
-  const double doubt = 0x1p-49 * taxicab3(q) + kSmallestNormal;
+  const double error_bound = 0x1p-49 * taxicab3(q) + kSmallestNormal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double along = std::max(0.0, std::abs(dot3(axes_.col(i), q)) - doubt);
-    if (!(along <= radii_[i] * (1 + 0x1p-48))) return false;  // also where all is NaN
+    const double along = std::max(0.0, std::abs(dot3(axes_.col(i), q)) - error_bound);
+    if (!(along <= radii_[i] * (1 + 0x1p-48))) return false;  // also for an empty ellipsoid: radii are -1
     const double ratio = along > 0 ? along / radii_[i] : 0;
     sum += ratio * ratio;
   }
@@ -68,51 +68,51 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
 
-// In coordinates in which the ellipsoid is the unit sphere, positions up to where the ray leaves are off by
-// less than `doubt` / least radius: the sphere grows by that.
+// In coordinates in which the ellipsoid is the unit sphere, positions of the ray up to its exit are off by
+// less than `error_bound` divided by the smallest radius. The sphere is inflated by that.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const auto [exponent, u] = ScaledDirection(direction);
     const Eigen::Vector3d q = origin - center_;
-    const double greatest = radii_.maxCoeff();
-    const double doubt = 0x1p-45 * (taxicab3(q) + greatest) + kSmallestNormal;
+    const double largest = radii_.maxCoeff();
+    const double error_bound = 0x1p-45 * (taxicab3(q) + largest) + kSmallestNormal;
     Eigen::Vector3d at, step;
     for (int i = 0; i < 3; ++i) {
-      const double radius = std::max(radii_[i], doubt);  // a flat one gets room for the rounding
+      const double radius = std::max(radii_[i], error_bound);  // inflates a flat ellipsoid by the error bound
       at[i] = dot3(axes_.col(i), q) / radius;
       step[i] = dot3(axes_.col(i), u) / radius;
     }
-    const double radius = 1 + doubt / std::max(radii_.minCoeff(), doubt) +
+    const double radius = 1 + error_bound / std::max(radii_.minCoeff(), error_bound) +
                           (contains(origin) ? std::max(0.0, at.stableNorm() - 1) : 0.0);
     const double speed = step.stableNorm();
     const double nearest = -dot3(at, step / speed) / speed;
     const double h = (at + nearest * step).stableNorm();
-    ray.keep_near(nearest, h, radius, speed, exponent);
+    ray.keep_within_radius(nearest, h, radius, speed, exponent);
   });
 }
 
-// With N = axes' the body is the image of the unit ball under N^-1 diag(radii); N^-1 differs from the axes by
-// less than 4 skew in each row.
+// With N = axes', the ellipsoid is the unit ball transformed by N^-1 diag(radii); N^-1 differs from the axes
+// by less than 4 orthonormality_error() in each row.
 Aabb Ellipsoid::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + kSmallestNormal;
+  const double margin = (4 * orthonormality_error(axes_) + 0x1p-48) * radii_.maxCoeff() + kSmallestNormal;
   Eigen::Vector3d half;
   for (int i = 0; i < 3; ++i)
-    half[i] = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + room;
+    half[i] = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + margin;
   return box_around(center_, half);
 }
 
-// For a point center + q the new coordinates are a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, with d_i =
-// M' a'_i - a_i. The last two are at most `extra` together, and the radii grow by the length of these in
-// units of theirs.
+// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, where
+// d_i = M' a'_i - a_i and e is the rounding error of the new centre. The last two terms are at most extra_i
+// together. So it suffices that all radii grow by the factor 1 + |(extra_i / radius_i)|.
 Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const MovedPoint center = move_point(transform, center_);
-  const double greatest = radii_.maxCoeff();
+  const TransformedPoint center = transform_point(transform, center_);
+  const double largest = radii_.maxCoeff();
   Eigen::Matrix3d axes;
   axes.col(0) = (m * axes_.col(0)).stableNormalized();
   axes.col(1) = m * axes_.col(1);
@@ -120,13 +120,13 @@ Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   axes.col(2) = axes.col(0).cross(axes.col(1)) * (m.determinant() * axes_.determinant() < 0 ? -1 : 1);
   Eigen::Vector3d extra;
   for (int i = 0; i < 3; ++i) {
-    const double turned = difference_up(m.transpose(), axes.col(i), 1, axes_.col(i));
-    extra[i] = (turned * greatest + center.error) * (1 + 0x1p-30);
+    const double rotated = difference_up(m.transpose(), axes.col(i), 1, axes_.col(i));
+    extra[i] = (rotated * largest + center.error) * (1 + 0x1p-30);
   }
-  const double least = std::max(0x1p-30 * greatest, extra.maxCoeff());
-  const Eigen::Vector3d radii = radii_.cwiseMax(least);
+  const double smallest = std::max(0x1p-30 * largest, extra.maxCoeff());
+  const Eigen::Vector3d radii = radii_.cwiseMax(smallest);
   double growth = 1;
-  if (least > 0) growth = 1 + extra.cwiseQuotient(radii).stableNorm();
+  if (smallest > 0) growth = 1 + extra.cwiseQuotient(radii).stableNorm();
   return {center.point, axes, radii * (growth * (1 + 0x1p-48))};
 }
 

@@ -14,8 +14,9 @@
 namespace pcl_bv {
 namespace {
 
-// The greatest t with sum (r_i y_i / (r_i^2 + t))^2 = 1, for a point y >= 0 outside: then r_i^2 y_i / (r_i^2
-// + t) is the nearest point (Eberly 2013). In units of the greatest radius.
+// Returns the largest t with sum (r_i y_i / (r_i^2 + t))^2 = 1, for a point y >= 0 outside the ellipsoid with
+// radii r. The point of the ellipsoid nearest to y is then r_i^2 y_i / (r_i^2 + t) (Eberly 2013). Lengths are
+// in units of the largest radius.
 double nearest_parameter(const Eigen::Vector3d& r, const Eigen::Vector3d& y) {
   const auto excess = [&](double t) {
     double sum = -1;
@@ -40,11 +41,12 @@ double Ellipsoid::surface_area() const {
   const FloatEnvironment environment;
   if (empty()) return 0;
   Eigen::Vector3d r = radii_;
-  std::sort(r.begin(), r.end());  // r[2] is the greatest
+  std::sort(r.begin(), r.end());  // r[2] is the largest
   if (r[1] == 0) return 0;
   if (r[0] == 0) return 2 * std::numbers::pi * r[1] * r[2];
   const double unit = r[2], a = r[0] / unit, b = r[1] / unit;
-  // Carlson's symmetric integral, in double alone: the same bits where long double is another type.
+  // Carlson's symmetric integral, without promotion to long double, whose precision depends on the platform:
+  // the result has the same bits everywhere.
   const boost::math::policies::policy<boost::math::policies::promote_double<false>> doubles;
   const double integral = boost::math::ellint_rg(b * b, a * a, a * a * b * b, doubles);
   return 4 * std::numbers::pi * integral * unit * unit;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality does the work: weights w >= 0 with sum w_i n_i = d - r prove d.q <= sum w_i offset_i + r.q for
-// every q of the body. Plain double finds the weights; what they prove holds whatever rounding did to them.
+// Weak duality proves the bounds: weights w >= 0 with sum w_i n_i = d - r prove d.q <= sum w_i offset_i + r.q
+// for every q of the body. The weights are computed in plain double; the proof holds for any weights >= 0, so
+// their rounding errors cannot make it wrong.
 #include "half_spaces.h"
 
 #include <algorithm>
@@ -16,11 +17,12 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// The dual simplex method (Lemke 1954). Each step lets the half-space that the corner is farthest beyond
-/// take the place of one of the three, such that the weights stay >= 0: what they prove only becomes better.
+/// The dual simplex method (Lemke 1954). Each step replaces one of the three half-spaces of the basis by the
+/// half-space that the corner violates most, such that the weights stay >= 0. So the proven bound only
+/// improves.
 class HalfSpaces::DualSimplex {
  public:
-  /// Offsets are seen from a point near the corner that is looked for: there they lose no digits.
+  /// `near` is a point near the sought corner. Offsets relative to it lose no digits.
   DualSimplex(const HalfSpaces& all, const Eigen::Vector3d& direction, const Eigen::Vector3d& near)
       : all_(all), direction_(direction), slack_(all.size()) {
     const std::size_t count = all.size();
@@ -28,7 +30,7 @@ class HalfSpaces::DualSimplex {
       slack_[i] = all.offset_[i] - ((all.x_[i] * near[0] + all.y_[i] * near[1]) + all.z_[i] * near[2]);
   }
 
-  /// The half-spaces whose boundary is no farther away than this, and the box.
+  /// Returns the half-spaces whose boundary is at most `tolerance` from `near`, and those of the box.
   std::vector<std::size_t> tight(double tolerance) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < slack_.size(); ++i) {
@@ -37,14 +39,14 @@ class HalfSpaces::DualSimplex {
     return found;
   }
 
-  /// Until no half-space of these is violated by more than the tolerance. The limit is against cycling, which
-  /// costs only tightness.
+  /// Improves the basis until its corner violates none of the candidates by more than the tolerance. The
+  /// limit of 60 steps is against cycling; a basis that is not final costs only tightness.
   template <typename Candidates>
   Basis solve(Basis basis, double tolerance, const Candidates& candidates) const {
     for (int step = 0; step < 60; ++step) {
       const Frame frame(all_, basis);
       const Eigen::Vector3d corner =
-          frame.combine({slack_[basis.sides[0]], slack_[basis.sides[1]], slack_[basis.sides[2]]});
+          frame.corner_at({slack_[basis.sides[0]], slack_[basis.sides[1]], slack_[basis.sides[2]]});
       const std::size_t entering = most_violated(corner, tolerance, candidates);
       if (entering == all_.size() || !frame.exchange(all_.normal(entering), entering, basis)) break;
     }
@@ -52,7 +54,8 @@ class HalfSpaces::DualSimplex {
   }
 
  private:
-  // The three normals of a basis and the rows of their inverse, times the determinant.
+  // The three normals of a basis and their cross products: crosses[k] / determinant is column k of the
+  // inverse of the matrix whose rows are the normals.
   struct Frame {
     Frame(const HalfSpaces& all, const Basis& basis) {
       for (std::size_t k = 0; k < 3; ++k)
@@ -62,33 +65,35 @@ class HalfSpaces::DualSimplex {
       determinant = dot3(normals[0], crosses[0]);
     }
 
-    Eigen::Vector3d combine(const Eigen::Vector3d& s) const {
+    // Returns the corner q with normals[k] . q = s[k].
+    Eigen::Vector3d corner_at(const Eigen::Vector3d& s) const {
       return ((s[0] / determinant) * crosses[0] + (s[1] / determinant) * crosses[1]) +
              (s[2] / determinant) * crosses[2];
     }
 
-    Eigen::Vector3d shares(const Eigen::Vector3d& d) const {
+    // Returns the coefficients of d as a sum of multiples of the normals.
+    Eigen::Vector3d components(const Eigen::Vector3d& d) const {
       return {dot3(crosses[0], d) / determinant, dot3(crosses[1], d) / determinant,
               dot3(crosses[2], d) / determinant};
     }
 
-    // False if none of the three can leave.
+    // Lets the half-space `entering` replace one of the three. Returns false if none of them can leave.
     bool exchange(const Eigen::Vector3d& normal, std::size_t entering, Basis& basis) const {
-      const Eigen::Vector3d share = shares(normal);
+      const Eigen::Vector3d component = components(normal);
       const double negligible =
-          0x1p-40 * std::max({std::abs(share[0]), std::abs(share[1]), std::abs(share[2])});
+          0x1p-40 * std::max({std::abs(component[0]), std::abs(component[1]), std::abs(component[2])});
       int leaving = -1;
       double step = kInfinity;
       for (int k = 0; k < 3; ++k) {
-        if (!(share[k] > negligible)) continue;
-        const double ratio = basis.weights[k] / share[k];
-        if (ratio > step || (ratio == step && share[k] <= share[leaving])) continue;
+        if (!(component[k] > negligible)) continue;
+        const double ratio = basis.weights[k] / component[k];
+        if (ratio > step || (ratio == step && component[k] <= component[leaving])) continue;
         leaving = k;
         step = ratio;
       }
       if (leaving < 0) return false;
       for (int k = 0; k < 3; ++k)
-        basis.weights[k] = std::max(0.0, basis.weights[k] - step * share[k]);
+        basis.weights[k] = std::max(0.0, basis.weights[k] - step * component[k]);
       basis.weights[leaving] = step;
       basis.sides[static_cast<std::size_t>(leaving)] = entering;
       return true;
@@ -113,15 +118,16 @@ class HalfSpaces::DualSimplex {
     return found;
   }
 
-  // Steps add up their rounding, and normals of neighbouring faces are nearly alike: of a direction as long
-  // as 1, weights left up to 3e-14 on bodies of 200 half-spaces, and leave 2e-15 once corrected by that.
+  // Corrects the weights by their residual. Rounding errors of the steps add up, and normals of neighbouring
+  // faces are nearly parallel: on bodies of 200 half-spaces and directions of length 1, the residual was up
+  // to 3e-14 before and is 2e-15 after the correction.
   Basis refined(Basis basis) const {
     const Frame frame(all_, basis);
     for (int round = 0; round < 2; ++round) {
       Eigen::Vector3d rest = direction_;
       for (int k = 0; k < 3; ++k)
         rest -= basis.weights[k] * frame.normals[static_cast<std::size_t>(k)];
-      const Eigen::Vector3d more = frame.shares(rest);
+      const Eigen::Vector3d more = frame.components(rest);
       for (int k = 0; k < 3; ++k)
         basis.weights[k] = std::max(0.0, basis.weights[k] + more[k]);
     }
@@ -142,7 +148,7 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
   const double largest = std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])});
   if (!(largest > 0)) return;
   double unit = std::ldexp(1.0, std::clamp(std::ilogb(largest), -1000, 1000));
-  if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // a component would underflow
+  if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // else a component underflows
   const double local = divide_up(Expansion().add(offset).add_dot(-normal, origin).up(), unit);
   const Eigen::Vector3d scaled = normal / unit;
   if (!std::isfinite(local)) return;
@@ -152,10 +158,11 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
   offset_.push_back(local);
 }
 
-// The recession cone of a body whose directions +-e_k are all proven with residuals below 1 is {0}: for v in
-// it, with the largest component v_k = +-1, +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1 would follow. So
-// there is a largest |q|_inf, R, and R <= reach + |r|_1 R.
-bool HalfSpaces::enclose(double guess) {
+// Each side of the box is proven without the box, with a residual r. If |r|_1 < 1 for all six directions
+// +-e_k, the body is bounded: a v in its recession cone with the largest component v_k = +-1 would satisfy
+// +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a contradiction. So there is a largest |q|_inf, R, with
+// R <= largest_bound + |r|_1 R.
+bool HalfSpaces::add_box(double guess) {
   const std::size_t usable = size();
   for (int side = 0; side < 6; ++side) {
     x_.push_back(side % 3 == 0 ? (side < 3 ? 1 : -1) : 0);
@@ -163,8 +170,8 @@ bool HalfSpaces::enclose(double guess) {
     z_.push_back(side % 3 == 2 ? (side < 3 ? 1 : -1) : 0);
     offset_.push_back(guess);
   }
-  std::array<Proof, box_sides> proofs;
-  double reach = 0, residual = 0;
+  std::array<DualBound, box_sides> bounds;
+  double largest_bound = 0, residual = 0;
   for (std::size_t side = 0; side < box_sides; ++side) {
     const Eigen::Vector3d direction = normal(usable + side);
     const auto every = [&](const auto& visit) {
@@ -172,24 +179,24 @@ bool HalfSpaces::enclose(double guess) {
         visit(i);
     };
     const DualSimplex simplex(*this, direction, Eigen::Vector3d::Zero());
-    proofs[side] = prove(simplex.solve(start(direction), 0x1p-50 * guess, every), direction, usable);
-    if (!std::isfinite(proofs[side].reach) || !proofs[side].residual.allFinite()) return false;
-    reach = std::max(reach, proofs[side].reach);
-    residual = std::max(residual, taxicab3(proofs[side].residual));
+    bounds[side] = prove(simplex.solve(start(direction), 0x1p-50 * guess, every), direction, usable);
+    if (!std::isfinite(bounds[side].bound) || !bounds[side].residual.allFinite()) return false;
+    largest_bound = std::max(largest_bound, bounds[side].bound);
+    residual = std::max(residual, taxicab3(bounds[side].residual));
   }
   if (residual > 0.25) return false;
-  const double most = reach / (1 - residual) * (1 + 0x1p-50);
+  const double largest = largest_bound / (1 - residual) * (1 + 0x1p-50);
   for (std::size_t side = 0; side < box_sides; ++side) {
-    const double rest = taxicab3(proofs[side].residual) * most * (1 + 0x1p-50) + kSmallestNormal;
-    offset_[usable + side] = add_up(proofs[side].reach, rest);
+    const double rest = taxicab3(bounds[side].residual) * largest * (1 + 0x1p-50) + kSmallestNormal;
+    offset_[usable + side] = add_up(bounds[side].bound, rest);
   }
   for (std::size_t k = 0; k < 3; ++k)
-    widest_[static_cast<int>(k)] = std::max({0.0, offset_[usable + k], offset_[usable + k + 3]});
+    max_abs_[static_cast<int>(k)] = std::max({0.0, offset_[usable + k], offset_[usable + k + 3]});
   return true;
 }
 
 double HalfSpaces::radius_up() const {
-  return norm_up(widest_);
+  return norm_up(max_abs_);
 }
 
 HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
@@ -202,33 +209,34 @@ HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
   return basis;
 }
 
-// The sums are off by 4.01 U (U = 2^-53) of their terms at most, 8 U also cover adding the bound.
-HalfSpaces::Proof HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
-                                    std::size_t usable) const {
+// Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U (U = 2^-53) of their
+// terms; 8 U also cover adding the error bound.
+HalfSpaces::DualBound HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
+                                        std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
-  double reach = 0, magnitude = 0;
+  double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
     const std::size_t i = basis.sides[static_cast<std::size_t>(k)];
     const double weight = basis.weights[k];
     if (i >= usable || weight == 0) continue;
-    reach += weight * offset_[i];
+    sum += weight * offset_[i];
     magnitude += weight * std::abs(offset_[i]);
     const Eigen::Vector3d part = weight * normal(i);
     rest -= part;
     terms += part.cwiseAbs();
   }
-  return {reach + (0x1p-50 * magnitude + kSmallestNormal), rest.cwiseAbs() + 0x1p-50 * terms};
+  return {sum + (0x1p-50 * magnitude + kSmallestNormal), rest.cwiseAbs() + 0x1p-50 * terms};
 }
 
 double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) const {
-  const auto [reach, residual] = prove(basis, direction, size());
-  const double rest = dot3(residual, widest_) * (1 + 0x1p-50) + kSmallestNormal;
-  return reach + rest + 0x1p-51 * (std::abs(reach) + rest);
+  const auto [dual_bound, residual] = prove(basis, direction, size());
+  const double rest = dot3(residual, max_abs_) * (1 + 0x1p-50) + kSmallestNormal;
+  return dual_bound + rest + 0x1p-51 * (std::abs(dual_bound) + rest);
 }
 
-// First by the half-spaces at the vertex, which are enough unless rounding hides a short edge.
-double HalfSpaces::reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
-  const double extent = std::max({widest_[0], widest_[1], widest_[2]});
+// First tries only the half-spaces at the vertex, which suffice unless rounding hides a short edge.
+double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
+  const double extent = std::max({max_abs_[0], max_abs_[1], max_abs_[2]});
   const double tolerance = 0x1p-51 * extent;
   const DualSimplex simplex(*this, direction, vertex);
   const std::vector<std::size_t> tight = simplex.tight(0x1p-34 * extent);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a body of half-spaces reaches: a linear program in three variables, whose dual proves the answer.
+// Upper bounds of the support of a body that is given by half-spaces: a linear program in three variables,
+// whose dual proves the bound.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,26 +12,30 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// Half-spaces n . q <= offset, with q seen from an origin near by, and a box as the last six of them: q_k <=
-/// offset for k = 0, 1, 2, then -q_k <= offset. Normals are multiplied by powers of two, to be about 1 long.
+/// A body given by half-spaces n . q <= offset, where q is relative to a nearby origin. The last six
+/// half-spaces are an axis-aligned box around the body: q_k <= offset for k = 0, 1, 2, then -q_k <= offset.
+/// Normals are multiplied by powers of two, so that their length is about 1.
 class HalfSpaces {
  public:
   static constexpr std::size_t box_sides = 6;
 
   void reserve(std::size_t count);
 
-  /// normal . (origin + q) <= offset. One of normal 0 is left out, which makes no body smaller.
+  /// Adds the half-space normal . (origin + q) <= offset. Leaves out half-spaces with a zero normal or an
+  /// offset that overflows; that never makes the body smaller.
   void add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin);
 
-  /// The last thing to add: finds a box around the body, by exact arithmetic. `guess` is more than half its
-  /// width. False if none can be proven: the body may be unbounded.
-  bool enclose(double guess);
+  /// Adds a box that encloses the body by exact arithmetic; to be called once, after the last add(). `guess`
+  /// must exceed half the width of the body. Returns false if no box can be proven: the body may be
+  /// unbounded.
+  bool add_box(double guess);
 
-  /// An upper bound, by exact arithmetic, of direction . q over the body, if there is a box. `vertex` should
-  /// be a point of the body that reaches about as far as any.
-  double reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
+  /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Needs the box of add_box().
+  /// `vertex` should be a point of the body whose projection on `direction` is about the largest; any other
+  /// point makes the bound slower and less tight, but not wrong.
+  double support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
 
-  /// Of the box.
+  /// Returns an upper bound of |q| over the box.
   double radius_up() const;
 
   std::size_t size() const { return offset_.size(); }
@@ -38,26 +43,26 @@ class HalfSpaces {
   double offset(std::size_t i) const { return offset_[i]; }
 
  private:
-  /// direction = sum of weights[k] n(sides[k]), weights >= 0, but for rounding.
+  /// Up to rounding, direction = sum of weights[k] * normal(sides[k]), with weights >= 0.
   struct Basis {
     std::array<std::size_t, 3> sides;
     Eigen::Vector3d weights;
   };
 
-  /// What a basis proves: direction . q <= reach + residual . |q|, the latter by component.
-  struct Proof {
-    double reach;
+  /// The bound that a basis proves: direction . q <= bound + residual . |q|, where |q| is by component.
+  struct DualBound {
+    double bound;
     Eigen::Vector3d residual;
   };
 
   class DualSimplex;
 
   Basis start(const Eigen::Vector3d& direction) const;
-  Proof prove(const Basis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
+  DualBound prove(const Basis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
   double bound(const Basis& basis, const Eigen::Vector3d& direction) const;
 
   std::vector<double> x_, y_, z_, offset_;
-  Eigen::Vector3d widest_ = Eigen::Vector3d::Zero();  // of the box, by component
+  Eigen::Vector3d max_abs_ = Eigen::Vector3d::Zero();  // largest |q_k| in the box, by component
 };
 
 }  // namespace pcl_bv::volumes_internal

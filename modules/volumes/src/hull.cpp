@@ -43,11 +43,11 @@ std::vector<Face> faces_of(const Hull& hull) {
   return faces;
 }
 
-// Relative to the first vertex, in units in which the size is about 1: products of five lengths must not
-// overflow.
+// The hull relative to its first vertex, divided by `unit` so that its size is about 1: products of five
+// lengths must not overflow.
 struct Body {
   Polytope polytope;
-  double unit = 1;  // a power of two
+  double unit = 1;  // power of two
 };
 
 Body body_of(const Hull& hull) {
@@ -66,11 +66,12 @@ Body body_of(const Hull& hull) {
   return body;
 }
 
-// An upper bound of normal . (matrix p + shift) over the p of the hull, if `normal` is that of `plane` turned
-// by the matrix: with d = matrix' normal - plane.normal, which is tiny, it is plane.normal . p + d . p +
-// normal . shift, and d . p is d . middle and at most |d| . reach more.
+// Returns an upper bound of normal . (matrix p + shift) over all p of the hull, where `normal` is
+// plane.normal rotated by the matrix. With the tiny d = matrix' normal - plane.normal, the value is
+// plane.normal . p + d . p + normal . shift. The first term is at most plane.offset, the second at most
+// d . middle + |d| . half_extents, where `middle` and `half_extents` describe a box around the hull.
 double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
-                    const Eigen::Vector3d& middle, const Eigen::Vector3d& reach) {
+                    const Eigen::Vector3d& middle, const Eigen::Vector3d& half_extents) {
   Expansion sum;
   sum.add(plane.offset);
   double spread = 0;
@@ -78,31 +79,32 @@ double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const
     Expansion tilt;
     tilt.add(-plane.normal[k]).add_dot(transform.linear().col(k), normal);
     const double low = tilt.down(), high = tilt.up();
-    spread = add_up(spread, multiply_up(std::max(-low, high), reach[k]));
+    spread = add_up(spread, multiply_up(std::max(-low, high), half_extents[k]));
     sum.add_product(middle[k] > 0 ? high : low, middle[k]);
     sum.add_product(normal[k], transform(k, 3));
   }
   return sum.add(spread).up();
 }
 
-// Where planes say that the hull ends along x, y, z and then along -x, -y, -z; infinity where none is along it.
-std::array<double, 6> ends_along_axes(const std::vector<HullPlane>& planes) {
-  std::array<double, 6> ends;
-  ends.fill(kInfinity);
+// Returns upper bounds of the projections of the hull on x, y, z, -x, -y, -z, from its planes perpendicular
+// to these axes; infinity where there is no such plane.
+std::array<double, 6> axis_bounds(const std::vector<HullPlane>& planes) {
+  std::array<double, 6> bounds;
+  bounds.fill(kInfinity);
   for (const HullPlane& plane : planes) {
     for (int k = 0; k < 3; ++k) {
       if (plane.normal.cwiseAbs() != Eigen::Vector3d(Eigen::Vector3d::Unit(k))) continue;
-      double& end = ends[static_cast<std::size_t>(plane.normal[k] > 0 ? k : k + 3)];
-      end = std::min(end, plane.offset);
+      double& bound = bounds[static_cast<std::size_t>(plane.normal[k] > 0 ? k : k + 3)];
+      bound = std::min(bound, plane.offset);
     }
   }
-  return ends;
+  return bounds;
 }
 
-double support_along_axis(const Shape& shape, std::size_t side) {
+double support_along_axis(const SupportShape& shape, std::size_t side) {
   const auto k = static_cast<int>(side % 3);
   const double sign = side < 3 ? 1 : -1;
-  return add_up(shape.reach_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
+  return add_up(shape.support_value_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
 }
 
 }  // namespace
@@ -115,7 +117,7 @@ Hull::Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangle
       rank_(rank) {
   const FloatEnvironment environment;
   require(rank >= 0 && rank <= 3, "rank must be 0 to 3");
-  require(vertices_.empty() == planes_.empty(), "there must be vertices and planes, or neither");
+  require(vertices_.empty() == planes_.empty(), "vertices and planes must both be given or both be empty");
   for (Eigen::Vector3d& v : vertices_) {
     require(v.allFinite(), "vertices must be finite");
     v = v.array() + 0.0;
@@ -128,7 +130,7 @@ Hull::Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangle
   for (const Triangle& t : triangles_) {
     for (const std::int32_t corner : t)
       require(corner >= 0 && static_cast<std::size_t>(corner) < vertices_.size(),
-              "a triangle names no vertex");
+              "a triangle has an index outside the vertices");
   }
 }
 
@@ -168,11 +170,11 @@ Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
   if (empty()) return Eigen::Vector3d::Constant(kNan);
   const Eigen::Vector3d* best = &vertices_.front();
   const Eigen::Vector3d unit = direction.stableNormalized();
-  double greatest = 0;  // of v - front, so that coordinates of UTM size do not eat up the digits
+  double largest = 0;  // relative to the first vertex, so that large coordinates (UTM) cost no digits
   for (const Eigen::Vector3d& v : vertices_) {
-    const double reach = project(unit, v - vertices_.front()).value;
-    if (reach <= greatest) continue;
-    greatest = reach;
+    const double projection = project(unit, v - vertices_.front()).value;
+    if (projection <= largest) continue;
+    largest = projection;
     best = &v;
   }
   return *best;
@@ -203,16 +205,16 @@ Aabb Hull::aabb() const {
   for (const Eigen::Vector3d& v : vertices_)
     box.extend(v);
   if (empty()) return box;
-  std::array<double, 6> ends = ends_along_axes(planes_);
-  if (std::count(ends.begin(), ends.end(), kInfinity) > 0) {
-    const std::shared_ptr<const Shape> shape = make_polytope(*this);
+  std::array<double, 6> bounds = axis_bounds(planes_);
+  if (std::count(bounds.begin(), bounds.end(), kInfinity) > 0) {
+    const std::shared_ptr<const SupportShape> shape = make_polytope(*this);
     if (!std::isfinite(shape->size)) return box;
-    for (std::size_t side = 0; side < ends.size(); ++side) {
-      if (ends[side] == kInfinity) ends[side] = support_along_axis(*shape, side);
+    for (std::size_t side = 0; side < bounds.size(); ++side) {
+      if (bounds[side] == kInfinity) bounds[side] = support_along_axis(*shape, side);
     }
   }
-  box.extend(-Eigen::Vector3d(ends[3], ends[4], ends[5]));
-  return box.extend(Eigen::Vector3d(ends[0], ends[1], ends[2]));
+  box.extend(-Eigen::Vector3d(bounds[3], bounds[4], bounds[5]));
+  return box.extend(Eigen::Vector3d(bounds[0], bounds[1], bounds[2]));
 }
 
 Mesh Hull::mesh() const {
@@ -228,12 +230,12 @@ Hull Hull::transformed(const Eigen::Isometry3d& transform) const {
     v = (transform * v).array() + 0.0;
   const Aabb box = aabb();
   const Eigen::Vector3d middle = box.center();
-  Eigen::Vector3d reach;
+  Eigen::Vector3d half_extents;
   for (int k = 0; k < 3; ++k)
-    reach[k] = std::max(add_up(box.max()[k], -middle[k]), add_up(middle[k], -box.min()[k]));
+    half_extents[k] = std::max(add_up(box.max()[k], -middle[k]), add_up(middle[k], -box.min()[k]));
   for (HullPlane& plane : moved.planes_) {
     const Eigen::Vector3d normal = (transform.linear() * plane.normal).array() + 0.0;
-    plane = {normal, moved_offset(plane, normal, transform, middle, reach) + 0.0};
+    plane = {normal, moved_offset(plane, normal, transform, middle, half_extents) + 0.0};
   }
   return moved;
 }

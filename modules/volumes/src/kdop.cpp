@@ -22,9 +22,9 @@ using namespace volumes_internal;
 
 namespace {
 
-void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
+void require_equal_sets(const Kdop& a, const Kdop& b, const char* function) {
   if (a.set() != b.set() && *a.set() != *b.set()) {
-    throw std::invalid_argument(std::string(verb) + ": both k-DOPs must have the same directions");
+    throw std::invalid_argument(std::string(function) + ": both k-DOPs must have the same directions");
   }
 }
 
@@ -32,7 +32,7 @@ void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
 
 Kdop::Kdop(std::shared_ptr<const KdopSet> set) : set_(std::move(set)) {
   if (!set_) throw std::invalid_argument("Kdop: the set must not be null");
-  if (size() > few_slabs) many_.resize(2 * size());
+  if (size() > max_inline_slabs) heap_numbers_.resize(2 * size());
   std::fill_n(numbers(), size(), kInfinity);
   std::fill_n(numbers() + size(), size(), -kInfinity);
 }
@@ -42,7 +42,8 @@ Kdop::Kdop(std::shared_ptr<const KdopSet> set, const SlabVector& min, const Slab
   const FloatEnvironment environment;
   const auto n = static_cast<Eigen::Index>(size());
   if (min.size() != n || max.size() != n) {
-    throw std::invalid_argument("Kdop: min and max must have " + std::to_string(n) + " slabs");
+    throw std::invalid_argument("Kdop: min and max must have " + std::to_string(n) +
+                                " numbers, one per slab");
   }
   if ((min.array() > max.array()).any()) return;
   if (!min.allFinite() || !max.allFinite()) {

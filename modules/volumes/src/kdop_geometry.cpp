@@ -17,7 +17,7 @@ using namespace volumes_internal;
 
 namespace {
 
-// The first slab along axis k, or size().
+// Returns the index of the first slab along coordinate axis k, or size() if there is none.
 std::size_t axis_slab(const KdopSet& set, int k) {
   std::size_t i = 0;
   while (i < set.size() && set.direction(i) != Eigen::Vector3d(Eigen::Vector3d::Unit(k)))
@@ -48,7 +48,7 @@ Eigen::Vector3d Kdop::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   if (empty()) return Eigen::Vector3d::Constant(kNan);
   const LocalSlabs slabs = local_slabs(*this);
-  return slabs.origin + farthest(slabs, direction).corner;
+  return slabs.origin + farthest_corner(slabs, direction).corner;
 }
 
 double Kdop::distance(const Eigen::Vector3d& point) const {
@@ -102,7 +102,7 @@ Kdop Kdop::tightened() const {
     lower[i] = std::max(min(i), -support_up(*this, slabs, identity, -n));
     upper[i] = std::min(max(i), support_up(*this, slabs, identity, n));
   }
-  // Both bounds are proven, so where they cross there is no point: the constructor makes that the empty
+  // Both bounds are proven. If they cross, the polytope has no point, and the constructor makes the empty
   // k-DOP.
   return {set_, lower, upper};
 }
@@ -114,12 +114,12 @@ Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
   SlabVector lower(min().size()), upper(lower.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
-    const auto reach = [&](const Eigen::Vector3d& direction) {
-      const double turned = support_up(*this, slabs, transform.linear(), direction);
-      return Expansion().add(turned).add_dot(direction, transform.translation()).up();
+    const auto support_bound = [&](const Eigen::Vector3d& direction) {
+      const double rotated = support_up(*this, slabs, transform.linear(), direction);
+      return Expansion().add(rotated).add_dot(direction, transform.translation()).up();
     };
-    lower[i] = -reach(-n);
-    upper[i] = reach(n);
+    lower[i] = -support_bound(-n);
+    upper[i] = support_bound(n);
   }
   return {set_, lower, upper};
 }

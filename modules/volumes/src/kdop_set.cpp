@@ -41,7 +41,7 @@ void check(const Directions& directions) {
   }
 }
 
-// Index of the first greatest score(direction) / |direction|^2.
+// Returns the index of the direction with the largest score(direction) / |direction|^2, the first of several.
 template <typename Score>
 std::size_t best(const Directions& directions, const Score& score) {
   const auto value = [&](const Eigen::Vector3d& n) { return score(n) / n.squaredNorm(); };

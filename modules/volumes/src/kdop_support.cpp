@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality does the work: weights w >= 0 with sum w_i N_i = m prove m.p <= sum w_i b_i for every p of the
-// polytope. The weights are found in plain double; the bound that they give is then added up exactly.
+// Weak duality proves the bounds: weights w >= 0 with sum w_i N_i = m prove m.p <= sum w_i b_i for every p of
+// the polytope. The weights are computed in plain double; their bound is then summed exactly.
 #include "kdop_support.h"
 
 #include <Eigen/LU>
@@ -23,7 +23,7 @@ double offset(const LocalSlabs& slabs, const SlabSide& side) {
   return side.sign > 0 ? slabs.max[side.slab] : -slabs.min[side.slab];
 }
 
-// The side that the point is farthest beyond, if by more than rounding.
+// Finds the side that the point violates most. Returns false if it violates none by more than rounding.
 bool most_violated(const LocalSlabs& slabs, const Eigen::Vector3d& point, SlabSide& side) {
   constexpr double rounding = 0x1p-44;
   const double extent = point.cwiseAbs().sum();
@@ -42,8 +42,9 @@ bool most_violated(const LocalSlabs& slabs, const Eigen::Vector3d& point, SlabSi
   return worst > 0;
 }
 
-// Lets `side` take the place of one of the three, such that the weights stay >= 0. False if none can leave.
-bool pivot(Farthest& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vector3d& normal,
+// Lets `side` replace one of the three sides such that the weights stay >= 0. Returns false if none can
+// leave.
+bool pivot(FarthestCorner& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vector3d& normal,
            const SlabSide& side) {
   const Eigen::Vector3d share = normals_inverse.transpose() * normal;
   int leaving = -1;
@@ -62,25 +63,25 @@ bool pivot(Farthest& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vec
   return true;
 }
 
-Farthest start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
+FarthestCorner start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d weights = slabs.basis_inverse.transpose() * direction;
-  Farthest f{{}, weights.cwiseAbs(), {}};
+  FarthestCorner f{{}, weights.cwiseAbs(), {}};
   for (std::size_t k = 0; k < 3; ++k) {
     f.sides[k] = {slabs.set.basis()[k], weights[k] < 0 ? -1.0 : 1.0};
   }
   return f;
 }
 
-// An upper bound of |p| per coordinate, over the basis slabs. An entry of the inverse that nearly cancels may
-// have no digit right, but is off by less than 1e-9 of the reciprocal length of its direction, since the unit
-// determinant is above 1e-6; 1.01 is ample for the rest.
-Eigen::Vector3d reach(const Kdop& kdop, const LocalSlabs& slabs) {
+// Returns an upper bound of |p| per coordinate over the basis slabs. An entry of the inverse that nearly
+// cancels may have no correct digit, but its error is below 1e-9 / |direction|, since the determinant of the
+// normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
+Eigen::Vector3d coordinate_bound(const Kdop& kdop, const LocalSlabs& slabs) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
     const std::size_t i = slabs.set.basis()[k];
     const double largest = std::max(std::abs(kdop.min(i)), std::abs(kdop.max(i)));
-    const double doubt = 1e-9 / slabs.set.direction(i).norm();
-    result.array() += 1.01 * largest * (slabs.basis_inverse.col(k).array().abs() + doubt);
+    const double error_bound = 1e-9 / slabs.set.direction(i).norm();
+    result.array() += 1.01 * largest * (slabs.basis_inverse.col(k).array().abs() + error_bound);
   }
   return result;
 }
@@ -107,9 +108,10 @@ LocalSlabs local_slabs(const Kdop& kdop) {
   return result;
 }
 
-Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
-  Farthest f = start(slabs, direction);
-  // At most 6 steps in 360,000 random cases. The limit is against cycling, which costs only tightness.
+FarthestCorner farthest_corner(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
+  FarthestCorner f = start(slabs, direction);
+  // 360,000 random cases took at most 6 steps. The limit is against cycling; reaching it costs only
+  // tightness.
   const std::size_t limit = 8 * slabs.set.size();
   for (std::size_t step = 0; step <= limit; ++step) {
     Eigen::Matrix3d normals;
@@ -129,9 +131,9 @@ Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
 
 double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix3d& matrix,
                   const Eigen::Vector3d& direction) {
-  const Farthest f = farthest(slabs, matrix.transpose() * direction);
+  const FarthestCorner f = farthest_corner(slabs, matrix.transpose() * direction);
   Expansion bound;
-  std::array<Expansion, 3> residual;  // of direction' * matrix - sum of weights * normals
+  std::array<Expansion, 3> residual;  // direction' * matrix - sum of weights * normals
   for (std::size_t k = 0; k < 3; ++k)
     residual[k].add_dot(matrix.col(k), direction);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -142,7 +144,7 @@ double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix
       residual[k].add_product(-sign * weight, slabs.set.direction(slab)[k]);
     }
   }
-  const Eigen::Vector3d coordinates = reach(kdop, slabs);
+  const Eigen::Vector3d coordinates = coordinate_bound(kdop, slabs);
   for (std::size_t k = 0; k < 3; ++k) {
     bound.add(multiply_up(residual[k].magnitude_up(), coordinates[k]));
   }

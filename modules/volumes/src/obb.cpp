@@ -24,13 +24,13 @@ using namespace volumes_internal;
 
 namespace {
 
-// axis . q in double. q is itself a rounded difference: with it, three products and two sums, the value is
-// off by at most 4.01 2^-53 of |q|_1; the bound is twice that, and covers its own addition.
+// Returns axis . q in double. q is itself a rounded difference: with it, three products and two sums, the
+// value is off by at most 4.01 * 2^-53 |q|_1. The error bound is twice that, which also covers adding it.
 Projection component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
 }
 
-// In one order, whatever the axes are called: products and sums have the same bits for all names of a box.
+// Sorts sizes, so that their products and sums have the same bits for every order of the axes.
 Eigen::Vector3d descending(Eigen::Vector3d sizes) {
   std::sort(sizes.begin(), sizes.end(), std::greater<>());
   return sizes;
@@ -47,7 +47,7 @@ Obb::Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen
     : Obb() {
   const FloatEnvironment environment;
   if ((half_extents.array() < 0).any()) return;
-  if (!center.allFinite() || !half_extents.allFinite() || !(skew(axes) <= 1e-12)) {
+  if (!center.allFinite() || !half_extents.allFinite() || !(orthonormality_error(axes) <= 1e-12)) {
     throw std::invalid_argument(
         "Obb: center and half extents must be finite (or a half extent negative, for an empty box), and "
         "axes unit and orthogonal to 1e-12");
@@ -71,7 +71,7 @@ Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, 
   if ((low.array() > high.array()).any()) return {};
   const Eigen::Vector3d middle = low + 0.5 * (high - low);
   Eigen::Vector3d center = origin;
-  // A second time for what the axes lack of being orthogonal.
+  // The second round corrects for axes that are not exactly orthogonal.
   for (int round = 0; round < 2; ++round) {
     Eigen::Vector3d missing;
     for (int i = 0; i < 3; ++i)
@@ -112,7 +112,7 @@ bool Obb::contains(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d q = point - center_;
   for (int i = 0; i < 3; ++i) {
     const auto [s, error] = component(axes_.col(i), q);
-    if (!(std::abs(s) <= half_extents_[i] + error)) return false;  // an empty one is nowhere: NaN
+    if (!(std::abs(s) <= half_extents_[i] + error)) return false;  // also for an empty box: s is NaN
   }
   return point.allFinite();
 }
@@ -174,27 +174,28 @@ std::array<Eigen::Vector3d, 8> Obb::corners() const {
   return result;
 }
 
-// With w = A y + r, where y_i = axis(i) . w as rounded and r is what that lacks: w . q is at most
-// sum |y_i| h_i + |r| |q|, and |q| at most 1.001 |h|_1.
-double Obb::reach_up(const Eigen::Vector3d& direction) const {
+// For the direction w, let y_i = axis(i) . w, rounded, and r = w - A y (`residual`). Each q = p - center of
+// the box satisfies w . q <= sum |y_i| h_i + |r| |q|, with |q| <= 1.001 |h|_1.
+double Obb::support_value_up(const Eigen::Vector3d& direction) const {
   Eigen::Vector3d y;
-  double reach = 0;
+  double bound = 0;
   for (int i = 0; i < 3; ++i) {
     y[i] = dot3(axes_.col(i), direction);
-    reach = add_up(reach, multiply_up(std::abs(y[i]), half_extents_[i]));
+    bound = add_up(bound, multiply_up(std::abs(y[i]), half_extents_[i]));
   }
-  Eigen::Vector3d lacking;
+  Eigen::Vector3d residual;
   for (int k = 0; k < 3; ++k)
-    lacking[k] = Expansion().add(-direction[k]).add_dot(axes_.row(k), y).magnitude_up();
-  if (lacking.isZero(0)) return reach;
-  return add_up(reach, multiply_up(1.001 * half_extents_.sum(), norm_up(lacking)));
+    residual[k] = Expansion().add(-direction[k]).add_dot(axes_.row(k), y).magnitude_up();
+  if (residual.isZero(0)) return bound;
+  return add_up(bound, multiply_up(1.001 * half_extents_.sum(), norm_up(residual)));
 }
 
 Aabb Obb::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  return box_around(center_, {reach_up(Eigen::Vector3d::UnitX()), reach_up(Eigen::Vector3d::UnitY()),
-                              reach_up(Eigen::Vector3d::UnitZ())});
+  return box_around(center_,
+                    {support_value_up(Eigen::Vector3d::UnitX()), support_value_up(Eigen::Vector3d::UnitY()),
+                     support_value_up(Eigen::Vector3d::UnitZ())});
 }
 
 Mesh Obb::mesh() const {
@@ -205,13 +206,14 @@ Mesh Obb::mesh() const {
   return mesh;
 }
 
-// a' . (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c').
+// For a new axis a' and the new centre c': a' . (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c'). The
+// last term is at most 1.001 times the rounding error of c'.
 Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const Eigen::Matrix3d axes = orthonormal_axes(m * axes_);
-  const MovedPoint center = move_point(transform, center_);
+  const TransformedPoint center = transform_point(transform, center_);
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector3d w, rounding;
@@ -222,7 +224,7 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
     }
     const double lost =
         add_up(multiply_up(1.001 * half_extents_.sum(), norm_up(rounding)), multiply_up(1.001, center.error));
-    half_extents[i] = add_up(reach_up(w), lost);
+    half_extents[i] = add_up(support_value_up(w), lost);
   }
   return {center.point, axes, half_extents};
 }
@@ -242,7 +244,7 @@ FloatObb Obb::cast_float() const {
     const Eigen::Vector3d axis = result.axes.col(i).cast<double>();
     Expansion away;
     away.add_dot(axis, center_).add_dot(-axis, result.center.cast<double>());
-    result.half_extents[i] = float_up(add_up(reach_up(axis), away.magnitude_up()));
+    result.half_extents[i] = float_up(add_up(support_value_up(axis), away.magnitude_up()));
   }
   return result;
 }

@@ -14,7 +14,8 @@ namespace pcl_bv {
 
 namespace {
 
-// What rounding may do to a component of an axis, and much less than a turn that anybody would notice.
+// Components of axes that differ by at most this are treated as equal: more than rounding errors, and much
+// less than any rotation that matters.
 constexpr double same_component = 1e-9;
 
 Eigen::Vector3d pointing_positive(const Eigen::Vector3d& axis) {
@@ -25,7 +26,8 @@ Eigen::Vector3d pointing_positive(const Eigen::Vector3d& axis) {
   return axis;
 }
 
-// Of axes that point_positive(): more along x first, then along y, z.
+// Order of axes from pointing_positive(): first by the magnitude of the components along x, then y, then z,
+// largest first; then by their signs.
 bool comes_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   for (int k = 0; k < 3; ++k) {
     const double difference = std::abs(a[k]) - std::abs(b[k]);
@@ -37,12 +39,12 @@ bool comes_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return false;
 }
 
-// The coordinate axis from which yaw() is counted.
+// Returns the coordinate axis from which yaw() is measured: x, or y if `up` is less than 45 degrees from x.
 int yaw_reference(const Eigen::Vector3d& up) {
   return std::abs(up.x()) > 0.7071067811865476 ? 1 : 0;
 }
 
-// Components along the reference and a quarter turn further, of axis 0 of a right-handed box.
+// Components of axis 0 of a right-handed box, along the reference axis and a quarter turn further.
 struct Heading {
   double ahead, left;
 };
@@ -52,8 +54,8 @@ Heading heading_of(const Eigen::Matrix3d& axes) {
   return {axes(k, 0), 0.0 - axes(k, 1)};
 }
 
-// Axes 0 and 1 turned by a half: then the yaw is from -pi/2 (exclusive) to pi/2.
-void face_ahead(Eigen::Matrix3d& axes) {
+// Rotates axes 0 and 1 by half a turn if necessary, so that the yaw is from -pi/2 (exclusive) to pi/2.
+void limit_yaw(Eigen::Matrix3d& axes) {
   const Heading heading = heading_of(axes);
   const bool sideways = std::abs(heading.ahead) <= same_component;
   if (sideways ? heading.left < 0 : heading.ahead < 0) axes.leftCols<2>() = -axes.leftCols<2>();
@@ -61,7 +63,7 @@ void face_ahead(Eigen::Matrix3d& axes) {
 
 using Order = std::array<int, 3>;
 
-Obb named(const Obb& box, const Order& order, const Eigen::Matrix3d& axes) {
+Obb with_axes(const Obb& box, const Order& order, const Eigen::Matrix3d& axes) {
   const Eigen::Vector3d& h = box.half_extents();
   return {box.center(), axes, {h[order[0]], h[order[1]], h[order[2]]}};
 }
@@ -72,7 +74,7 @@ Eigen::Matrix3d orthonormal_axes(const Eigen::Matrix3d& axes) {
   const FloatEnvironment environment;
   const Eigen::Vector3d u = unit3(axes.col(0));
   Eigen::Vector3d v = axes.col(1);
-  for (int round = 0; round < 2; ++round) {  // the second takes away what the first one's rounding left
+  for (int round = 0; round < 2; ++round) {  // the second round removes rounding errors of the first
     const double along = dot3(u, v);
     v = unit3(v - along * u);
   }
@@ -85,7 +87,7 @@ Obb Obb::canonical() const {
   const FloatEnvironment environment;
   if (empty()) return *this;
   const double same_size = 0x1p-40 * half_extents_.maxCoeff() +
-                           0x1p-50 * center_.cwiseAbs().maxCoeff();  // and rounding of the centre
+                           0x1p-50 * center_.cwiseAbs().maxCoeff();  // plus rounding of the centre
   Order order{0, 1, 2};
   std::array<Eigen::Vector3d, 3> axes;
   for (int i = 0; i < 3; ++i)
@@ -103,7 +105,7 @@ Obb Obb::canonical() const {
   }
   Eigen::Matrix3d sorted;
   sorted << axis(order[0]), axis(order[1]), axis(order[2]);
-  return named(*this, order, sorted);  // turns the last axis round if that is what makes them right-handed
+  return with_axes(*this, order, sorted);  // Obb's constructor negates axis 2 if the axes are left-handed
 }
 
 Obb Obb::upright(const Eigen::Vector3d& up) const {
@@ -116,18 +118,18 @@ Obb Obb::upright(const Eigen::Vector3d& up) const {
   Eigen::Matrix3d axes;
   axes << axes_.col(first), axes_.col(second), axes_.col(third);
   if (along[vertical] < 0) axes.rightCols<2>() = -axes.rightCols<2>();
-  face_ahead(axes);
+  limit_yaw(axes);
   Eigen::Matrix3d quarter;
   quarter << axes.col(1), -axes.col(0), axes.col(2);
-  face_ahead(quarter);
+  limit_yaw(quarter);
   const double same_size = 0x1p-40 * half_extents_.maxCoeff() + 0x1p-50 * center_.cwiseAbs().maxCoeff();
   const double longer = half_extents_[second] - half_extents_[first];
   const Heading a = heading_of(axes), b = heading_of(quarter);
   const double nearer = std::abs(b.ahead) - std::abs(a.ahead);
   const bool square = std::abs(longer) <= same_size, diagonal = std::abs(nearer) <= same_component;
-  const bool turn = !square ? longer > 0 : !diagonal ? nearer > 0 : b.left > a.left;
-  if (turn) return named(*this, {second, first, third}, quarter);
-  return named(*this, {first, second, third}, axes);
+  const bool swap_axes = !square ? longer > 0 : !diagonal ? nearer > 0 : b.left > a.left;
+  if (swap_axes) return with_axes(*this, {second, first, third}, quarter);
+  return with_axes(*this, {first, second, third}, axes);
 }
 
 double Obb::yaw() const {
@@ -141,29 +143,29 @@ Obb Obb::oriented_as(const Obb& previous) const {
   if (empty() || previous.empty()) return *this;
   Order order{0, 1, 2}, best = order;
   Eigen::Vector3d best_signs = Eigen::Vector3d::Ones();
-  double most = -4;
+  double largest = -4;
   do {
     Eigen::Vector3d along, signs;
     for (int i = 0; i < 3; ++i) {
       along[i] = dot3(axes_.col(order[i]), previous.axes_.col(i));
       signs[i] = along[i] < 0 ? -1 : 1;
     }
-    const bool even = (order[1] - order[0] + 3) % 3 == 1;  // 012, 120, 201
-    if ((signs.prod() > 0) != even) {                      // left-handed: turn the axis that loses least
-      Eigen::Index least;
-      along.cwiseAbs().minCoeff(&least);
-      signs[least] = -signs[least];
+    const bool even = (order[1] - order[0] + 3) % 3 == 1;  // permutations 012, 120, 201
+    if ((signs.prod() > 0) != even) {                      // left-handed: negate the axis that costs least
+      Eigen::Index smallest;
+      along.cwiseAbs().minCoeff(&smallest);
+      signs[smallest] = -signs[smallest];
     }
     const double sum = dot3(along, signs);
-    if (sum <= most) continue;
-    most = sum;
+    if (sum <= largest) continue;
+    largest = sum;
     best = order;
     best_signs = signs;
   } while (std::next_permutation(order.begin(), order.end()));
   Eigen::Matrix3d axes;
   for (int i = 0; i < 3; ++i)
     axes.col(i) = best_signs[i] * axes_.col(best[i]);
-  return named(*this, best, axes);
+  return with_axes(*this, best, axes);
 }
 
 }  // namespace pcl_bv

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The three basis slabs span a parallelepiped. Mapped to the unit cube, everything is well scaled however
-// long, thin or far from the origin the volume is; there the other slabs cut.
+// The three basis slabs span a parallelepiped. It is mapped to the unit cube, where the other slabs clip it:
+// there everything is well scaled, however long, thin or far from the origin the volume is.
 #include "polytope.h"
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-// p = corner + edges * y takes the unit cube to the parallelepiped of the basis slabs.
+// p = corner + edges * y maps the unit cube to the parallelepiped of the basis slabs.
 struct CubeMap {
   Eigen::Vector3d corner;
   Eigen::Matrix3d edges;
@@ -36,12 +36,13 @@ CubeMap cube_map(const LocalSlabs& slabs) {
 struct MappedSlab {
   Eigen::Vector3d normal;
   double min, max;
-  double rounding;  // of both: much, where an extent is near a unit in the last place of the coordinates
+  double rounding;  // error bound of both; large if an extent is near a unit in the last place of coordinates
 
   double width() const { return (max - min) / normal.cwiseAbs().maxCoeff(); }
 };
 
-// The slabs that cut the cube: not those of the basis, which made it, nor those along which it has no extent.
+// Returns the slabs that clip the cube: neither the basis slabs, which define it, nor slabs along which it
+// has no extent.
 std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map) {
   std::vector<MappedSlab> result;
   for (std::size_t i = 0; i < slabs.set.size(); ++i) {
@@ -55,7 +56,7 @@ std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map
     if (normal.isZero(0)) continue;
     result.push_back({normal, slabs.min[i] - shift, slabs.max[i] - shift, 0x1p-48 * magnitude});
   }
-  // Thin slabs first: a cap that the other side then collapses is one whole face.
+  // Thin slabs first: if the polytope collapses onto the cap of such a slab, the cap is still one whole face.
   std::stable_sort(result.begin(), result.end(),
                    [](const MappedSlab& a, const MappedSlab& b) { return a.width() < b.width(); });
   return result;
@@ -73,7 +74,7 @@ ClippedCube clipped(const LocalSlabs& slabs, const CubeMap& map) {
   return cube;
 }
 
-// Keeps the vertices that faces use, renumbered in order.
+// Copies the faces and the vertices that they use, renumbered in the order of their first use.
 void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, std::vector<Face>& faces) {
   std::vector<std::int32_t> number(cube.vertices().size(), -1);
   for (const Face& loop : cube.loops()) {
@@ -92,12 +93,12 @@ void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, st
 
 double distance_to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d edge = b - a;
-  const Eigen::Vector3d unit = edge.stableNormalized();  // zero if the edge is
+  const Eigen::Vector3d unit = edge.stableNormalized();  // zero for an edge of length 0
   const double along = std::clamp(unit.dot(p - a), 0.0, edge.stableNorm());
   return (p - a - along * unit).stableNorm();
 }
 
-// Twice the vector area of a face.
+// Returns the outward normal of a face, with twice the area as its length.
 Eigen::Vector3d twice_area(const Polytope& polytope, const Face& face) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& a = polytope.vertices[face[0]];
@@ -156,7 +157,7 @@ Polytope intersect_slabs(const Kdop& kdop) {
   compact(cube, result.vertices, result.faces);
   if (result.vertices.empty()) return result;
 
-  // The centroid is affine, so it is taken where the scale is good.
+  // Affine maps preserve centroids, so it is computed in the cube, where the scale is good.
   const Measure m = measure(result.vertices, result.faces, cube.rank());
   result.centroid = map.corner + map.edges * m.centroid(result.vertices);
   if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * std::abs(map.edges.determinant());

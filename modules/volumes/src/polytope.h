@@ -1,35 +1,37 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bodies as corners and faces: how they are measured, and those of a k-DOP.
+// Convex polytopes as vertices and faces: their measures, and the polytope of a k-DOP.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv::volumes_internal {
 
 using Face = std::vector<std::int32_t>;
 
-/// A convex polytope, which may be flat: two faces that coincide, a line: one face of two vertices, a point:
-/// none.
+/// A convex polytope. A flat polytope has two faces that coincide; a segment has one face of two vertices; a
+/// point has no face.
 struct Polytope {
   Eigen::Vector3d origin;                 ///< Corners are vertices[i] + origin.
-  std::vector<Eigen::Vector3d> vertices;  ///< Empty if the slabs have no common point.
-  std::vector<Face> faces;                ///< Counter-clockwise from outside.
+  std::vector<Eigen::Vector3d> vertices;  ///< Empty if the slabs have no point in common.
+  std::vector<Face> faces;                ///< Counter-clockwise seen from outside.
   double volume = 0;
-  Eigen::Vector3d centroid;  ///< Relative to the origin.
+  /// Relative to the origin; NaN without vertices.
+  Eigen::Vector3d centroid = Eigen::Vector3d::Constant(kNan);
 };
 
-/// How much there is, and where.
+/// The size of a polytope and its first moment.
 struct Measure {
-  double size = 0;  ///< Volume, area or length by rank.
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double size = 0;  ///< Volume for rank 3, area of all faces for rank 2, 0 for rank 1 and 0.
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< Integral of the position over the polytope.
 
-  /// Where it balances; if there is none of it, the mean of the vertices that it is of.
+  /// Returns the centre of mass; the mean of the vertices if the size is 0.
   Eigen::Vector3d centroid(const std::vector<Eigen::Vector3d>& vertices) const;
 
   void add(double part, const Eigen::Vector3d& center) {
@@ -38,16 +40,16 @@ struct Measure {
   }
 };
 
-/// Of rank 3 by tetrahedra from the first vertex, of rank 2 by triangles.
+/// Measures a polytope of rank 3 by tetrahedra from the first vertex, one of rank 2 by triangles.
 Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank);
 
-/// For a k-DOP that is not empty.
+/// The k-DOP must not be empty.
 Polytope intersect_slabs(const Kdop& kdop);
 
-/// Of all faces.
+/// Returns the area of all faces.
 double surface_area(const Polytope& polytope);
 
-/// From a point (relative to the origin) outside the polytope.
+/// Returns the distance from a point outside the polytope; the point is relative to the origin.
 double distance(const Polytope& polytope, const Eigen::Vector3d& point);
 
 }  // namespace pcl_bv::volumes_internal

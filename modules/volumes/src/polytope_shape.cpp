@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bodies of half-spaces, k-DOPs and hulls: their corners propose, the half-spaces answer.
+// Bodies that are given by half-spaces, k-DOPs and hulls: the corners propose support points, the half-spaces
+// prove bounds.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,27 +20,29 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-class PolytopeShape : public Shape {
+class PolytopeShape : public SupportShape {
  public:
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     std::size_t best = 0;
-    double greatest = -kInfinity;
+    double largest = -kInfinity;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      const double reach = (x_[i] * d[0] + y_[i] * d[1]) + z_[i] * d[2];
-      if (reach > greatest) {
-        greatest = reach;
+      const double projection = (x_[i] * d[0] + y_[i] * d[1]) + z_[i] * d[2];
+      if (projection > largest) {
+        largest = projection;
         best = i;
       }
     }
     return {x_[best], y_[best], z_[best]};
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override { return half_spaces_.reach_up(d, support(d)); }
+  double support_value_up(const Eigen::Vector3d& d) const override {
+    return half_spaces_.support_value_up(d, support(d));
+  }
 
-  Eigen::Vector3d mark() const override { return {x_.front(), y_.front(), z_.front()}; }
+  Eigen::Vector3d order_key() const override { return {x_.front(), y_.front(), z_.front()}; }
 
  protected:
-  // Corners are seen from `from`.
+  // `corners` are relative to `from`.
   void set_corners(const Eigen::Vector3d& from, const std::vector<Eigen::Vector3d>& corners) {
     Eigen::Vector3d low = corners.front(), high = corners.front();
     for (const Eigen::Vector3d& v : corners) {
@@ -53,12 +56,13 @@ class PolytopeShape : public Shape {
       y_.push_back(v[1] + shift[1]);
       z_.push_back(v[2] + shift[2]);
     }
-    // Half-spaces leave room of the rounding of coordinates about the corners, which may be one point.
+    // Half-spaces can extend beyond the corners by the rounding of coordinates, even if all corners are one
+    // point.
     const Eigen::Vector3d at = origin.cwiseAbs();
     guess_ = 2 * (high - low).maxCoeff() + 0x1p-40 * at.maxCoeff() + kSmallestNormal;
   }
 
-  void enclose() { size = half_spaces_.enclose(guess_) ? half_spaces_.radius_up() : kInfinity; }
+  void add_box() { size = half_spaces_.add_box(guess_) ? half_spaces_.radius_up() : kInfinity; }
 
   HalfSpaces half_spaces_;
 
@@ -79,7 +83,7 @@ class HullShape final : public PolytopeShape {
     half_spaces_.reserve(hull.planes().size());
     for (const HullPlane& plane : hull.planes())
       half_spaces_.add(plane.normal, plane.offset, origin);
-    enclose();
+    add_box();
   }
 };
 
@@ -92,10 +96,10 @@ class KdopShape final : public PolytopeShape {
       half_spaces_.add(kdop.set()->direction(i), kdop.max(i), origin);
       half_spaces_.add(-kdop.set()->direction(i), -kdop.min(i), origin);
     }
-    enclose();
+    add_box();
   }
 
-  Gap parallel_gap(const Shape& other) const override {
+  Gap parallel_gap(const SupportShape& other) const override {
     const Kdop& b = static_cast<const KdopShape&>(other).kdop_;
     if (*kdop_.set() != *b.set()) return {0, false};
     double best = 0;
@@ -114,12 +118,13 @@ class KdopShape final : public PolytopeShape {
 
 }  // namespace
 
-std::shared_ptr<Shape> make_polytope(const Hull& hull) {
+std::shared_ptr<SupportShape> make_polytope(const Hull& hull) {
   return std::make_shared<HullShape>(hull);
 }
 
-// Slabs that miss each other by rounding have no corners, and may have a point: their box has both.
-std::shared_ptr<Shape> make_polytope(const Kdop& kdop) {
+// Slabs that miss each other only by rounding have no corners but may have a point in common. Then the
+// corners of their box are used.
+std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop) {
   Polytope polytope = intersect_slabs(kdop);
   if (polytope.vertices.empty()) {
     if (kdop.tightened().empty()) return nullptr;

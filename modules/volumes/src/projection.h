@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A point seen along a direction, with what rounding may do to it.
+// Projections of points on directions, with error bounds.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +11,12 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A projection in plain double and a bound of its error. Three products and two sums are off by at most
-/// 3.01 2^-53 of the sum of magnitudes; the smallest normal covers products that underflow.
+/// A projection computed in plain double, and its error bound. Three products and two sums are off by at most
+/// 3.01 * 2^-53 of the sum of magnitudes; the smallest normal covers products that underflow.
 struct Projection {
   double value, error;
 
-  /// Twice the error away, so that the two hold the exact projection after their own rounding.
+  /// Bounds of the exact projection. Twice the error covers the rounding of these bounds, too.
   double low() const { return value - 2 * error; }
   double high() const { return value + 2 * error; }
 };

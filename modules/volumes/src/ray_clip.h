@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is left of a ray, never too little: the slab method (Kay, Kajiya 1986) with its rounding put
-// outward.
+// Conservative clipping of a ray: the slab method (Kay, Kajiya 1986) with rounding outward.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +18,9 @@ namespace pcl_bv::volumes_internal {
 
 class RayClip {
  public:
-  /// Keeps the t with t * slope <= bound. What is NaN clips nothing. The caller sees to it that the slope is
-  /// none too great, nor the bound too small but for one rounding; the quotient's and that one interval()
-  /// adds.
+  /// Keeps the t with t * slope <= bound. A NaN clips nothing. `slope` must not exceed the exact slope, and
+  /// `bound` must not be below the exact bound by more than one rounding. interval() allows for that rounding
+  /// and for the rounding of the quotient.
   void keep(double slope, double bound) {
     if (slope > 0) {
       exit_ = std::min(exit_, bound / slope);
@@ -32,22 +31,24 @@ class RayClip {
     }
   }
 
-  /// Keeps what lies between; one rounding of each is allowed for.
+  /// Keeps the t from `enter` to `exit`. interval() allows for one rounding of each.
   void keep_between(double enter, double exit) {
     enter_ = std::max(enter_, enter);
     exit_ = std::min(exit_, exit);
   }
 
-  /// Keeps what is within `radius` of a point or a line, whose distance is `least` where t 2^exponent is
-  /// `nearest` and of which the ray moves `speed` away per unit of that.
-  void keep_near(double nearest, double least, double radius, double speed, int exponent) {
-    if (least > radius) return keep(0, -1);
-    const double half = std::sqrt(radius - least) * std::sqrt(radius + least) / speed * (1 + 0x1p-49);
+  /// Keeps the t where the ray is within `radius` of a point or a line. With s = t 2^exponent, the squared
+  /// distance of the ray is min_distance^2 + (speed (s - nearest))^2.
+  void keep_within_radius(double nearest, double min_distance, double radius, double speed, int exponent) {
+    if (min_distance > radius) return keep(0, -1);
+    const double half =
+        std::sqrt(radius - min_distance) * std::sqrt(radius + min_distance) / speed * (1 + 0x1p-49);
     keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
   }
 
-  /// Both ends moved outward by 2^-51 of themselves (two roundings and that of the move itself) and, where
-  /// they underflow, the smallest normal. Nothing if none of t >= 0 is left.
+  /// Returns the remaining interval, or nothing if no t >= 0 is left. Both ends are moved outward by 2^-51 of
+  /// their magnitude, for two roundings and the rounding of this move, plus the smallest normal, for
+  /// underflow.
   std::optional<RayInterval> interval() const {
     using Limits = std::numeric_limits<double>;
     const double finite_enter = std::min(enter_, Limits::max());
@@ -62,8 +63,8 @@ class RayClip {
   double exit_ = kInfinity;
 };
 
-/// A direction of any length as u 2^exponent, the greatest component of u in [1, 2): squares of u are in
-/// range.
+/// A direction of any length as u 2^exponent. The largest component of u has a magnitude in [1, 2), so that
+/// |u|^2 is in the range of double.
 struct ScaledDirection {
   explicit ScaledDirection(const Eigen::Vector3d& direction)
       : exponent(std::ilogb(direction.cwiseAbs().maxCoeff())),
@@ -72,8 +73,8 @@ struct ScaledDirection {
   Eigen::Vector3d u;
 };
 
-/// A volume's intersect(): `clip(ray)` cuts a proper ray; this is the answer where there is none. A zero
-/// direction is a point test.
+/// Implements intersect() of a volume. `clip(ray)` clips a ray of non-zero direction. A zero direction tests
+/// the origin. An empty volume and numbers that are not finite give nothing.
 template <typename Volume, typename Clip>
 std::optional<RayInterval> intersect_ray(const Volume& volume, const Eigen::Vector3d& origin,
                                          const Eigen::Vector3d& direction, const Clip& clip) {

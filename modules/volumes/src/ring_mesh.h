@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Meshes made of parallel rings of vertices: cylinders, capsules, ellipsoids.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,12 +11,12 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// An axis and two unit vectors across it, right-handed.
+/// An axis and two unit vectors perpendicular to it, right-handed.
 struct Triad {
   explicit Triad(const Eigen::Vector3d& a) : axis(a) {
-    Eigen::Index least = 0;
-    a.cwiseAbs().minCoeff(&least);
-    u = Eigen::Vector3d::Unit(least).cross(a).stableNormalized();
+    Eigen::Index smallest = 0;
+    a.cwiseAbs().minCoeff(&smallest);
+    u = Eigen::Vector3d::Unit(smallest).cross(a).stableNormalized();
     v = a.cross(u);
   }
   Eigen::Vector3d axis, u, v;
@@ -26,8 +27,8 @@ struct Ring {
   double radius;
 };
 
-/// Rings of `sides` vertices each across the triad's axis, ascending along it; quadrilaterals between them, a
-/// polygon at each end.
+/// Returns a mesh of rings of `sides` vertices each, perpendicular to the triad's axis and ascending along
+/// it. There are quadrilaterals between neighbouring rings and a polygon at each end.
 Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides);
 
 }  // namespace pcl_bv::volumes_internal

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The kinds but those made of half-spaces. With U = 2^-53, three products and two sums are off by at most
-// 3.01 U of the sum of their magnitudes: 2^-50 of it also covers adding the bound. Smallest normals cover
-// what underflows.
+// The shapes of all kinds except k-DOPs and hulls. With U = 2^-53, three products and two sums are off by at
+// most 3.01 U of the sum of their magnitudes; 2^-50 of it also covers adding the error bound. The smallest
+// normal covers underflow.
 #include "shape.h"
 
 #include <algorithm>
@@ -27,9 +27,9 @@ double length3(const Eigen::Vector3d& v) {
 
 namespace {
 
-class BoxShape final : public Shape {
+class AabbShape final : public SupportShape {
  public:
-  explicit BoxShape(const Aabb& box) : box_(box) {
+  explicit AabbShape(const Aabb& box) : box_(box) {
     origin = 0.5 * box.min() + 0.5 * box.max();
     Eigen::Vector3d farthest;
     for (int k = 0; k < 3; ++k) {
@@ -44,15 +44,15 @@ class BoxShape final : public Shape {
     return {d[0] < 0 ? low_[0] : high_[0], d[1] < 0 ? low_[1] : high_[1], d[2] < 0 ? low_[2] : high_[2]};
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const Eigen::Vector3d p = support(d);
     const double x = d[0] * p[0], y = d[1] * p[1], z = d[2] * p[2];
     return ((x + y) + z) + (0x1p-50 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal);
   }
 
-  // The distance itself, whose sides are rounded down.
-  Gap parallel_gap(const Shape& other) const override {
-    const Aabb& b = static_cast<const BoxShape&>(other).box_;
+  // The distance itself: gaps along the axes, rounded down.
+  Gap parallel_gap(const SupportShape& other) const override {
+    const Aabb& b = static_cast<const AabbShape&>(other).box_;
     Eigen::Vector3d gap;
     for (int k = 0; k < 3; ++k) {
       gap[k] = 0;
@@ -62,16 +62,16 @@ class BoxShape final : public Shape {
     return {std::max({gap[0], gap[1], gap[2], length3(gap) * (1 - 0x1p-50)}), true};
   }
 
-  Eigen::Vector3d mark() const override { return high_; }
+  Eigen::Vector3d order_key() const override { return high_; }
 
  private:
   Aabb box_;
   Eigen::Vector3d low_, high_;
 };
 
-// d = A y + residual for the axes A in columns, which are nearly orthonormal: one step of refinement leaves
-// the rounding of the residual. |residual| is its sum of magnitudes, with the error of each component, at
-// most 4.01 U of its terms.
+// Components y of d along axes A (columns, nearly orthonormal): d = A y + r. One step of refinement reduces r
+// to rounding errors. `residual` is an upper bound of |r|: the sum of the magnitudes of its components, each
+// with its error bound, which is at most 4.01 U of the terms.
 struct Components {
   Components(const Eigen::Matrix3d& axes, const Eigen::Vector3d& d) {
     for (int i = 0; i < 3; ++i)
@@ -92,8 +92,8 @@ struct Components {
   double residual = 0;
 };
 
-// The columns q_i with axis i . q_i = 1, across the other axes, for the axes in columns: to 1e-24 the axes
-// and what they lack of being orthonormal, once.
+// Returns the dual basis of the axes: column i satisfies axis i . q_i = 1 and is perpendicular to the other
+// axes. One correction of the axes by their deviation from orthonormal is accurate to 1e-24.
 Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < 3; ++i) {
@@ -106,46 +106,47 @@ Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   return result;
 }
 
-Eigen::Vector3d combined(const Eigen::Matrix3d& columns, const Eigen::Vector3d& s) {
+Eigen::Vector3d linear_combination(const Eigen::Matrix3d& columns, const Eigen::Vector3d& s) {
   return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
 }
 
-// How much longer q can be than its components along axes that are orthonormal to 1e-12.
-constexpr double kSkewed = 1 + 0x1p-36;
+// By this factor, |q| can exceed the length computed from components along axes orthonormal to 1e-12.
+constexpr double kSkewFactor = 1 + 0x1p-36;
 
-class TurnedBoxShape final : public Shape {
+class ObbShape final : public SupportShape {
  public:
-  explicit TurnedBoxShape(const Obb& box) : axes_(box.axes()), dual_(dual(axes_)), half_(box.half_extents()) {
+  explicit ObbShape(const Obb& box) : axes_(box.axes()), dual_(dual(axes_)), half_(box.half_extents()) {
     origin = box.center();
-    size = length3(half_) * kSkewed;
+    size = length3(half_) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     Eigen::Vector3d s;
     for (int i = 0; i < 3; ++i)
       s[i] = dot3(dual_.col(i), d) < 0 ? -half_[i] : half_[i];
-    return combined(dual_, s);
+    return linear_combination(dual_, s);
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const auto [y, residual] = Components(axes_, d);
-    const double reach = (std::abs(y[0]) * half_[0] + std::abs(y[1]) * half_[1]) + std::abs(y[2]) * half_[2];
-    return reach * (1 + 0x1p-50) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
+    const double value = (std::abs(y[0]) * half_[0] + std::abs(y[1]) * half_[1]) + std::abs(y[2]) * half_[2];
+    return value * (1 + 0x1p-50) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return half_; }
+  Eigen::Vector3d order_key() const override { return half_; }
 
  private:
   Eigen::Matrix3d axes_, dual_;
   Eigen::Vector3d half_;
 };
 
-// With s_i = axis i . q, sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy and Schwarz.
-class EllipsoidShape final : public Shape {
+// With s_i = axis i . q: sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy-Schwarz, since
+// |(s_i / r_i)| <= 1.
+class EllipsoidShape final : public SupportShape {
  public:
   explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), dual_(dual(axes_)), radii_(e.radii()) {
     origin = e.center();
-    size = std::max({radii_[0], radii_[1], radii_[2]}) * kSkewed;
+    size = std::max({radii_[0], radii_[1], radii_[2]}) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
@@ -156,55 +157,56 @@ class EllipsoidShape final : public Shape {
     if (!(length > 0)) return Eigen::Vector3d::Zero();
     for (int i = 0; i < 3; ++i)
       s[i] = radii_[i] * (s[i] / length);
-    return combined(dual_, s);
+    return linear_combination(dual_, s);
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const auto [y, residual] = Components(axes_, d);
-    const double reach = length3({y[0] * radii_[0], y[1] * radii_[1], y[2] * radii_[2]});
-    return reach * (1 + 0x1p-49) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
+    const double value = length3({y[0] * radii_[0], y[1] * radii_[1], y[2] * radii_[2]});
+    return value * (1 + 0x1p-49) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return radii_; }
+  Eigen::Vector3d order_key() const override { return radii_; }
 
  private:
   Eigen::Matrix3d axes_, dual_;
   Eigen::Vector3d radii_;
 };
 
-// q is t u + v with |t| <= h / |u| and v across u, |v| <= r: d . q <= (h |d . u| + r |d x u|) / |u|, and the
-// length of u is 1 to 2^-50. d . u is off by less than 4 U |d|, d x u by less than 6 U |d|.
-class CylinderShape final : public Shape {
+// With the axis u, each point is q = t u + v with |t| <= h / |u|, v perpendicular to u and |v| <= r. So
+// d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50. The error of d . u is below 4 U |d|, the
+// error of d x u below 6 U |d|.
+class CylinderShape final : public SupportShape {
  public:
   explicit CylinderShape(const Cylinder& c)
-      : axis_(c.axis()), across_(c.radius()), half_height_(c.half_height()) {
+      : axis_(c.axis()), core_radius_(c.radius()), half_height_(c.half_height()) {
     origin = c.center();
-    size = length3({across_, half_height_, 0}) * kSkewed;
+    size = length3({core_radius_, half_height_, 0}) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     const double along = dot3(axis_, d);
-    const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));  // across the axis also where it is tiny
-    const double length = length3(across);
+    const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));  // also if it is tiny
+    const double length = length3(perpendicular);
     Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
     if (!(length > 0)) return end;
-    return end + across_ * Eigen::Vector3d(across / length);
+    return end + core_radius_ * Eigen::Vector3d(perpendicular / length);
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
-    const double reach = half_height_ * std::abs(dot3(axis_, d)) + across_ * length3(cross3(axis_, d));
-    return reach * (1 + 0x1p-48) + (0x1p-49 * (half_height_ + across_) * taxicab3(d) + kSmallestNormal);
+  double support_value_up(const Eigen::Vector3d& d) const override {
+    const double value = half_height_ * std::abs(dot3(axis_, d)) + core_radius_ * length3(cross3(axis_, d));
+    return value * (1 + 0x1p-48) + (0x1p-49 * (half_height_ + core_radius_) * taxicab3(d) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return axis_; }
+  Eigen::Vector3d order_key() const override { return axis_; }
 
  private:
   Eigen::Vector3d axis_;
-  double across_, half_height_;
+  double core_radius_, half_height_;
 };
 
-// Of capsules, spheres and points. Both ends are rounded once when they are seen from the origin.
-class SegmentShape final : public Shape {
+// The shape of capsules, spheres and points. Both ends are rounded once, relative to the origin.
+class SegmentShape final : public SupportShape {
  public:
   SegmentShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double around) {
     radius = around;
@@ -212,34 +214,34 @@ class SegmentShape final : public Shape {
     a_ = a - origin;
     b_ = b - origin;
     for (int k = 0; k < 3; ++k)
-      reach_[k] = std::max(std::abs(a_[k]), std::abs(b_[k]));
-    size = length3(reach_) * kSkewed;
+      max_abs_[k] = std::max(std::abs(a_[k]), std::abs(b_[k]));
+    size = length3(max_abs_) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     return dot3(a_, d) < dot3(b_, d) ? b_ : a_;
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const Eigen::Vector3d magnitude(std::abs(d[0]), std::abs(d[1]), std::abs(d[2]));
-    return std::max(dot3(a_, d), dot3(b_, d)) + (0x1p-50 * dot3(magnitude, reach_) + kSmallestNormal);
+    return std::max(dot3(a_, d), dot3(b_, d)) + (0x1p-50 * dot3(magnitude, max_abs_) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return a_; }
+  Eigen::Vector3d order_key() const override { return a_; }
 
  private:
-  Eigen::Vector3d a_, b_, reach_;
+  Eigen::Vector3d a_, b_, max_abs_;
 };
 
 struct Maker {
-  using Result = std::shared_ptr<Shape>;
+  using Result = std::shared_ptr<SupportShape>;
 
-  Result operator()(const Aabb& v) const { return std::make_shared<BoxShape>(v); }
+  Result operator()(const Aabb& v) const { return std::make_shared<AabbShape>(v); }
   Result operator()(const Kdop& v) const { return make_polytope(v); }
   Result operator()(const Sphere& v) const {
     return std::make_shared<SegmentShape>(v.center(), v.center(), v.radius());
   }
-  Result operator()(const Obb& v) const { return std::make_shared<TurnedBoxShape>(v); }
+  Result operator()(const Obb& v) const { return std::make_shared<ObbShape>(v); }
   Result operator()(const Cylinder& v) const { return std::make_shared<CylinderShape>(v); }
   Result operator()(const Capsule& v) const {
     return std::make_shared<SegmentShape>(v.a(), v.b(), v.radius());
@@ -250,9 +252,9 @@ struct Maker {
 
 }  // namespace
 
-std::shared_ptr<Shape> make_shape(const AnyVolume& volume) {
+std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume) {
   if (empty(volume)) return nullptr;
-  std::shared_ptr<Shape> shape = std::visit(Maker(), volume);
+  std::shared_ptr<SupportShape> shape = std::visit(Maker(), volume);
   if (shape) shape->kind = static_cast<int>(volume.index());
   return shape;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Convex bodies as the search for the nearest points of two sees them: support mappings, in plain double to
-// propose with and as proven bounds to answer with.
+// Convex bodies for the search for the nearest points of two bodies: support points in plain double, which
+// propose directions, and proven upper bounds of the support, which give the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,43 +12,45 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A lower bound of a distance, exact in its sign where `whole`: then it is the distance, to rounding.
+/// A lower bound of a distance. If `is_exact`, it is the distance up to rounding, and 0 only if the distance
+/// is 0.
 struct Gap {
   double bound;
-  bool whole;
+  bool is_exact;
 };
 
-/// A core, seen from an origin near by, and everything within a radius of it.
-class Shape {
+/// A core, relative to a nearby origin, and all points within `radius` of it.
+class SupportShape {
  public:
-  virtual ~Shape() = default;
+  virtual ~SupportShape() = default;
 
-  /// A point of the core, as far along the direction as there is one, to rounding.
+  /// Returns a point of the core that is farthest along the direction, up to rounding.
   virtual Eigen::Vector3d support(const Eigen::Vector3d& direction) const = 0;
 
-  /// An upper bound, by exact arithmetic, of direction . q over the points origin + q of the core. The
-  /// direction is about as long as 1.
-  virtual double reach_up(const Eigen::Vector3d& direction) const = 0;
+  /// Returns an upper bound, by exact arithmetic, of direction . q over the points origin + q of the core.
+  /// The length of the direction must be about 1.
+  virtual double support_value_up(const Eigen::Vector3d& direction) const = 0;
 
-  /// What faces in common tell of the distance to another of the kind, both standing where they were made.
-  virtual Gap parallel_gap(const Shape&) const { return {0, false}; }
+  /// Returns a lower bound of the distance to another shape of the same kind, from faces that are parallel in
+  /// both. Both shapes must be at their original pose.
+  virtual Gap parallel_gap(const SupportShape&) const { return {0, false}; }
 
-  /// Some numbers that tell bodies of one kind apart, for an order of the two in a pair.
-  virtual Eigen::Vector3d mark() const = 0;
+  /// Returns some numbers that distinguish shapes of one kind; they order the two shapes of a pair.
+  virtual Eigen::Vector3d order_key() const = 0;
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double size = 0;    ///< No q is longer. Infinite: nothing is known of the body.
-  double radius = 0;  ///< Around the core.
+  double size = 0;    ///< Upper bound of |q|. Infinite if no bound is known.
+  double radius = 0;  ///< The body is all points within this distance of the core.
   int kind = 0;       ///< AnyVolume::index().
 };
 
-/// Null for an empty volume, also for slabs that are proven to have no point in common.
-std::shared_ptr<Shape> make_shape(const AnyVolume& volume);
+/// Returns null for an empty volume, and for a k-DOP whose slabs are proven to have no point in common.
+std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume);
 
-std::shared_ptr<Shape> make_polytope(const Kdop& kdop);
-std::shared_ptr<Shape> make_polytope(const Hull& hull);
+std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop);
+std::shared_ptr<SupportShape> make_polytope(const Hull& hull);
 
-/// sqrt(x^2 + y^2 + z^2) to 4 2^-53 of it, in the whole range of double.
+/// Returns sqrt(x^2 + y^2 + z^2) with a relative error of at most 4 * 2^-53, in the whole range of double.
 double length3(const Eigen::Vector3d& v);
 
 }  // namespace pcl_bv::volumes_internal

@@ -22,27 +22,28 @@ using namespace volumes_internal;
 
 namespace {
 
-// An order of spheres in which the bigger comes first, total so that merge() is commutative.
+// A total order of spheres, larger radius first, so that merge() is commutative.
 bool precedes(const Sphere& a, const Sphere& b) {
   if (a.radius() != b.radius()) return a.radius() > b.radius();
   return std::lexicographical_compare(a.center().begin(), a.center().end(), b.center().begin(),
                                       b.center().end());
 }
 
-// The smallest sphere around both, neither of which holds the other. Its centre is rounded as it comes; its
-// radius is measured from there to the far side of either sphere, each step rounded up, so it encloses both
-// whatever the centre's error.
+// Returns the smallest sphere around two spheres, neither of which encloses the other. Its radius is measured
+// from the rounded centre to the far side of each sphere, with each step rounded up. So it encloses both in
+// spite of the rounding error of the centre.
 Sphere around(const Sphere& big, const Sphere& small) {
   const Eigen::Vector3d step = small.center() - big.center();
   const double d = step.stableNorm();
   const double part = std::clamp(((d - big.radius()) + small.radius()) / (2 * d), 0.0, 1.0);
   const Eigen::Vector3d center = big.center() + part * step;
-  const auto reach = [&](const Sphere& s) { return add_up(distance_up(center, s.center()), s.radius()); };
-  return {center, std::max(reach(big), reach(small))};
+  const auto far_side = [&](const Sphere& s) { return add_up(distance_up(center, s.center()), s.radius()); };
+  return {center, std::max(far_side(big), far_side(small))};
 }
 
-// Of squared distances, for |a - b| <= r or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2
-// by 5; the limit loses 3 at most, 5 where r is itself a rounded sum. 16 covers both.
+// Returns the limit of the computed squared distance d2 for |a - b| <= r, so large that no pair is rejected
+// because of rounding. In units of 2^-53, the relative errors are 1 for each component of q = a - b, at most
+// 5 for d2, and at most 3 for the limit (5 if r is itself a rounded sum). 16 covers all of them.
 double square_within_rounding(double r) {
   return r * r * (1 + 0x1p-49) + kSmallestNormal;
 }
@@ -52,20 +53,21 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
-// Around the point of the line that is nearest the centre, as computed. With q = origin - center, its place
-// is off by at most 4 U |q|, its distance h from the centre by 9 U |q| more, and it is 8 U |q|_1 at most
-// along the line from the true foot of the perpendicular. A radius greater by 52 U |q|_1 covers all of that;
-// it grows by 64, for its own rounding.
+// Clips the ray to an interval around the computed point of the line that is nearest to the centre. Let
+// q = origin - center and U = 2^-53. The position of that point is off by at most 4 U |q|, and its distance h
+// from the centre by another 9 U |q|. Along the line, it is at most 8 U |q|_1 from the exact foot of the
+// perpendicular. A radius that is larger by 52 U |q|_1 covers all of that; 64 U |q|_1 also cover the rounding
+// of the radius.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);
   const Eigen::Vector3d q = origin - sphere.center();
   const double nearest = -q.dot(u) / u.squaredNorm();
   const double h = (q + nearest * u).stableNorm();
-  const double doubt = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
+  const double error_bound = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
   const double held = sphere.contains(origin) ? q.stableNorm() : 0;
-  const double radius = std::max(sphere.radius(), held) + doubt;
-  ray.keep_near(nearest, h, radius, u.norm(), exponent);
+  const double radius = std::max(sphere.radius(), held) + error_bound;
+  ray.keep_within_radius(nearest, h, radius, u.norm(), exponent);
 }
 
 }  // namespace
@@ -88,7 +90,7 @@ bool Sphere::contains(const Eigen::Vector3d& point) const {
   return !empty() && within_rounding(point, center_, radius_) && point.allFinite();
 }
 
-double Sphere::contained_square() const {
+double Sphere::max_squared_distance() const {
   return empty() ? -1 : square_within_rounding(radius_);
 }
 
@@ -123,7 +125,7 @@ std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
 
 bool Sphere::overlaps(const Sphere& other) const {
   const FloatEnvironment environment;
-  return within_rounding(center_, other.center_, radius_ + other.radius_);  // an empty one is nowhere: NaN
+  return within_rounding(center_, other.center_, radius_ + other.radius_);  // false if either is empty
 }
 
 Aabb Sphere::aabb() const {
@@ -134,8 +136,8 @@ Aabb Sphere::aabb() const {
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const MovedPoint center = move_point(transform, center_);
-  return {center.point, add_up(multiply_up(radius_, stretch_up(transform.linear())), center.error)};
+  const TransformedPoint center = transform_point(transform, center_);
+  return {center.point, add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), center.error)};
 }
 
 Sphere& Sphere::extend(const Eigen::Vector3d& point) {
@@ -149,7 +151,9 @@ Sphere& Sphere::merge(const Sphere& other) {
   const bool this_first = precedes(*this, other);
   const Sphere big = this_first ? *this : other;
   const Sphere small = this_first ? other : *this;
-  return *this = within(small.center_, big.center_, big.radius_, small.radius_) ? big : around(big, small);
+  return *this = ball_inside_ball(small.center_, big.center_, big.radius_, small.radius_)
+                     ? big
+                     : around(big, small);
 }
 
 FloatSphere Sphere::cast_float() const {

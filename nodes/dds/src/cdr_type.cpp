@@ -25,7 +25,7 @@ std::uint32_t size_of(const ddsi_serdata* sample) {
   return static_cast<std::uint32_t>(cdr(sample).size);
 }
 
-// The fragments of a message in order; they may overlap.
+// Joins the fragments of a message. They are in order and may overlap.
 ddsi_serdata* from_fragments(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* fragment,
                              std::size_t size) {
   CdrSample* const sample = make_sample(type, kind, size);
@@ -58,7 +58,7 @@ ddsi_serdata* from_keyhash(const ddsi_sertype* type, const ddsi_keyhash*) {
   return make_sample(type, SDK_KEY, 0);
 }
 
-// Nothing is written but bytes.
+// Not supported: samples are written only as serialized bytes.
 ddsi_serdata* from_sample(const ddsi_sertype*, ddsi_serdata_kind, const void*) {
   return nullptr;
 }
@@ -67,7 +67,8 @@ void to_bytes(const ddsi_serdata* sample, std::size_t offset, std::size_t size, 
   std::memcpy(to, cdr(sample).bytes.get() + offset, size);
 }
 
-ddsi_serdata* to_bytes_ref(const ddsi_serdata* sample, std::size_t offset, std::size_t size, ddsrt_iovec_t* ref) {
+ddsi_serdata* to_bytes_ref(const ddsi_serdata* sample, std::size_t offset, std::size_t size,
+                           ddsrt_iovec_t* ref) {
   ref->iov_base = cdr(sample).bytes.get() + offset;
   ref->iov_len = static_cast<ddsrt_iov_len_t>(size);
   return ddsi_serdata_ref(sample);
@@ -162,12 +163,12 @@ const ddsi_sertype_ops& type_operations() {
 }  // namespace
 
 CdrSample* make_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size) {
-  const std::size_t room = (size + 3) / 4 * 4;
+  const std::size_t capacity = (size + 3) / 4 * 4;
   auto sample = std::unique_ptr<CdrSample>(new (std::nothrow) CdrSample());
   if (sample == nullptr) return nullptr;
-  sample->bytes.reset(new (std::nothrow) std::byte[std::max<std::size_t>(room, 4)]);
+  sample->bytes.reset(new (std::nothrow) std::byte[std::max<std::size_t>(capacity, 4)]);
   if (sample->bytes == nullptr) return nullptr;
-  std::memset(sample->bytes.get() + size, 0, std::max<std::size_t>(room, 4) - size);
+  std::memset(sample->bytes.get() + size, 0, std::max<std::size_t>(capacity, 4) - size);
   sample->size = size;
   ddsi_serdata_init(sample.get(), type, kind);
   return sample.release();
@@ -178,14 +179,14 @@ dds_entity_t create_cdr_topic(dds_entity_t participant, const std::string& name,
   auto made = std::make_unique<ddsi_sertype>();
   ddsi_sertype_init(made.get(), type.c_str(), &type_operations(), &sample_operations(), true);
   made->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
-  ddsi_sertype* known = made.get();  // or one that is equal
+  ddsi_sertype* known = made.get();  // Cyclone DDS may replace it by an equal type that is registered already
   const dds_entity_t topic =
       dds_create_topic_sertype(participant, name.c_str(), &known, nullptr, nullptr, nullptr);
   if (topic < 0) {
     ddsi_sertype_fini(made.get());
     return topic;
   }
-  made.release();  // it is Cyclone's now
+  made.release();  // Cyclone DDS owns it now
   if (registered != nullptr) *registered = known;
   return topic;
 }

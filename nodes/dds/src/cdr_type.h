@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A type of Cyclone DDS whose samples are serialized bytes, in and out: no code generated from IDL, no copy into fields.
+// A Cyclone DDS type whose samples are serialized CDR bytes, read and written without code generated from IDL
+// and without deserialization.
 #pragma once
 
 #include <dds/dds.h>
@@ -13,16 +14,18 @@
 
 namespace pcl_bv::dds {
 
-/// A serialized sample of Cyclone's, which counts its references.
+/// A serialized sample, reference-counted by Cyclone DDS.
 struct CdrSample : ddsi_serdata {
-  std::unique_ptr<std::byte[]> bytes;  // up to a multiple of 4, as the protocol reads them
-  std::size_t size = 0;                // with the four bytes of the encapsulation
+  std::unique_ptr<std::byte[]> bytes;  // padded to a multiple of 4: the protocol reads 4-byte units
+  std::size_t size = 0;                // includes the 4 bytes of the encapsulation header, not the padding
 };
 
-/// `size` uninitialised bytes but those of the padding; null without memory. One reference.
+/// Allocates a sample of `size` uninitialised bytes and zeroed padding, with one reference. Returns null if
+/// memory runs out.
 CdrSample* make_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size);
 
-/// A topic without keys; negative, as DDS's errors are, if it cannot be made. Its samples are of `registered`, if asked for.
+/// Creates a topic without keys. Returns a negative DDS error code on failure. `registered`, if not null,
+/// receives the type that the topic's samples must have.
 dds_entity_t create_cdr_topic(dds_entity_t participant, const std::string& name, const std::string& type,
                               const ddsi_sertype** registered = nullptr);
 

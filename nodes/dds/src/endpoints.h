@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Creation of the module's receivers and senders.
 #pragma once
 
 #include <memory>
 #include <string>
 
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::dds {
 
-/// As Middleware says.
+/// The implementations of Middleware::receiver() and Middleware::carrier().
 std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type);
-std::unique_ptr<MessageCarrier> make_carrier();
+std::unique_ptr<MessageSender> make_sender();
 
 }  // namespace pcl_bv::dds

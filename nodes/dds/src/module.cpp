@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "endpoints.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::dds {
 namespace {
@@ -12,7 +12,7 @@ class Dds final : public Middleware {
   std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) override {
     return make_receiver(topic, type);
   }
-  std::unique_ptr<MessageCarrier> carrier(const std::string&) override { return make_carrier(); }
+  std::unique_ptr<MessageSender> carrier(const std::string&) override { return make_sender(); }
 };
 
 }  // namespace

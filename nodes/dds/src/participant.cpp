@@ -15,10 +15,10 @@
 namespace pcl_bv::dds {
 namespace {
 
-// Clouds of megabytes are lost by the hundred in a socket's default 212 kB. A reader that is stuck must not
-// slow its writer down: what it has not acknowledged is kept, five messages of each topic, instead of waiting
-// for it at 500 kB.
-constexpr const char* kBuffers =
+// Socket buffer: with the default of 212 kB, hundreds of clouds of some megabytes are lost. Watermark: a
+// stuck reader must not block its writer. With 256 MB, the writer stores unacknowledged messages (five per
+// topic) and goes on; with the default of 500 kB it would wait for the reader.
+constexpr const char* kBufferConfig =
     "<Internal><SocketReceiveBufferSize "
     "max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
 
@@ -43,16 +43,17 @@ std::string peers_of(const std::string& text) {
     const std::size_t end = std::min(text.find(';', begin), text.size());
     const std::string peer = text.substr(begin, end - begin);
     if (peer.find_first_of("<>&\"' ") != std::string::npos)
-      throw std::invalid_argument("ROS_STATIC_PEERS: " + in_quotes(peer) + " is no address");
+      throw std::invalid_argument("ROS_STATIC_PEERS: " + in_quotes(peer) + " is not an address");
     if (!peer.empty()) peers += "<Peer Address=\"" + peer + "\"/>";
     begin = end + 1;
   }
   return peers;
 }
 
-// As rmw_cyclonedds reads the environment. On the loopback, which mostly knows no multicast, others are
-// looked for on the ports of the first 32 participants.
-std::string profile() {
+// Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. Discovery of
+// given peers probes the ports of the first 32 participants, because the loopback interface usually has no
+// multicast.
+std::string cyclone_config() {
   const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
     if (range == known) break;
@@ -60,11 +61,11 @@ std::string profile() {
       throw std::invalid_argument("ROS_AUTOMATIC_DISCOVERY_RANGE: " + in_quotes(range) +
                                   " is not SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT");
   }
-  const bool here = range == "LOCALHOST" || environment("ROS_LOCALHOST_ONLY") == "1";
+  const bool loopback_only = range == "LOCALHOST" || environment("ROS_LOCALHOST_ONLY") == "1";
   std::string peers = range == "SYSTEM_DEFAULT" ? "" : peers_of(environment("ROS_STATIC_PEERS"));
-  if (here) peers += "<Peer Address=\"127.0.0.1\"/>";
+  if (loopback_only) peers += "<Peer Address=\"127.0.0.1\"/>";
   std::string general = "<MaxMessageSize>65500B</MaxMessageSize>";
-  if (here) general += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
+  if (loopback_only) general += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
   if (range == "OFF") general += "<AllowMulticast>false</AllowMulticast>";
   std::string discovery;
   if (!peers.empty() && range != "OFF") {
@@ -74,7 +75,7 @@ std::string profile() {
         "<Peers>" +
         peers + "</Peers></Discovery>";
   }
-  return "<General>" + general + "</General>" + discovery + kBuffers;
+  return "<General>" + general + "</General>" + discovery + kBufferConfig;
 }
 
 bool is_word(std::string_view word) {
@@ -111,7 +112,7 @@ void Participant::Log::note(void* log, const dds_log_data_t* data) {
   std::string_view text(data->message, data->size);
   while (text.ends_with('\n'))
     text.remove_suffix(1);
-  // It is so on nearly every machine, and others are found without.
+  // Not worth a warning: true on nearly every machine, and discovery works without multicast on loopback.
   if (text.find("\"lo\" is not multicast-capable") != std::string_view::npos) return;
   const std::lock_guard lock(self.mutex_);
   if (self.lines_.size() < 100) self.lines_.emplace_back(text);
@@ -131,15 +132,15 @@ Participant::Participant() {
   const dds_domainid_t id = domain_of_environment();
   const std::string what = "DDS domain " + std::to_string(id);
   if (environment("CYCLONEDDS_URI").empty()) {
-    const dds_entity_t domain = dds_create_domain(id, profile().c_str());
-    // Who has made the domain before us in this process has chosen for us.
+    const dds_entity_t domain = dds_create_domain(id, cyclone_config().c_str());
+    // If this process has created the domain before, its configuration stays in force.
     if (domain != DDS_RETCODE_PRECONDITION_NOT_MET) {
       if (domain < 0) throw IoError(what + ": " + dds_strretcode(domain) + log_.last());
       domain_ = Entity(domain, what);
     }
   }
   const Qos qos = make_qos();
-  constexpr std::string_view node = "enclave=/;";  // what a ROS participant without nodes says of itself
+  constexpr std::string_view node = "enclave=/;";  // user data of a ROS participant without nodes
   dds_qset_userdata(qos.get(), node.data(), node.size());
   const dds_entity_t participant = dds_create_participant(id, qos.get(), nullptr);
   if (participant < 0) throw IoError(what + ": " + dds_strretcode(participant) + log_.last());
@@ -149,7 +150,7 @@ Participant::Participant() {
 std::shared_ptr<Participant> Participant::shared() {
   static std::mutex mutex;
   static std::weak_ptr<Participant> existing;
-  const auto remove = [](const Participant* last) {  // before the next one is made
+  const auto remove = [](const Participant* last) {  // never while another one is created
     const std::lock_guard lock(mutex);
     delete last;
   };
@@ -169,7 +170,8 @@ std::string dds_topic(const std::string& topic) {
   for (std::size_t begin = 0; begin <= name.size();) {
     const std::size_t end = std::min(name.find('/', begin), name.size());
     if (!is_word(name.substr(begin, end - begin)))
-      throw std::invalid_argument(in_quotes(topic) + " is no name of a topic, as /points or /lidar/points");
+      throw std::invalid_argument(in_quotes(topic) +
+                                  " is not a valid topic name (examples: /points, /lidar/points)");
     begin = end + 1;
   }
   return "rt/" + std::string(name);

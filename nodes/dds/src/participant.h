@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What all topics of the process share: the domain with its buffers, and one participant.
+// The DDS domain and participant that all topics of the process share, and the mapping of ROS names to DDS
+// names.
 #pragma once
 
 #include <dds/dds.h>
@@ -13,11 +14,12 @@
 
 namespace pcl_bv::dds {
 
-/// Deletes an entity of DDS, which must be the first thing to go of what it uses.
+/// Owns a DDS entity. Must be destroyed before the entities that it uses.
 class Entity {
  public:
   Entity() = default;
-  /// Throws IoError, "`what`: why", for an error instead of an entity.
+  /// Takes ownership. If `entity` is an error code (negative), throws IoError with the message "`what`:
+  /// reason".
   Entity(dds_entity_t entity, const std::string& what);
   Entity(Entity&& other) noexcept;
   Entity& operator=(Entity&& other) noexcept;
@@ -29,15 +31,16 @@ class Entity {
   dds_entity_t entity_ = 0;
 };
 
+/// The DDS participant of the process and the log of Cyclone DDS.
 class Participant {
  public:
-  /// That of the process, made for the first who asks and gone with the last. Throws IoError where there is
-  /// no network, std::invalid_argument for bad values in the environment.
+  /// Returns the participant of the process. The first caller creates it, the last owner deletes it. Throws
+  /// IoError if DDS cannot start (no network), std::invalid_argument for invalid environment variables.
   static std::shared_ptr<Participant> shared();
 
   dds_entity_t get() const { return participant_.get(); }
 
-  /// What Cyclone would have printed since the last call.
+  /// Returns the lines that Cyclone DDS has logged since the last call, at most 100.
   std::vector<std::string> take_log();
 
  private:
@@ -60,12 +63,14 @@ class Participant {
   Entity domain_, participant_;
 };
 
-/// ROS's name of a topic as DDS's ("/points": "rt/points"). Throws std::invalid_argument for what is none.
+/// Converts a ROS topic name to the DDS name: "/points" to "rt/points". Throws std::invalid_argument for an
+/// invalid name.
 std::string dds_topic(const std::string& topic);
 
-/// ROS's name of a type as DDS's ("sensor_msgs/msg/PointCloud2": "sensor_msgs::msg::dds_::PointCloud2_").
+/// Converts a ROS type name to the DDS name: "sensor_msgs/msg/PointCloud2" to
+/// "sensor_msgs::msg::dds_::PointCloud2_".
 std::string dds_type(const std::string& type);
-/// The other way round, for people.
+/// Converts a DDS type name to the ROS name, for messages to the user. The inverse of dds_type().
 std::string ros_type(std::string type);
 
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;

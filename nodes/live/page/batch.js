@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines and triangles of a frame, collected into two buffers that WebGL draws at once.
-// A line is a rectangle: four times the same 28 bytes, 6 float32 of both ends and rgba, of which the shader makes a corner
-// each. Drawn as instances they would need a fourth, but software rendering takes about 15 us for each instance.
-// A vertex of a triangle: 3 float32, a normal of 4 int8, rgba: 20 bytes.
+// Collects the lines and triangles of a frame in buffers, so that WebGL draws each kind in one call.
+//
+// A line is drawn as a rectangle. Its 28 bytes (6 float32 for both end points, rgba) are stored four times,
+// and the shader computes one corner from each copy. Instancing would need one copy only, but software
+// rendering takes about 15 us for each instance. A vertex of a triangle has 20 bytes: 3 float32, a normal of
+// 4 int8, rgba.
 
 export const LINE_BYTES = 28;
 export const LINE_CORNERS = 4;
@@ -35,7 +37,7 @@ export class Batch {
   // `colour`: packed by packColour().
   line(a, b, colour) {
     if ((this.lines + 1) * LINE_CORNERS * LINE_BYTES > this.lineBytes.byteLength) {
-      this.lineBytes = grown(this.lineBytes);
+      this.lineBytes = enlarged(this.lineBytes);
       this.renewViews();
     }
     const words = LINE_BYTES / 4;
@@ -46,10 +48,10 @@ export class Batch {
     for (let corner = 1; corner < LINE_CORNERS; ++corner) this.lineColours.copyWithin(at + corner * words, at, at + words);
   }
 
-  // The number of the vertex, for triangle().
+  // Returns the index of the vertex, for triangle().
   vertex(p, normal, colour) {
     if ((this.vertices + 1) * VERTEX_BYTES > this.vertexBytes.byteLength) {
-      this.vertexBytes = grown(this.vertexBytes);
+      this.vertexBytes = enlarged(this.vertexBytes);
       this.renewViews();
     }
     const at = (this.vertices * VERTEX_BYTES) / 4;
@@ -70,7 +72,7 @@ export class Batch {
     this.indices[this.indexCount++] = c;
   }
 
-  // A convex polygon, flat.
+  // Adds a planar convex polygon with one normal.
   polygon(corners, normal, colour) {
     const first = this.vertices;
     for (const corner of corners) this.vertex(corner, normal, colour);
@@ -78,7 +80,7 @@ export class Batch {
   }
 }
 
-function grown(buffer) {
+function enlarged(buffer) {
   const larger = new ArrayBuffer(2 * buffer.byteLength);
   new Uint8Array(larger).set(new Uint8Array(buffer));
   return larger;
@@ -89,7 +91,7 @@ function packNormal(n) {
   return (byte(n[0]) | (byte(n[1]) << 8) | (byte(n[2]) << 16)) >>> 0;
 }
 
-// Red, green, blue and alpha of 0..1 in a word whose bytes are in this order.
+// Packs red, green, blue and alpha (0..1) into a word whose bytes are in this order.
 export function packColour(rgb, alpha) {
   const byte = (part) => Math.round(255 * Math.min(1, Math.max(0, part)));
   return (byte(rgb[0]) | (byte(rgb[1]) << 8) | (byte(rgb[2]) << 16) | (byte(alpha) << 24)) >>> 0;

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A camera that turns about a target: angles in radians, lengths in metres, coordinates relative to the scene's origin.
-import { across, add, along, dot, multiply, norm, quantile, scale, sub, transform } from "./vectors.js";
+// A camera that orbits a target. Angles are in radians, lengths in metres, coordinates relative to the
+// scene's origin.
+import { add, dot, multiply, norm, orthogonalTo, pointAlong, quantile, scale, sub, transform } from "./vectors.js";
 
 const FIELD_OF_VIEW = (45 * Math.PI) / 180;
-const VIEWS = { top: [-90, 90], front: [-90, 0], side: [0, 0], iso: [-125, 32] }; // degrees around and above
+const VIEWS = { top: [-90, 90], front: [-90, 0], side: [0, 0], iso: [-125, 32] }; // yaw and pitch, degrees
 
 export class Camera {
   constructor() {
     this.target = [0, 0, 0];
     this.distance = 50;
-    this.radius = 50; // of the scene, for the range of depth
+    this.radius = 50; // radius of the scene, for the depth range
     this.width = 1;
     this.height = 1;
     this.setUp([0, 0, 1]);
@@ -20,14 +21,14 @@ export class Camera {
 
   setUp(up) {
     this.up = scale(up, 1 / (norm(up) || 1));
-    this.level = across(this.up);
+    this.level = orthogonalTo(this.up);
   }
 
   look(view) {
     [this.yaw, this.pitch] = VIEWS[view].map((degrees) => (degrees * Math.PI) / 180);
   }
 
-  // Unit vectors to the right, up in the picture, and from the target to the eye.
+  // Unit vectors to the right in the picture, up in the picture, and from the target to the eye.
   axes() {
     const [e1, e2] = this.level;
     const [cosine, sine] = [Math.cos(this.yaw), Math.sin(this.yaw)];
@@ -39,10 +40,10 @@ export class Camera {
   }
 
   eye() {
-    return along(this.target, this.axes().back, this.distance);
+    return pointAlong(this.target, this.axes().back, this.distance);
   }
 
-  // From the scene to clip coordinates.
+  // The matrix from scene coordinates to clip coordinates.
   matrix() {
     const { right, upward, back } = this.axes();
     const eye = this.eye();
@@ -56,13 +57,14 @@ export class Camera {
     return multiply(lens, view);
   }
 
-  // Pixels of the canvas from its upper left corner, or null: behind the eye.
+  // Returns a point's position in the canvas, pixels from the upper left corner, or null if it is behind the
+  // eye.
   project(p, matrix = this.matrix()) {
     const [x, y, , w] = transform(matrix, p);
     return w > 0 ? [((x / w + 1) * this.width) / 2, ((1 - y / w) * this.height) / 2] : null;
   }
 
-  // The ray through a pixel, with a direction of length one.
+  // Returns the ray through a pixel, with a unit direction.
   ray(px, py) {
     const { right, upward, back } = this.axes();
     const half = Math.tan(FIELD_OF_VIEW / 2);
@@ -72,7 +74,7 @@ export class Camera {
     return { from: this.eye(), direction: scale(direction, 1 / norm(direction)) };
   }
 
-  // Metres that a pixel spans at a distance from the eye.
+  // Returns the size of a pixel at a distance from the eye, metres.
   pixelSize(distance = this.distance) {
     return (2 * Math.tan(FIELD_OF_VIEW / 2) * distance) / this.height;
   }
@@ -88,16 +90,18 @@ export class Camera {
     this.target = add(this.target, add(scale(right, -dx * step), scale(upward, dy * step)));
   }
 
-  // What is under the pixel, at the target's depth, stays there.
+  // Zooms about the pixel: the point under it at the target's depth stays under it.
   zoom(factor, px, py) {
     const next = Math.min(1e7, Math.max(0.01, this.distance * factor));
     const { right, upward } = this.axes();
     const step = this.pixelSize() * (1 - next / this.distance);
-    this.target = along(along(this.target, right, (px - this.width / 2) * step), upward, (this.height / 2 - py) * step);
+    const shifted = pointAlong(this.target, right, (px - this.width / 2) * step);
+    this.target = pointAlong(shifted, upward, (this.height / 2 - py) * step);
     this.distance = next;
   }
 
-  // Fits points between their 1st and 99th percentile along each axis into the picture, from where it looks now.
+  // Fits the points between their 1st and 99th percentile along each axis into the picture, without rotating
+  // the camera.
   fit(points) {
     if (points.length === 0) return;
     const sorted = [0, 1, 2].map((k) => points.map((p) => p[k]).sort((a, b) => a - b));
@@ -109,7 +113,7 @@ export class Camera {
     this.distance = this.distanceFor(corners);
   }
 
-  // The least distance from which all corners are in the picture, with a margin of 5 %.
+  // Returns the smallest distance at which all corners are in the picture, with a margin of 5 %.
   distanceFor(corners) {
     const { right, upward, back } = this.axes();
     const half = Math.tan(FIELD_OF_VIEW / 2) * 0.95;

@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A client of Foxglove's WebSocket protocol for the topics .../frames (JSON) and .../points (CDR) and for parameters.
-// It connects again when the connection is gone: after 0.5 s, 1 s, 2 s, ... and at most 5 s.
+// A client of Foxglove's WebSocket protocol for the topics .../frames (JSON) and .../points (CDR) and for
+// parameters. When the connection is lost, the client reconnects after a pause of 0.5 s, then 1 s, 2 s, ...,
+// at most 5 s.
 import { readFrame, readPointCloud2 } from "./messages.js";
 
 const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 const MESSAGE_DATA = 1;
-const FRAMES = 1; // our numbers of the two subscriptions
+const FRAMES = 1; // ids of our two subscriptions
 const POINTS = 2;
 const FIRST_PAUSE_MS = 500;
 const LONGEST_PAUSE_MS = 5000;
 
 export class Connection {
-  // `on`: functions frame(frame), opened(), lost(), status(level, message), parameters(list, id), error(text).
+  // `on`: callbacks frame(frame), opened(), lost(), status(level, message), parameters(list, id) and
+  // error(text).
   constructor(url, on) {
     this.url = url;
     this.on = on;
@@ -24,7 +26,7 @@ export class Connection {
   open() {
     this.connected = false;
     this.points = null;
-    this.channels = new Map(); // of the server's channels, which subscription each has
+    this.channels = new Map(); // channel id -> subscription id
     const socket = new WebSocket(this.url, SUBPROTOCOLS);
     this.socket = socket;
     socket.binaryType = "arraybuffer";
@@ -89,7 +91,8 @@ export class Connection {
     this.channels.delete(id);
   }
 
-  // The points of a frame come before it, with the same time; a frame whose points were lost is shown without.
+  // The points of a frame arrive before the frame, with the same time. If they were lost, the frame is shown
+  // without points.
   receiveBytes(buffer) {
     const header = new DataView(buffer);
     if (header.getUint8(0) !== MESSAGE_DATA) return;

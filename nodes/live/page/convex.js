@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The polytope of half spaces n.p <= d, as polygons: a large square in each plane, cut by all other half spaces.
-// O(planes^2 * corners), 26 planes take about 0.1 ms. Flat polytopes (two opposite planes at one place) keep both faces,
-// because a point within `tolerance` of a plane counts as inside.
-import { across, add, along, dot, norm, scale, sub } from "./vectors.js";
+// Computes the faces of the polytope of half-spaces n.p <= d: a large square in each plane, clipped by all
+// other half-spaces. O(planes^2 * corners); 26 planes take about 0.1 ms. Points within `tolerance` of a plane
+// are treated as inside, so that flat polytopes (two coincident opposite planes) keep both faces.
+import { add, dot, norm, orthogonalTo, pointAlong, scale, sub } from "./vectors.js";
 
-// Twice nothing: corners nearer than this part of the size are one.
+// The clipping tolerance as a fraction of the radius.
 const RELATIVE_TOLERANCE = 1e-9;
 
-// `planes`: [{n, d}] with any length of n; `center` and `radius`: of a ball that holds the polytope.
-// A polygon for each plane that has one: [{n, corners}]. Polygons of flat polytopes can be single points.
+// `planes`: [{n, d}] with n of any length. `center` and `radius`: a ball that contains the polytope. Returns
+// [{n, corners}], one polygon for each plane with a face. Faces of flat polytopes can be single points.
 export function polytope(planes, center, radius) {
   const unitPlanes = planes.map(({ n, d }) => ({ n: scale(n, 1 / norm(n)), d: d / norm(n) }));
   const tolerance = RELATIVE_TOLERANCE * radius;
@@ -27,40 +27,40 @@ export function polytope(planes, center, radius) {
 }
 
 function squareIn({ n, d }, center, half) {
-  const middle = along(center, n, d - dot(n, center));
-  const [u, v] = across(n);
+  const middle = pointAlong(center, n, d - dot(n, center));
+  const [u, v] = orthogonalTo(n);
   return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => add(middle, add(scale(u, a * half), scale(v, b * half))));
 }
 
-// What of a polygon lies in a half space (Sutherland and Hodgman 1974).
+// Clips a polygon by a half-space (Sutherland and Hodgman 1974).
 function cut(corners, { n, d }, tolerance) {
-  const kept = [];
+  const clipped = [];
   for (let k = 0; k < corners.length; ++k) {
     const a = corners[k];
     const b = corners[(k + 1) % corners.length];
     const heightA = dot(n, a) - d;
     const heightB = dot(n, b) - d;
-    if (heightA <= tolerance) kept.push(a);
+    if (heightA <= tolerance) clipped.push(a);
     if (heightA > tolerance !== heightB > tolerance) {
-      kept.push(along(a, sub(b, a), Math.min(1, Math.max(0, heightA / (heightA - heightB)))));
+      clipped.push(pointAlong(a, sub(b, a), Math.min(1, Math.max(0, heightA / (heightA - heightB)))));
     }
   }
-  return kept;
+  return clipped;
 }
 
-// The parallelepiped of the first three independent slabs min <= direction.p <= max: its centre, and the radius
-// of the ball around it. Null when the directions do not span space.
-export function boundOfSlabs(directions, least, most) {
+// Returns the centre and the circumradius of the parallelepiped of the first three linearly independent slabs
+// min <= direction.p <= max, or null if the directions do not span 3D space.
+export function boundOfSlabs(directions, min, max) {
   const chosen = [];
   for (let i = 0; i < directions.length && chosen.length < 3; ++i) {
     if (independent(chosen.map((k) => directions[k]), directions[i])) chosen.push(i);
   }
   if (chosen.length < 3) return null;
   const corner = (side) => solve(chosen.map((i) => directions[i]), chosen.map((i, k) => side(i, k)));
-  const center = corner((i) => (least[i] + most[i]) / 2);
+  const center = corner((i) => (min[i] + max[i]) / 2);
   let radius = 0;
   for (let bits = 0; bits < 8; ++bits) {
-    const at = corner((i, k) => ((bits >> k) & 1 ? most[i] : least[i]));
+    const at = corner((i, k) => ((bits >> k) & 1 ? max[i] : min[i]));
     radius = Math.max(radius, norm(sub(at, center)));
   }
   return { center, radius };
@@ -73,12 +73,12 @@ function determinant(a, b, c) {
 function independent(before, direction) {
   if (before.length === 0) return norm(direction) > 0;
   const [a, b] = before;
-  const [u, v] = across(a);
+  const [u, v] = orthogonalTo(a);
   if (before.length === 1) return Math.hypot(dot(u, direction), dot(v, direction)) > 1e-9 * norm(direction);
   return Math.abs(determinant(a, b, direction)) > 1e-9 * norm(a) * norm(b) * norm(direction);
 }
 
-// The point p with rows[k].p = values[k], by Cramer's rule.
+// Returns the point p with rows[k].p = values[k], by Cramer's rule.
 function solve(rows, values) {
   const columns = [0, 1, 2].map((c) => rows.map((row) => row[c]));
   const whole = determinant(...columns);

@@ -1,49 +1,50 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The last frames, for stepping back: as many as fit into 64 MB. While paused none is added, so that none is lost
-// that one may want to see; only a step beyond the newest takes the next frame that comes.
+// The last frames for stepping back, as many as fit into 64 MB. While paused, arriving frames are not stored,
+// so that no stored frame has to be removed. A step forward from the newest frame stores the next one that
+// arrives.
 
-const MOST_BYTES = 64e6;
+const MAX_BYTES = 64e6;
 
-// JSON takes about three times its text as objects.
+// Parsed JSON takes about three times the memory of its text.
 const bytesOf = (frame) => (frame.points?.bytes.byteLength ?? 0) + 3 * (frame.size ?? 0);
 
 export class History {
   constructor() {
     this.frames = [];
     this.bytes = 0;
-    this.place = -1; // of the frame shown
+    this.shownIndex = -1; // index of the frame that is shown
     this.paused = false;
-    this.wantsNext = false;
+    this.showNext = false;
   }
 
-  // The frame to show now, or null: it is paused.
+  // Stores a frame. Returns the frame to show, or null while paused.
   arrive(frame) {
-    if (this.paused && !this.wantsNext) return null;
-    this.wantsNext = false;
+    if (this.paused && !this.showNext) return null;
+    this.showNext = false;
     this.frames.push(frame);
     this.bytes += bytesOf(frame);
-    while (this.bytes > MOST_BYTES && this.frames.length > 1) this.bytes -= bytesOf(this.frames.shift());
-    this.place = this.frames.length - 1;
+    while (this.bytes > MAX_BYTES && this.frames.length > 1) this.bytes -= bytesOf(this.frames.shift());
+    this.shownIndex = this.frames.length - 1;
     return frame;
   }
 
   pause(paused) {
     this.paused = paused;
-    this.wantsNext = false;
+    this.showNext = false;
   }
 
-  // The frame one step on (1) or back (-1), or null: there is none, or none yet.
+  // Pauses and steps forward (1) or back (-1). Returns the frame to show, or null if there is none (yet).
   step(by) {
     this.paused = true;
-    if (by > 0 && this.place === this.frames.length - 1) {
-      this.wantsNext = true;
+    if (by > 0 && this.shownIndex === this.frames.length - 1) {
+      this.showNext = true;
       return null;
     }
-    const place = Math.min(this.frames.length - 1, Math.max(0, this.place + by));
-    if (place === this.place) return null;
-    this.place = place;
-    return this.frames[place];
+    const index = Math.min(this.frames.length - 1, Math.max(0, this.shownIndex + by));
+    if (index === this.shownIndex) return null;
+    this.shownIndex = index;
+    return this.frames[index];
   }
 }

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Begins, and shows to tests what the page does.
+// Starts the page and exposes its state to tests.
 import { byId } from "./elements.js";
 import { say } from "./notices.js";
 import { Page } from "./page.js";
 import { sub } from "./vectors.js";
 
-// For tests: `frames` drawn so far, `connected`, `project(x, y, z)` of an absolute point and `pick(px, py)` in pixels of
-// the page, the key of the `picked` object ("track 17" or "cluster 3"), and `state`, what is shown and how.
+// Defines window.pclBv for tests: `frames` (number of frames drawn), `connected`, `picked` (key of the picked
+// object, "track 17" or "cluster 3"), project(x, y, z) (position of an absolute point in pixels of the page),
+// pick(px, py) (key of the object at a position in pixels of the page), and `state` (what is shown and how).
 function exposeForTests(page) {
   const corner = () => byId("scene").getBoundingClientRect();
   window.pclBv = {
@@ -22,12 +23,12 @@ function exposeForTests(page) {
     pick(px, py) { return page.keyAt(px - corner().left, py - corner().top); },
     get state() {
       const { mode, theme, faces, labels, arrows, grid, following, pointSize, hidden } = page.view;
-      const { paused, place, frames } = page.history;
+      const { paused, shownIndex, frames } = page.history;
       return {
-        mode, theme, faces, labels, arrows, grid, following, pointSize, hidden: [...hidden], paused, place,
-        kept: frames.length, seq: page.frame?.report.seq ?? null, notDrawn: page.notDrawn, dropped: page.plots.dropped,
-        rate: page.plots.rate(), error: byId("error").textContent, panel: !byId("side").hidden,
-        objects: page.objects.length, lines: page.batch.lines,
+        mode, theme, faces, labels, arrows, grid, following, pointSize, hidden: [...hidden], paused, shownIndex,
+        stored: frames.length, seq: page.frame?.report.seq ?? null, notDrawn: page.notDrawn,
+        dropped: page.plots.dropped, rate: page.plots.rate(), error: byId("error").textContent,
+        panel: !byId("side").hidden, objects: page.objects.length, lines: page.batch.lines,
       };
     },
   };

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages as bytes: CDR of sensor_msgs/msg/PointCloud2, and the points inside a static page.
-// Points are {bytes, count, stride, intensity, origin}: `bytes` goes to WebGL as it came, x y z float32 first, then
-// the label uint32 and, if `intensity`, an intensity float32; coordinates are relative to `origin`.
+// Parses messages: CDR of sensor_msgs/msg/PointCloud2, JSON of frames, and the frame inside a static page.
+// Points are {bytes, count, stride, intensity, origin}. `bytes` is passed to WebGL unchanged: for each point
+// x, y, z as float32, the label as uint32 and, if `intensity` is true, the intensity as float32. Coordinates
+// are relative to `origin`.
 
 const FLOAT32 = 7;
 const UINT32 = 6;
 
-// Reads little-endian CDR; alignment counts from behind the four bytes that say so.
+// Reads little-endian CDR. Alignment is relative to the end of the encapsulation header (four bytes).
 class CdrReader {
   constructor(view) {
     this.view = view;
@@ -39,7 +40,7 @@ class CdrReader {
 
 export function readPointCloud2(view) {
   const reader = new CdrReader(view);
-  reader.u32(); // stamp: the message's header says it, too
+  reader.u32(); // stamp: also in the header of the WebSocket message
   reader.u32();
   reader.text();
   const count = reader.u32() * reader.u32();
@@ -55,16 +56,18 @@ export function readPointCloud2(view) {
   const has = (name, offset, type) => fields.get(name)?.offset === offset && fields.get(name)?.type === type;
   const known = ["x", "y", "z"].every((name, k) => has(name, 4 * k, FLOAT32)) && has("label", 12, UINT32);
   if (bigEndian || !known) throw new Error("points have other fields than x, y, z and label");
-  if (stride < 16 || stride % 4 !== 0 || count * stride > bytes.length) throw new Error("points are fewer than announced");
+  if (stride < 16 || stride % 4 !== 0 || count * stride > bytes.length) {
+    throw new Error("the cloud has fewer points than its header states");
+  }
   return { bytes, count, stride, intensity: has("intensity", 16, FLOAT32), origin: [0, 0, 0] };
 }
 
-// Browsers before 2025 lack fromBase64(), which takes a tenth of the time.
+// fromBase64() takes a tenth of the time, but browsers before 2025 lack it.
 function bytesOfBase64(text) {
   return Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 }
 
-// What `<script id="data">` holds, as a frame; null in a live page.
+// Parses the frame in `<script id="data">`. Returns null in a live page.
 export function readStaticFrame(element) {
   if (!element) return null;
   const data = JSON.parse(element.textContent);
@@ -81,7 +84,8 @@ export function readStaticFrame(element) {
   };
 }
 
-// A frame of the live page from a line of JSON. Its time has more digits than a number keeps: it stays text.
+// Parses a frame from a line of JSON. The stamp stays text, because it has more digits than a number can
+// hold.
 export function readFrame(view) {
   const text = new TextDecoder().decode(view);
   const report = JSON.parse(text);
@@ -89,10 +93,11 @@ export function readFrame(view) {
   return { report, stamp: /"stamp_ns":\s*(-?\d+)/.exec(text)?.[1] ?? "", points: null, size: text.length };
 }
 
-// A sample of points spread over the cloud: at most `most` of them, each [x, y, z, intensity], finite ones only.
-export function samplePoints({ bytes, count, stride, intensity }, most) {
+// Returns a sample of at most `max` points, evenly spaced by index, each [x, y, z, intensity]. Skips points
+// that are not finite.
+export function samplePoints({ bytes, count, stride, intensity }, max) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const step = Math.max(1, Math.ceil(count / most));
+  const step = Math.max(1, Math.ceil(count / max));
   const sample = [];
   for (let i = 0; i < count; i += step) {
     const at = i * stride;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the page says: about the frame, and above the scene "banner" (the connection), "error" and a notice that fades.
+// Texts of the page: the line about the frame, and above the scene the "banner" (state of the connection),
+// the "error" and a notice that fades.
 import { byId, countText } from "./elements.js";
 
 const NOTICE_MS = 4000;
@@ -13,7 +14,7 @@ export function say(id, text) {
 
 let noticeTimer = 0;
 
-// A short line that fades.
+// Shows a short text that fades.
 export function notice(text) {
   say("notice", text);
   byId("notice").classList.remove("fading");
@@ -21,7 +22,7 @@ export function notice(text) {
   noticeTimer = setTimeout(() => byId("notice").classList.add("fading"), NOTICE_MS);
 }
 
-// The line at the top.
+// Returns the text of the line at the top.
 export function frameText({ report, stamp, shown, of }, paused) {
   const parts = [];
   if (report.file !== undefined) parts.push(String(report.file));

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The numbers of the picked object, and the list of all.
+// The panel with the numbers of the picked object and the list of all objects.
 import { byId, countText, element, fixed, vectorText } from "./elements.js";
 import { cssColour } from "./palette.js";
 import { keyOf, speedOf } from "./scene.js";
 import { centerOf, isDrawable, sizeOf } from "./shapes.js";
 
-const MOST_ROWS = 200;
+const MAX_ROWS = 200;
 
-// `pick(key)` is called for a click into the list.
+// `pick(key)` is called when a row of the list is clicked.
 export class ObjectPanel {
   constructor(pick) {
-    this.rows = new Map(); // of the list, by key
+    this.rows = new Map(); // rows of the list by key
     byId("object-rows").addEventListener("click", (event) => {
       const row = event.target.closest("tr");
       if (row) pick(row.dataset.key);
@@ -23,7 +23,7 @@ export class ObjectPanel {
     byId("copy").addEventListener("click", () => copyText(JSON.stringify(this.cluster)));
   }
 
-  // `objects`: of buildVolumes(); `picked`: a key or null.
+  // `objects`: the result of buildVolumes(); `picked`: a key or null.
   show(clusters, objects, picked) {
     this.cluster = clusters.find((candidate) => keyOf(candidate) === picked);
     this.showPicked(picked);
@@ -40,10 +40,10 @@ export class ObjectPanel {
     byId("picked-rows").replaceChildren(...rows);
   }
 
-  // Rows stay the same elements from frame to frame, so that they can be clicked and keep the focus.
+  // Reuses the row elements from frame to frame, so that clicks on them work and the focus stays.
   showList(clusters, objects, picked) {
     const colours = new Map(objects.map((object) => [object.cluster, cssColour(object.colour)]));
-    const shown = [...clusters].sort(byTrack).slice(0, MOST_ROWS);
+    const shown = [...clusters].sort(byTrack).slice(0, MAX_ROWS);
     const rows = shown.map((cluster) => {
       const key = keyOf(cluster);
       const row = this.rows.get(key) ?? newRow(key);
@@ -57,12 +57,12 @@ export class ObjectPanel {
       body.replaceChildren(...rows);
       if (rows.includes(focused)) focused.focus({ preventScroll: true });
     }
-    byId("object-more").hidden = clusters.length <= MOST_ROWS;
-    byId("object-more").textContent = `${clusters.length - MOST_ROWS} more`;
+    byId("object-more").hidden = clusters.length <= MAX_ROWS;
+    byId("object-more").textContent = `${clusters.length - MAX_ROWS} more`;
   }
 }
 
-// By track, then what has none in its order.
+// Orders by track id. Clusters without a track follow, by cluster id.
 function byTrack(a, b) {
   const order = ({ track, id }) => (typeof track === "number" ? track : 1e10 + id);
   return order(a) - order(b);
@@ -86,7 +86,7 @@ function fillRow(row, cluster, colour, isPicked) {
   speed.firstChild.data = cluster.moving ? fixed(speedOf(cluster), 1) : "";
 }
 
-// Pages of plain http and of files may not use the clipboard's own interface.
+// Pages loaded by http or from a file may not use navigator.clipboard.
 function copyText(text) {
   const area = element("textarea", { value: text });
   document.body.append(area);

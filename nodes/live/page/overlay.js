@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Labels of objects, a scale bar and the axes, on a canvas of two dimensions over the scene.
+// Draws the objects' labels, a scale bar and the axes on a 2D canvas over the scene.
 import { cssColour, THEMES } from "./palette.js";
 import { niceStep, keyOf, speedOf } from "./scene.js";
 import { dot } from "./vectors.js";
 
 const FONT = "12px system-ui, sans-serif";
 const LINE_HEIGHT = 15;
-const MOST_LABELS = 300;
+const MAX_LABELS = 300;
 const RAMP_PIXELS = 180;
 
 export class Overlay {
@@ -17,7 +17,8 @@ export class Overlay {
     this.context = canvas.getContext("2d");
   }
 
-  // `objects`: of buildVolumes(); `range`: of the ramp of colours, undefined where colours have none.
+  // `objects`: the result of buildVolumes(); `range`: range of the colour ramp, undefined in modes without a
+  // ramp.
   draw(camera, objects, view, range, pixelRatio) {
     const context = this.context;
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
@@ -30,7 +31,7 @@ export class Overlay {
     if (range) this.drawRamp(camera, view, range);
   }
 
-  // What the colours mean, above the scale bar.
+  // Draws the legend of the colour ramp above the scale bar.
   drawRamp(camera, { mode, theme }, [low, high]) {
     const [x, y, wide] = [camera.width - 16 - RAMP_PIXELS, camera.height - 58, RAMP_PIXELS];
     const { ramp, dim } = THEMES[theme];
@@ -44,12 +45,13 @@ export class Overlay {
     this.write(`${Number(high.toPrecision(3))}${unit}`, x + wide, y - 5, dim, theme, "right");
   }
 
-  // A label that would cover one before it is left out: the picked object's comes first, then what moves, then what is large.
+  // Omits a label that would overlap an earlier label. The picked object comes first, then moving objects,
+  // then the others; within each group the object with more points comes first.
   drawLabels(camera, objects, view) {
     const matrix = camera.matrix();
     const rank = ({ cluster }) => (keyOf(cluster) === view.picked ? 1e12 : cluster.moving ? 1e9 : 0) + cluster.points;
     const taken = [];
-    for (const object of [...objects].sort((a, b) => rank(b) - rank(a)).slice(0, MOST_LABELS)) {
+    for (const object of [...objects].sort((a, b) => rank(b) - rank(a)).slice(0, MAX_LABELS)) {
       const text = labelOf(object.cluster);
       const at = text === "" ? null : camera.project(object.top, matrix);
       if (!at) continue;
@@ -73,7 +75,7 @@ export class Overlay {
     context.fillText(text, x, y);
   }
 
-  // At the depth of what the camera turns about.
+  // The bar's length is that at the depth of the camera's target.
   drawScaleBar(camera, theme) {
     const length = niceStep(camera.pixelSize() * 90);
     const wide = length / camera.pixelSize();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The whole page: frames come from the connection or from the page itself, the newest is drawn when the browser asks for
-// a picture, and nothing is drawn when nothing has changed.
+// The page. Frames come from the connection or from the data in a static page. The newest frame is drawn in
+// the browser's next animation frame. Nothing is drawn when nothing has changed.
 import { Batch } from "./batch.js";
 import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
@@ -23,18 +23,18 @@ import { centerOf, isDrawable } from "./shapes.js";
 import { add, dot, quantile, sub } from "./vectors.js";
 import { View } from "./view.js";
 
-const SAMPLE = 4096; // points that decide on view and ranges of colours
+const SAMPLE = 4096; // points from which the view and the colour ranges are computed
 const PICK_PIXELS = 3;
 const PLOT_MS = 200; // plots are drawn five times a second
-const MOST_OBJECTS = 1 << 20; // that points can be coloured by
-const NARROW = 900; // pixels of a page whose side panel begins closed
+const MAX_OBJECTS = 1 << 20; // maximum number of objects with a colour for their points
+const NARROW = 900; // page width in pixels up to which the side panel starts closed
 
 export class Page {
   constructor() {
     document.documentElement.dataset.kind = byId("data") ? "static" : "live";
     this.camera = new Camera();
     this.showPanel(innerWidth > NARROW);
-    this.resize(); // before there is a context, which would have to make its buffers twice
+    this.resize(); // before the WebGL context exists, so that its buffers are created only once
     this.renderer = new Renderer(byId("scene"));
     this.overlay = new Overlay(byId("overlay"));
     this.batch = new Batch();
@@ -57,15 +57,15 @@ export class Page {
       grabbed: () => this.follow(false),
       click: (px, py) => this.pick(this.keyAt(px, py)),
     });
-    this.frame = null; // the one shown, or to show next
-    this.origin = null; // of the scene
+    this.frame = null; // the frame that is shown or will be shown next
+    this.origin = null; // origin of the scene, in absolute coordinates
     this.objects = [];
     this.range = { height: [0, 1], intensity: [0, 1] };
     this.dirty = {};
     this.drawn = 0;
     this.notDrawn = 0;
     this.connection = null;
-    // At once: a canvas of a new size is blank.
+    // Draw at once, because a resized canvas is blank.
     new ResizeObserver(() => this.resize() && this.drawAndSay()).observe(byId("view"));
     this.watchContext();
   }
@@ -98,7 +98,7 @@ export class Page {
     this.connection = new Connection(`${scheme}://${location.host}/`, {
       frame: (frame) => this.arrived(frame),
       opened: () => this.opened(),
-      lost: () => say("banner", "connection lost, trying again"),
+      lost: () => say("banner", "connection lost, reconnecting"),
       status: (level, message) => {
         if (level < 2 || !this.settings.refuse(message)) notice(message);
       },
@@ -193,7 +193,7 @@ export class Page {
     const { mode, theme } = this.view;
     const colours = [];
     for (const cluster of clusters) {
-      if (cluster.id < MOST_OBJECTS) colours[cluster.id] = objectColour(cluster, mode, theme);
+      if (cluster.id < MAX_OBJECTS) colours[cluster.id] = objectColour(cluster, mode, theme);
     }
     this.renderer.setObjectColours(Array.from(colours, (colour) => colour ?? [0.5, 0.5, 0.5]));
     this.objects = buildVolumes(this.batch, this.frame.report, this.view, this.origin, this.camera.up);
@@ -202,18 +202,19 @@ export class Page {
     this.renewGrid();
   }
 
-  // The first frame decides on the origin, and with the view on the ranges of colours.
+  // The first frame determines the origin, the view and the colour ranges.
   takeFirst() {
     const { points, report, origin } = this.frame;
-    const places = points
+    const positions = points
       ? samplePoints(points, SAMPLE).map((p) => add(p, points.origin))
       : report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map(centerOf));
-    const middle = [0, 1, 2].map((k) => quantile(places.map((p) => p[k]).sort((a, b) => a - b), 0.5));
+    const middle = [0, 1, 2].map((k) => quantile(positions.map((p) => p[k]).sort((a, b) => a - b), 0.5));
     this.origin = origin ?? originNear(middle);
     this.fit();
   }
 
-  // Places of the scene that the view is fitted to, each with an intensity; without points, those of volumes.
+  // Returns the points [x, y, z, intensity] in scene coordinates to which the view is fitted: a sample of the
+  // frame's points or, without points, the corners of the objects' boxes.
   fitPoints() {
     const { points, report } = this.frame;
     const sample = points ? samplePoints(points, SAMPLE) : [];
@@ -299,7 +300,7 @@ export class Page {
     byId("panel").setAttribute("aria-pressed", String(shown));
   }
 
-  // Whether the size has changed.
+  // Adapts canvases and camera to the size of the view. Returns whether the size has changed.
   resize() {
     const { clientWidth, clientHeight } = byId("view");
     const [wide, high] = [clientWidth, clientHeight].map((size) => Math.max(1, Math.round(size * devicePixelRatio)));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Colours: of objects (the same ten as in the topics that RViz and Foxglove show), of heights, and of both themes.
+// Colours of objects (the same ten as in the topics for RViz and Foxglove) and of the two themes.
 
 const OBJECT_COLOURS = [
   [0.12, 0.56, 1.0],
@@ -41,12 +41,13 @@ export const THEMES = {
   },
 };
 
-// On dark ground the colours are mixed with some white: thin lines and single points stay legible.
+// Mixes a colour with some white in the dark theme, so that thin lines and single points stay legible.
 function lifted(colour, theme) {
   return colour.map((part) => part + (1 - part) * THEMES[theme].lift);
 }
 
-// The colour of an object, by its track or by its place in the frame. What has no track yet is plain.
+// Returns the colour of an object: by track id or, in mode "cluster" and for objects without a track, by
+// cluster id. In mode "track" objects without a track have the plain colour.
 export function objectColour(cluster, mode, theme) {
   const tracked = typeof cluster.track === "number";
   if (mode === "track" && !tracked) return lifted(THEMES[theme].plain, theme);

@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which volume a ray meets. Each test gives [entry, exit] along the ray or null; volumes are taken larger by `pad`,
-// a few pixels, so that flat and small ones can be met, too.
+// Finds the volume that a ray hits. Each test returns [entry, exit] along the ray or null. Volumes are
+// inflated by `pad`, a few pixels, so that flat and small volumes can be hit.
 import { isDrawable, SHAPES } from "./shapes.js";
 import { add, cross, dot, norm, scale, sub, unit } from "./vectors.js";
 
-// Of half spaces n.p <= d with unit n; p counts from the ray's start.
+// Intersects a ray with half-spaces n.p <= d; n is a unit vector, p is relative to the ray's start.
 function throughPlanes(planes, direction, pad) {
   let [entry, exit] = [-Infinity, Infinity];
   for (const { n, d } of planes) {
     const slope = dot(n, direction);
-    const room = d + pad;
+    const distance = d + pad;
     if (Math.abs(slope) < 1e-12) {
-      if (room < 0) return null;
+      if (distance < 0) return null;
     } else if (slope < 0) {
-      entry = Math.max(entry, room / slope);
+      entry = Math.max(entry, distance / slope);
     } else {
-      exit = Math.min(exit, room / slope);
+      exit = Math.min(exit, distance / slope);
     }
   }
   return entry <= exit ? [entry, exit] : null;
 }
 
-// Both solutions of a t^2 + 2 b t + c <= 0.
+// Returns the interval of t with a t^2 + 2 b t + c <= 0, or null.
 function quadratic(a, b, c) {
   const root = b * b - a * c;
   if (root < 0 || a <= 0) return null;
@@ -36,19 +36,19 @@ function throughSphere(center, radius, direction) {
 
 function throughEllipsoid(center, axes, radii, direction) {
   const inside = (p) => axes.map((axis, k) => dot(axis, p) / radii[k]);
-  const [way, start] = [inside(direction), inside(scale(center, -1))];
-  return quadratic(dot(way, way), dot(way, start), dot(start, start) - 1);
+  const [step, start] = [inside(direction), inside(scale(center, -1))];
+  return quadratic(dot(step, step), dot(step, start), dot(start, start) - 1);
 }
 
-// A cylinder without ends; along its axis everything or nothing is inside.
+// Intersects a ray with an infinite cylinder. A ray parallel to the axis is completely inside or outside.
 function throughTube(center, axis, radius, direction) {
-  const [way, start] = [cross(direction, axis), cross(scale(center, -1), axis)];
-  const room = dot(start, start) - radius * radius;
-  if (dot(way, way) < 1e-18) return room <= 0 ? [-Infinity, Infinity] : null;
-  return quadratic(dot(way, way), dot(way, start), room);
+  const [step, start] = [cross(direction, axis), cross(scale(center, -1), axis)];
+  const excess = dot(start, start) - radius * radius;
+  if (dot(step, step) < 1e-18) return excess <= 0 ? [-Infinity, Infinity] : null;
+  return quadratic(dot(step, step), dot(step, start), excess);
 }
 
-const slab = (n, least, most) => [{ n, d: most }, { n: scale(n, -1), d: -least }];
+const slab = (n, min, max) => [{ n, d: max }, { n: scale(n, -1), d: -min }];
 
 function both(a, b) {
   if (!a || !b) return null;
@@ -56,7 +56,7 @@ function both(a, b) {
   return entry <= exit ? [entry, exit] : null;
 }
 
-// The convex hull of several intervals.
+// Returns the smallest interval that contains all intervals, or null if all are null.
 function union(parts) {
   const met = parts.filter(Boolean);
   return met.length === 0 ? null : [Math.min(...met.map((p) => p[0])), Math.max(...met.map((p) => p[1]))];
@@ -68,45 +68,47 @@ function throughCylinder(center, axis, radius, half, direction, pad) {
     throughPlanes(slab(axis, middle - half, middle + half), direction, pad));
 }
 
-// Tests by shape: volume, start of the ray (absolute), its direction, pad.
+// Tests by shape. Arguments: volume, start of the ray in absolute coordinates, direction of the ray, pad.
 const TESTS = {
-  aabb: (v, from, way, pad) =>
+  aabb: (v, from, direction, pad) =>
     throughPlanes([0, 1, 2].flatMap((k) => {
       const axis = [0, 0, 0];
       axis[k] = 1;
       return slab(axis, v.min[k] - from[k], v.max[k] - from[k]);
-    }), way, pad),
-  obb: (v, from, way, pad) =>
+    }), direction, pad),
+  obb: (v, from, direction, pad) =>
     throughPlanes(v.axes.flatMap((axis, k) => {
       const middle = dot(axis, sub(v.center, from));
       return slab(axis, middle - v.half_extents[k], middle + v.half_extents[k]);
-    }), way, pad),
-  kdop: (v, from, way, pad) =>
+    }), direction, pad),
+  kdop: (v, from, direction, pad) =>
     throughPlanes(v.directions.flatMap((n, i) => {
       const [length, shift] = [norm(n), dot(n, from)];
       return slab(scale(n, 1 / length), (v.min[i] - shift) / length, (v.max[i] - shift) / length);
-    }), way, pad),
-  hull: (v, from, way, pad) =>
+    }), direction, pad),
+  hull: (v, from, direction, pad) =>
     throughPlanes(v.planes.map((p) => {
       const length = norm(p) || 1;
       return { n: scale(p, 1 / length), d: (p[3] - dot(p, from)) / length };
-    }), way, pad),
-  sphere: (v, from, way, pad) => throughSphere(sub(v.center, from), v.radius + pad, way),
-  ellipsoid: (v, from, way, pad) => throughEllipsoid(sub(v.center, from), v.axes, v.radii.map((r) => r + pad), way),
-  cylinder: (v, from, way, pad) =>
-    throughCylinder(sub(v.center, from), unit(v.axis), v.radius, v.half_height, way, pad),
-  capsule: (v, from, way, pad) => {
+    }), direction, pad),
+  sphere: (v, from, direction, pad) => throughSphere(sub(v.center, from), v.radius + pad, direction),
+  ellipsoid: (v, from, direction, pad) =>
+    throughEllipsoid(sub(v.center, from), v.axes, v.radii.map((r) => r + pad), direction),
+  cylinder: (v, from, direction, pad) =>
+    throughCylinder(sub(v.center, from), unit(v.axis), v.radius, v.half_height, direction, pad),
+  capsule: (v, from, direction, pad) => {
     const [a, b] = [sub(v.a, from), sub(v.b, from)];
-    const ends = [throughSphere(a, v.radius + pad, way), throughSphere(b, v.radius + pad, way)];
+    const ends = [throughSphere(a, v.radius + pad, direction), throughSphere(b, v.radius + pad, direction)];
     const axis = unit(sub(b, a));
     if (norm(axis) === 0) return ends[0];
     const half = norm(sub(b, a)) / 2;
-    return union([...ends, throughCylinder(scale(add(a, b), 0.5), axis, v.radius, half, way, pad)]);
+    return union([...ends, throughCylinder(scale(add(a, b), 0.5), axis, v.radius, half, direction, pad)]);
   },
 };
 
-// The cluster that a ray meets first; of volumes that it passes at one time the smallest. `from` is absolute,
-// `padAt(distance)` the pad at a distance. Null: none.
+// Returns the cluster whose volume the ray hits first. If the ray enters other volumes before it leaves the
+// first one, the smallest of all these volumes is chosen. Returns null if the ray hits no volume. `from` is
+// in absolute coordinates, padAt(distance) is the pad at a distance from the eye.
 export function pickCluster(clusters, hidden, from, direction, padAt) {
   const met = [];
   for (const cluster of clusters) {

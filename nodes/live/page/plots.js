@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times of the stages, frames per second and drops over the last 200 frames.
+// Plots of the stages' times, the frame rate and the dropped frames over the last 200 frames.
 import { byId, fixed } from "./elements.js";
 import { THEMES } from "./palette.js";
 import { quantile } from "./vectors.js";
 
-const MOST_FRAMES = 200;
-// The parts of `total`, in their order; to decode is no part of it.
+const MAX_FRAMES = 200;
+// The stages that `total` consists of, in order. Decoding is not included.
 const STAGES = [
   ["filter", "#3fa7d6"], ["ground", "#b08a3e"], ["cluster", "#4cae6a"], ["fit", "#e0894a"], ["track", "#a77bd8"],
 ];
@@ -24,17 +24,17 @@ export class Plots {
     }));
   }
 
-  // Frames that never came show as a gap in `seq`.
+  // A gap in `seq` counts as dropped frames.
   add(report, now) {
     const gap = this.lastSeq !== null && report.seq > this.lastSeq + 1 ? report.seq - this.lastSeq - 1 : 0;
     const dropped = gap + (report.error ? 1 : 0);
     this.lastSeq = report.seq ?? this.lastSeq;
     this.dropped += dropped;
     this.frames.push({ ms: report.ms ?? {}, arrived: now, dropped });
-    if (this.frames.length > MOST_FRAMES) this.frames.shift();
+    if (this.frames.length > MAX_FRAMES) this.frames.shift();
   }
 
-  // Numbers of a new connection begin anew.
+  // A new connection may begin with any `seq`.
   restart() {
     this.lastSeq = null;
   }
@@ -47,12 +47,12 @@ export class Plots {
 
   draw(theme, notDrawn) {
     const totals = this.frames.map(({ ms }) => ms.total).filter(Number.isFinite).sort((a, b) => a - b);
-    const most = Math.max(1e-3, 1.15 * quantile(totals, 0.99));
+    const maxMs = Math.max(1e-3, 1.15 * quantile(totals, 0.99));
     byId("total-text").textContent =
       `total p50 ${fixed(quantile(totals, 0.5), 1)} ms, p99 ${fixed(quantile(totals, 0.99), 1)} ms`;
     byId("rate-text").textContent = `${fixed(this.rate(), 1)} frames/s`;
     byId("drop-text").textContent = `dropped ${this.dropped}, not drawn ${notDrawn}`;
-    this.onCanvas("stage-plot", (context, wide, high) => this.drawStages(context, wide, high, most));
+    this.onCanvas("stage-plot", (context, wide, high) => this.drawStages(context, wide, high, maxMs));
     this.onCanvas("rate-plot", (context, wide, high) => this.drawRate(context, wide, high, theme));
     this.onCanvas("drop-plot", (context, wide, high) => this.drawDrops(context, wide, high, theme));
   }
@@ -69,13 +69,13 @@ export class Plots {
     draw(context, wide, high);
   }
 
-  drawStages(context, wide, high, most) {
-    const step = wide / MOST_FRAMES;
+  drawStages(context, wide, high, maxMs) {
+    const step = wide / MAX_FRAMES;
     const first = wide - step * this.frames.length;
     this.frames.forEach(({ ms }, i) => {
       let base = high;
       for (const [stage, colour] of STAGES) {
-        const tall = Number.isFinite(ms[stage]) ? (ms[stage] / most) * high : 0;
+        const tall = Number.isFinite(ms[stage]) ? (ms[stage] / maxMs) * high : 0;
         context.fillStyle = colour;
         context.fillRect(first + i * step, base - tall, Math.max(1, step), tall);
         base -= tall;
@@ -85,18 +85,18 @@ export class Plots {
 
   drawRate(context, wide, high, theme) {
     const rates = this.frames.slice(1).map((frame, i) => 1000 / Math.max(1, frame.arrived - this.frames[i].arrived));
-    const most = 1.2 * Math.max(1, quantile([...rates].sort((a, b) => a - b), 0.95));
-    const step = wide / MOST_FRAMES;
+    const maxRate = 1.2 * Math.max(1, quantile([...rates].sort((a, b) => a - b), 0.95));
+    const step = wide / MAX_FRAMES;
     context.strokeStyle = THEMES[theme].dim;
     context.lineWidth = 1.25;
     context.beginPath();
     rates.forEach((rate, i) =>
-      context.lineTo(wide - step * (rates.length - i - 0.5), high - Math.min(1, rate / most) * (high - 1)));
+      context.lineTo(wide - step * (rates.length - i - 0.5), high - Math.min(1, rate / maxRate) * (high - 1)));
     context.stroke();
   }
 
   drawDrops(context, wide, high, theme) {
-    const step = wide / MOST_FRAMES;
+    const step = wide / MAX_FRAMES;
     context.fillStyle = THEMES[theme].dim;
     context.globalAlpha = 0.4;
     context.fillRect(0, high - 1, wide, 1);

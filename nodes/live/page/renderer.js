@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// WebGL2 by hand: the points of a frame as they came, lines and faces of a batch. Throws where there is no WebGL2.
+// Draws with WebGL2: the points of a frame in their original layout, and the lines and faces of batches.
+// Throws if the browser has no WebGL2.
 import { LINE_BYTES, LINE_CORNERS, VERTEX_BYTES } from "./batch.js";
 import { THEMES } from "./palette.js";
 import { FACE_FRAGMENT, FACE_VERTEX, LINE_FRAGMENT, LINE_VERTEX, POINT_FRAGMENT, POINT_VERTEX } from "./shaders.js";
@@ -23,12 +24,12 @@ class Program {
       const logs = gl.getAttachedShaders(this.id).map((shader) => gl.getShaderInfoLog(shader));
       throw new Error(`a shader does not compile: ${[...logs, gl.getProgramInfoLog(this.id)].join(" ")}`);
     }
-    this.places = new Map();
+    this.locations = new Map();
   }
 
-  place(name) {
-    if (!this.places.has(name)) this.places.set(name, this.gl.getUniformLocation(this.id, name));
-    return this.places.get(name);
+  uniformLocation(name) {
+    if (!this.locations.has(name)) this.locations.set(name, this.gl.getUniformLocation(this.id, name));
+    return this.locations.get(name);
   }
 }
 
@@ -41,7 +42,7 @@ export class Renderer {
     this.setUp();
   }
 
-  // Also after the browser took the context away and gave it back.
+  // Creates all WebGL objects: at the start, and again after the browser has restored a lost context.
   setUp() {
     const gl = this.gl;
     this.pointProgram = new Program(gl, POINT_VERTEX, POINT_FRAGMENT);
@@ -61,7 +62,7 @@ export class Renderer {
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  // Buffers of one batch.
+  // Creates the buffers of one batch.
   newLayer() {
     const gl = this.gl;
     const layer = { lines: 0, indices: 0, buffers: [0, 1, 2].map(() => gl.createBuffer()) };
@@ -89,7 +90,7 @@ export class Renderer {
     this.gl.vertexAttribPointer(index, size, type, normalised, stride, offset);
   }
 
-  // Two triangles for each line: indices that all lines share.
+  // Enlarges the index buffer that all layers share: two triangles for each line.
   reserveLines(lines) {
     if (lines <= this.reserved) return;
     this.reserved = 2 ** Math.ceil(Math.log2(lines));
@@ -102,7 +103,7 @@ export class Renderer {
     this.gl.bufferData(this.gl.ELEMENT_ARRAY_BUFFER, indices, this.gl.STATIC_DRAW);
   }
 
-  // `points` as in messages.js, or null.
+  // `points`: as described in messages.js, or null.
   setPoints(points) {
     this.points = points;
     if (!points) return;
@@ -118,7 +119,7 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  // The colour of each object's points, by its number in the frame.
+  // Sets the colours of the objects' points. The index of a colour is the label of the points.
   setObjectColours(colours) {
     const gl = this.gl;
     const rows = Math.max(1, Math.ceil(colours.length / COLOURS_WIDE));
@@ -146,7 +147,7 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  // `look`: {theme, mode, range, pointSize, lineWidth, origin, faces, grid}; sizes in pixels of the screen.
+  // `look`: {theme, mode, range, pointSize, lineWidth, origin, faces, grid}; sizes in device pixels.
   draw(camera, look) {
     const gl = this.gl;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
@@ -170,15 +171,15 @@ export class Renderer {
     const program = this.pointProgram;
     const theme = THEMES[look.theme];
     gl.useProgram(program.id);
-    gl.uniformMatrix4fv(program.place("matrix"), false, matrix);
-    gl.uniform3fv(program.place("shift"), this.points.origin.map((x, k) => x - look.origin[k]));
-    gl.uniform3fv(program.place("up"), camera.up);
-    gl.uniform2fv(program.place("range"), look.range);
-    gl.uniform3fv(program.place("ramp"), theme.ramp);
-    gl.uniform3fv(program.place("plain"), theme.plain);
-    gl.uniform1i(program.place("mode"), { height: 1, intensity: 2 }[look.mode] ?? 0);
-    gl.uniform1i(program.place("objects"), this.objects);
-    gl.uniform1f(program.place("size"), look.pointSize);
+    gl.uniformMatrix4fv(program.uniformLocation("matrix"), false, matrix);
+    gl.uniform3fv(program.uniformLocation("shift"), this.points.origin.map((x, k) => x - look.origin[k]));
+    gl.uniform3fv(program.uniformLocation("up"), camera.up);
+    gl.uniform2fv(program.uniformLocation("range"), look.range);
+    gl.uniform3fv(program.uniformLocation("ramp"), theme.ramp);
+    gl.uniform3fv(program.uniformLocation("plain"), theme.plain);
+    gl.uniform1i(program.uniformLocation("mode"), { height: 1, intensity: 2 }[look.mode] ?? 0);
+    gl.uniform1i(program.uniformLocation("objects"), this.objects);
+    gl.uniform1f(program.uniformLocation("size"), look.pointSize);
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     gl.bindVertexArray(this.pointArray);
     gl.drawArrays(gl.POINTS, 0, this.points.count);
@@ -188,9 +189,9 @@ export class Renderer {
     const gl = this.gl;
     if (layer.lines === 0) return;
     gl.useProgram(this.lineProgram.id);
-    gl.uniformMatrix4fv(this.lineProgram.place("matrix"), false, matrix);
-    gl.uniform2f(this.lineProgram.place("viewport"), this.canvas.width, this.canvas.height);
-    gl.uniform1f(this.lineProgram.place("width"), width);
+    gl.uniformMatrix4fv(this.lineProgram.uniformLocation("matrix"), false, matrix);
+    gl.uniform2f(this.lineProgram.uniformLocation("viewport"), this.canvas.width, this.canvas.height);
+    gl.uniform1f(this.lineProgram.uniformLocation("width"), width);
     gl.bindVertexArray(layer.lineArray);
     gl.drawElements(gl.TRIANGLES, 6 * layer.lines, gl.UNSIGNED_INT, 0);
   }
@@ -199,8 +200,8 @@ export class Renderer {
     const gl = this.gl;
     if (this.volumes.indices === 0) return;
     gl.useProgram(this.faceProgram.id);
-    gl.uniformMatrix4fv(this.faceProgram.place("matrix"), false, matrix);
-    gl.uniform3fv(this.faceProgram.place("eye"), camera.eye());
+    gl.uniformMatrix4fv(this.faceProgram.uniformLocation("matrix"), false, matrix);
+    gl.uniform3fv(this.faceProgram.uniformLocation("eye"), camera.eye());
     gl.bindVertexArray(this.volumes.faceArray);
     gl.drawElements(gl.TRIANGLES, this.volumes.indices, gl.UNSIGNED_INT, 0);
   }

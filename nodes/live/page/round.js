@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Round volumes as meshes. A mesh of 20 x 40 leaves a sphere by 0.3 % of its radius; lines are finer.
-import { across, add, cross, scale, sub, unit } from "./vectors.js";
+// Draws round volumes as meshes. A mesh of 20 x 40 quads deviates from a sphere by 0.3 % of its radius. The
+// lines have a smaller deviation.
+import { add, cross, orthogonalTo, scale, sub, unit } from "./vectors.js";
 
 const STACKS = 20;
 const SLICES = 40;
@@ -15,7 +16,8 @@ function angles(count) {
 const FINE = angles(CIRCLE_LINES);
 const COARSE = angles(SLICES);
 
-// An arc of the ellipse center + cos*u + sin*v, from line `first` to line `last` of the 48 around it.
+// Draws an arc of the ellipse center + cos*u + sin*v, which has 48 points, from point `first` to point
+// `last`.
 function arc(batch, center, u, v, colour, first = 0, last = CIRCLE_LINES) {
   let before = null;
   for (let k = first; k <= last; ++k) {
@@ -26,7 +28,8 @@ function arc(batch, center, u, v, colour, first = 0, last = CIRCLE_LINES) {
   }
 }
 
-// Rings of vertices, each joined with the next: rows of {center, u, v, normalTurn} with u and v the half axes.
+// Joins each ring of vertices with the next ring. `rings`: [{center, u, v, normal}] with u and v the half
+// axes and normal(cos, sin) the normal of a vertex.
 function skin(batch, rings, colour) {
   const first = batch.vertices;
   for (const { center, u, v, normal } of rings) {
@@ -44,7 +47,8 @@ function skin(batch, rings, colour) {
   }
 }
 
-// The rings of an ellipsoid of half axes u, v, w from the pole -w (part 0) to +w (part 1).
+// Returns rings of an ellipsoid of half axes u, v, w, from the latitude `from` to the latitude `to`: 0 is the
+// pole -w, 1 the pole +w.
 function ellipsoidRings(center, u, v, w, from, to, count) {
   const inverse = [u, v, w].map((axis) => scale(axis, 1 / Math.max(1e-300, axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)));
   return Array.from({ length: count + 1 }, (_, k) => {
@@ -60,7 +64,8 @@ function ellipsoidRings(center, u, v, w, from, to, count) {
   });
 }
 
-// `u`, `v`, `w`: half axes, with their lengths; each can be zero. Lines: its three ellipses.
+// `u`, `v`, `w`: half axes; their lengths are the radii and may be zero. The lines are the three principal
+// ellipses.
 export function drawEllipsoid(batch, center, [u, v, w], paint) {
   arc(batch, center, u, v, paint.line);
   arc(batch, center, v, w, paint.line);
@@ -69,7 +74,7 @@ export function drawEllipsoid(batch, center, [u, v, w], paint) {
 }
 
 export function drawCylinder(batch, low, high, radius, axis, paint) {
-  const [u, v] = across(axis).map((side) => scale(side, radius));
+  const [u, v] = orthogonalTo(axis).map((side) => scale(side, radius));
   arc(batch, low, u, v, paint.line);
   arc(batch, high, u, v, paint.line);
   sides(batch, low, high, u, v, paint);
@@ -91,7 +96,8 @@ function sides(batch, low, high, u, v, paint) {
 
 export function drawCapsule(batch, a, b, radius, paint) {
   const axis = unit(sub(b, a));
-  const [u, v] = across(axis[0] === 0 && axis[1] === 0 && axis[2] === 0 ? [0, 0, 1] : axis).map((side) => scale(side, radius));
+  const isPoint = axis[0] === 0 && axis[1] === 0 && axis[2] === 0;
+  const [u, v] = orthogonalTo(isPoint ? [0, 0, 1] : axis).map((side) => scale(side, radius));
   const w = scale(unit(cross(u, v)), radius);
   for (const end of [a, b]) arc(batch, end, u, v, paint.line);
   for (const side of [u, v]) {

@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A frame as a scene: volumes, arrows of velocity and a grid on the ground, in coordinates relative to an origin.
+// Builds the scene of a frame: volumes, velocity arrows and a grid on the ground, in coordinates relative to
+// an origin.
 import { LINE_BYTES, LINE_CORNERS, packColour } from "./batch.js";
 import { objectColour, THEMES } from "./palette.js";
 import { centerOf, drawVolume, isDrawable } from "./shapes.js";
-import { add, along, cross, dot, norm, scale, sub, unit } from "./vectors.js";
+import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.js";
 
 const FACE_ALPHA = 0.13;
-const GRID_LINES = 20; // to each side
-const GRID_PIECE = 4; // steps of the grid that fade together
+const GRID_LINES = 20; // on each side of the centre
+const GRID_PIECE = 4; // length of a piece of one opacity, in grid steps
 const LINE_WORDS = (LINE_CORNERS * LINE_BYTES) / 4;
 
-// Where coordinates are large, a multiple of 1024 m, which float32 holds exactly up to 1.7e10 m.
+// Returns an origin near the point. Coordinates over 4096 m are rounded to a multiple of 1024 m, which
+// float32 holds exactly up to 1.7e10 m; others are 0.
 export function originNear(point) {
   return point.map((x) => (Math.abs(x) > 4096 ? 1024 * Math.round(x / 1024) : 0));
 }
@@ -21,8 +23,9 @@ export function speedOf(cluster) {
   return Array.isArray(cluster.velocity) ? norm(cluster.velocity) : 0;
 }
 
-// Fills the batch with the volumes of a frame; returns an object for each cluster that shows any:
-// {cluster, colour, low, high, center, top}, the box and middle of what was drawn, and the middle of its upper side.
+// Fills the batch with the volumes of a frame. Returns {cluster, colour, low, high, center, top} for each
+// cluster with a visible volume: the corners and the centre of the axis-aligned box of the drawn lines, and
+// the point above the centre at the height of the highest line.
 export function buildVolumes(batch, report, view, origin, up) {
   batch.clear();
   const objects = [];
@@ -46,7 +49,7 @@ export function buildVolumes(batch, report, view, origin, up) {
   return objects;
 }
 
-// What names an object over frames: its track, or else its place in the frame.
+// Returns the key that identifies an object over frames: its track or, without a track, its cluster id.
 export function keyOf(cluster) {
   return typeof cluster.track === "number" ? `track ${cluster.track}` : `cluster ${cluster.id}`;
 }
@@ -69,10 +72,10 @@ function boundOfLines(batch, first, up) {
     }
   }
   const center = scale(add(low, high), 0.5);
-  return { low, high, center, top: along(center, up, topmost - dot(center, up)) };
+  return { low, high, center, top: pointAlong(center, up, topmost - dot(center, up)) };
 }
 
-// The way of one second, with a head.
+// Draws the distance moved in one second as an arrow.
 function drawArrow(batch, { cluster, center }, colour, up) {
   const speed = speedOf(cluster);
   if (!cluster.moving || !(speed > 0.05)) return;
@@ -80,27 +83,28 @@ function drawArrow(batch, { cluster, center }, colour, up) {
   const direction = unit(cluster.velocity);
   const side = unit(cross(up, direction));
   const head = Math.min(0.6, 0.35 * speed);
-  const back = along(tip, direction, -head);
+  const back = pointAlong(tip, direction, -head);
   batch.line(center, tip, colour);
-  batch.line(tip, along(back, side, 0.5 * head), colour);
-  batch.line(tip, along(back, side, -0.5 * head), colour);
+  batch.line(tip, pointAlong(back, side, 0.5 * head), colour);
+  batch.line(tip, pointAlong(back, side, -0.5 * head), colour);
 }
 
-// A square grid around `center`, whose lines are 1, 2 or 5 times a power of ten apart, and fade outwards.
+// Builds a square grid around `center`. The spacing is 1, 2 or 5 times a power of ten, in metres. Lines fade
+// outwards.
 export function buildGrid(batch, center, radius, camera, theme) {
   batch.clear();
   const step = niceStep(radius / 8);
   const [e1, e2] = camera.level;
   const snap = (axis) => step * Math.round(dot(center, axis) / step);
-  const middle = along(along(scale(camera.up, dot(center, camera.up)), e1, snap(e1)), e2, snap(e2));
+  const middle = pointAlong(pointAlong(scale(camera.up, dot(center, camera.up)), e1, snap(e1)), e2, snap(e2));
   for (let k = -GRID_LINES; k <= GRID_LINES; ++k) {
     for (let j = -GRID_LINES; j < GRID_LINES; j += GRID_PIECE) {
       const fade = 1 - Math.hypot(k, j + GRID_PIECE / 2) / GRID_LINES;
       if (fade <= 0) continue;
       const colour = packColour(THEMES[theme].grid, 0.28 * fade);
       for (const [a, b] of [[e1, e2], [e2, e1]]) {
-        const from = along(along(middle, a, k * step), b, j * step);
-        batch.line(from, along(from, b, GRID_PIECE * step), colour);
+        const from = pointAlong(pointAlong(middle, a, k * step), b, j * step);
+        batch.line(from, pointAlong(from, b, GRID_PIECE * step), colour);
       }
     }
   }
@@ -112,7 +116,7 @@ export function niceStep(length) {
   return power * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
 }
 
-// The middle of an object in the scene, from its first volume with numbers; null without any.
+// Returns the centre of an object's first drawable volume in scene coordinates, or null if it has none.
 export function middleOfCluster(cluster, origin) {
   const volume = cluster.volumes.find(isDrawable);
   return volume ? sub(centerOf(volume), origin) : null;

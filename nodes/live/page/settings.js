@@ -1,24 +1,25 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Settings of the pipeline: what there is from GET /settings, values by Foxglove's parameters. The server checks each
-// value; when it refuses one, its reason stands beside the field and the field shows the value in force.
+// The panel of the pipeline's settings. Their descriptions come from GET /settings, their values from
+// Foxglove's parameters. The server checks each value. When it refuses a value, its reason is shown beside
+// the field, and the field shows the value in force.
 import { byId, element } from "./elements.js";
 
 const UNSET = "null";
-const ANSWER_MS = 2000; // the reason may come after the value
+const ANSWER_MS = 2000; // within this time a refusal belongs to the last change
 
 export class Settings {
-  // `send(message)`: to the server.
+  // send(message) sends a message to the server.
   constructor(send) {
     this.send = send;
-    this.fields = new Map(); // of each key {setting, input, note}
-    this.asked = new Map(); // keys of requests on their way, by their id
-    this.lastAsked = { key: null, at: 0 };
+    this.fields = new Map(); // key -> {setting, input, note}
+    this.pendingKeys = new Map(); // id of a pending request -> key
+    this.lastChange = { key: null, at: 0 };
     this.requests = 0;
   }
 
-  // After each connection: another server may have other settings.
+  // Called after each connection, because another server may have other settings.
   async load() {
     const answer = await fetch("settings");
     if (!answer.ok) throw new Error(`settings: ${answer.status} ${answer.statusText}`);
@@ -30,7 +31,7 @@ export class Settings {
 
   show(settings) {
     this.fields.clear();
-    this.asked.clear();
+    this.pendingKeys.clear();
     const groups = new Map();
     for (const setting of settings) {
       const [group] = setting.key.split(".");
@@ -61,24 +62,26 @@ export class Settings {
     const { setting, input, note } = this.fields.get(key);
     note.textContent = "";
     const id = `set ${++this.requests}`;
-    this.asked.set(id, key);
-    this.lastAsked = { key, at: performance.now() };
+    this.pendingKeys.set(id, key);
+    this.lastChange = { key, at: performance.now() };
     this.send({ op: "setParameters", parameters: [{ name: key, value: valueOf(setting, input) }], id });
   }
 
-  // The values in force, asked for, changed here or by others.
+  // Shows the values in force that the server sends, either as the answer to a request or after a change by
+  // any client. Only an answer overwrites a field that has the focus.
   receive(parameters, id) {
-    this.asked.delete(id);
+    this.pendingKeys.delete(id);
     for (const { name, value } of parameters) {
       const field = this.fields.get(name);
       if (field && !(field.input === document.activeElement && id === undefined)) write(field, value);
     }
   }
 
-  // True: the reason was shown at the field that was changed last, to which it belongs.
+  // Shows the reason of a refusal at the field of the pending or the last change. Returns false if there is
+  // none.
   refuse(reason) {
-    const isRecent = performance.now() - this.lastAsked.at < ANSWER_MS;
-    const key = [...this.asked.values()][0] ?? (isRecent ? this.lastAsked.key : null);
+    const isRecent = performance.now() - this.lastChange.at < ANSWER_MS;
+    const key = [...this.pendingKeys.values()][0] ?? (isRecent ? this.lastChange.key : null);
     if (!this.fields.has(key)) return false;
     this.fields.get(key).note.textContent = reason;
     return true;

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Shaders. Lines are rectangles of a width in pixels whose sides fade over one pixel; faces are more opaque where one
-// looks along them, so that round volumes have an outline.
+// Shaders. Lines are rectangles with a width in pixels; their sides fade over one pixel. Faces are more
+// opaque at grazing view angles, so that round volumes have an outline.
 
 export const POINT_VERTEX = `#version 300 es
 precision highp float;
 precision highp int;
-layout(location = 0) in vec3 place;
+layout(location = 0) in vec3 position;
 layout(location = 1) in uint label;
 layout(location = 2) in float intensity;
 uniform mat4 matrix;
 uniform vec3 shift;           // from the points' origin to the scene's
 uniform vec3 up;
-uniform vec2 range;           // of height or intensity, whatever is shown
+uniform vec2 range;           // minimum and maximum of the height or the intensity
 uniform vec3 ramp[5];
 uniform vec3 plain;
 uniform int mode;             // 0: by object, 1: by height, 2: by intensity
@@ -29,7 +29,7 @@ vec3 onRamp(float value) {
 }
 
 void main() {
-  vec3 p = place + shift;
+  vec3 p = position + shift;
   gl_Position = matrix * vec4(p, 1.0);
   gl_PointSize = size;
   bool isObject = label < uint(objects);
@@ -67,18 +67,20 @@ out float side;
 void main() {
   vec4 from = matrix * vec4(a, 1.0);
   vec4 to = matrix * vec4(b, 1.0);
-  float nearest = 1e-4;       // an end behind the eye moves along the line to its front
+  // Clip the line at the eye: move an end point behind the eye along the line.
+  float nearest = 1e-4;
   if (from.w < nearest && to.w > nearest) from = mix(from, to, (nearest - from.w) / (to.w - from.w));
   if (to.w < nearest && from.w > nearest) to = mix(to, from, (nearest - to.w) / (from.w - to.w));
-  vec2 way = (to.xy / to.w - from.xy / from.w) * viewport;
-  float length2 = dot(way, way);
-  bool isDot = length2 < 1e-3; // a square as wide as a line; a volume of one point is one of twice the width
-  way = isDot ? vec2(1.0, 0.0) : way * inversesqrt(length2);
+  vec2 direction = (to.xy / to.w - from.xy / from.w) * viewport;
+  float length2 = dot(direction, direction);
+  // Draw a short line as a square of the line width, a single point (a == b) of twice the width.
+  bool isDot = length2 < 1e-3;
+  direction = isDot ? vec2(1.0, 0.0) : direction * inversesqrt(length2);
   float half_ = (width + 1.0) * (a == b ? 2.0 : 1.0) / 2.0;
   float end = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
   side = (gl_VertexID & 2) == 0 ? -1.0 : 1.0;
   vec4 at = end < 0.0 ? from : to;
-  vec2 offset = vec2(-way.y, way.x) * side * half_ + way * end * (isDot ? half_ : 0.0);
+  vec2 offset = vec2(-direction.y, direction.x) * side * half_ + direction * end * (isDot ? half_ : 0.0);
   gl_Position = at + vec4(2.0 * offset / viewport * at.w, 0.0, 0.0);
   side *= (width + 1.0) / 2.0;
   lineColour = colour;
@@ -97,7 +99,7 @@ void main() {
 
 export const FACE_VERTEX = `#version 300 es
 precision highp float;
-layout(location = 0) in vec3 place;
+layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;
 uniform mat4 matrix;
@@ -106,10 +108,10 @@ out vec4 faceColour;
 out vec3 faceNormal;
 out vec3 toEye;
 void main() {
-  gl_Position = matrix * vec4(place, 1.0);
+  gl_Position = matrix * vec4(position, 1.0);
   faceColour = colour;
   faceNormal = normal;
-  toEye = eye - place;
+  toEye = eye - position;
 }`;
 
 export const FACE_FRAGMENT = `#version 300 es
@@ -119,7 +121,7 @@ in vec3 faceNormal;
 in vec3 toEye;
 out vec4 pixel;
 void main() {
-  float size = length(faceNormal);  // 0 where a volume is too flat to have one
+  float size = length(faceNormal);  // 0: the volume is flat and has no normal here
   float rim = size > 0.0 ? 1.0 - abs(dot(faceNormal, normalize(toEye))) / size : 0.0;
   pixel = vec4(faceColour.rgb, faceColour.a * (0.6 + 1.6 * rim * rim * rim));
 }`;

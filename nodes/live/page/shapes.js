@@ -1,40 +1,42 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes of the JSON as lines and faces. A row of SHAPES for each shape: draw() puts it into a batch, center() is the
-// middle and size() the text of its dimensions. `o` is the origin of the scene: it is subtracted in double precision
-// before anything becomes float32, so that coordinates of UTM size draw as small ones do.
+// Draws the volumes of a JSON report as lines and faces. SHAPES has an entry for each shape: draw() adds the
+// volume to a batch, center() returns its centre and size() a text with its dimensions. `o` is the origin of
+// the scene. It is subtracted in double precision before the conversion to float32, so that large coordinates
+// (UTM) lose no precision.
 import { boundOfSlabs, polytope } from "./convex.js";
 import { drawCapsule, drawCylinder, drawEllipsoid } from "./round.js";
-import { add, along, cross, dot, norm, scale, sub, unit } from "./vectors.js";
+import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.js";
 
 const CUBE_FACES = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
 function drawBox(batch, center, halfAxes, paint) {
   const corners = Array.from({ length: 8 }, (_, bits) =>
-    halfAxes.reduce((at, axis, k) => along(at, axis, (bits >> k) & 1 ? 1 : -1), center));
+    halfAxes.reduce((at, axis, k) => pointAlong(at, axis, (bits >> k) & 1 ? 1 : -1), center));
   for (let bits = 0; bits < 8; ++bits) {
     for (let k = 0; k < 3; ++k) {
       if (!((bits >> k) & 1)) batch.line(corners[bits], corners[bits | (1 << k)], paint.line);
     }
   }
   if (!paint.face) return;
-  // Of a flat box no half axis says where its large sides look to.
+  // In a flat box one half axis is zero: its direction is the cross product of the others.
   const normals = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(([k, i, j]) =>
     unit(norm(halfAxes[k]) > 0 ? halfAxes[k] : cross(halfAxes[i], halfAxes[j])));
   CUBE_FACES.forEach((face, k) => batch.polygon(face.map((bits) => corners[bits]), normals[k >> 1], paint.face));
 }
 
-// Outlines of polygons; an edge between two of them is drawn twice, at the same place. Where more than three planes
-// meet, rounding leaves edges of no length: they are left out, and only what is a single point is drawn as one.
+// Draws polygons. An edge between two polygons is drawn twice at the same position. Where more than three
+// planes meet, rounding causes edges of nearly zero length, which are omitted. If all edges are omitted, a
+// point is drawn.
 function drawPolygons(batch, faces, paint) {
   const before = batch.lines;
   const corners = faces.flatMap((face) => face.corners);
-  const least = 1e-6 * corners.reduce((most, p) => Math.max(most, norm(sub(p, corners[0]))), 0);
+  const minLength = 1e-6 * corners.reduce((max, p) => Math.max(max, norm(sub(p, corners[0]))), 0);
   for (const { n, corners: around } of faces) {
     around.forEach((corner, k) => {
       const next = around[(k + 1) % around.length];
-      if (norm(sub(next, corner)) > least) batch.line(corner, next, paint.line);
+      if (norm(sub(next, corner)) > minLength) batch.line(corner, next, paint.line);
     });
     if (paint.face && around.length > 2) batch.polygon(around, n, paint.face);
   }
@@ -61,7 +63,8 @@ function drawKdop(batch, v, o, paint) {
   drawPolygons(batch, faces.length > 0 ? faces : point, paint);
 }
 
-// Faces of a hull are triangles, of a flat side many: edges inside a flat side are left out.
+// The faces of a hull are triangles, and a flat side consists of several triangles. Edges inside a flat side
+// are omitted.
 function drawHull(batch, v, o, paint) {
   const at = v.vertices.map((p) => sub(p, o));
   const faces = v.faces.map((face) => ({ face, n: unit(normalOf(face.map((i) => at[i]))) }));
@@ -83,7 +86,7 @@ function normalOf([a, b, c]) {
   return cross(sub(b, a), sub(c, a));
 }
 
-// The polygon, line or point that vertices without faces are.
+// Returns the outline of a hull without faces: a polygon, a line or a point.
 function flatOutline(at) {
   if (at.length === 0) return [];
   const farthest = (distance) => at.reduce((best, p) => (distance(p) > distance(best) ? p : best));
@@ -96,8 +99,8 @@ function flatOutline(at) {
   const n = unit(cross(axis, sub(c, a)));
   const side = cross(n, axis);
   const middle = scale(at.reduce(add), 1 / at.length);
-  const turn = (p) => Math.atan2(dot(sub(p, middle), side), dot(sub(p, middle), axis));
-  return [{ n, corners: [...at].sort((p, q) => turn(p) - turn(q)) }];
+  const angle = (p) => Math.atan2(dot(sub(p, middle), side), dot(sub(p, middle), axis));
+  return [{ n, corners: [...at].sort((p, q) => angle(p) - angle(q)) }];
 }
 
 const meters = (x) => Number(x.toPrecision(4)).toString();
@@ -142,7 +145,8 @@ export const SHAPES = {
     draw: (batch, v, o, paint) => {
       const center = sub(v.center, o);
       const axis = unit(v.axis);
-      drawCylinder(batch, along(center, axis, -v.half_height), along(center, axis, v.half_height), v.radius, axis, paint);
+      const [low, high] = [-1, 1].map((end) => pointAlong(center, axis, end * v.half_height));
+      drawCylinder(batch, low, high, v.radius, axis, paint);
     },
   },
   capsule: {
@@ -157,7 +161,7 @@ export const SHAPES = {
   },
 };
 
-// False for volumes of no points and for those whose fit failed: they have no numbers.
+// Returns false for empty volumes and failed fits, which have no parameters, and for unknown shapes.
 export function isDrawable(volume) {
   return !volume.empty && volume.failed === undefined && Object.hasOwn(SHAPES, volume.shape);
 }

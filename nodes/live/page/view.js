@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is shown, and how it is chosen: buttons, boxes and keys. Whatever changes is told to `on.changed(what)`, where
-// `what` is "colours" (volumes must be built anew) or "view" (only drawn).
+// The state of the view and its controls: buttons, check boxes and keys. on.changed(what) is called after
+// each change. `what` is "colours" if the volumes must be rebuilt, or "view" if they only have to be redrawn.
 import { byId, element } from "./elements.js";
 
 const MODES = ["height", "cluster", "track", "intensity"];
@@ -18,10 +18,10 @@ export class View {
     this.offered = { height: true, cluster: true, track: false, intensity: false };
     this.theme = matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
     this.faces = this.labels = this.arrows = this.grid = true;
-    this.hidden = new Set(); // methods
+    this.hidden = new Set(); // methods whose volumes are not shown
     this.methods = new Set();
     this.pointSize = 2;
-    this.picked = null; // key of an object
+    this.picked = null; // key of the picked object
     this.following = false;
     this.connectElements();
     this.showState();
@@ -74,7 +74,7 @@ export class View {
     else this.toggleHelp();
   }
 
-  // Modes that no frame has had data for are passed over.
+  // Enables the modes for which some frame has had data.
   offer({ tracks, intensity }) {
     this.offered.track ||= tracks;
     this.offered.intensity ||= intensity;
@@ -109,8 +109,8 @@ export class View {
   }
 
   resizePoints(by) {
-    const place = POINT_SIZES.indexOf(this.pointSize) + by;
-    this.pointSize = POINT_SIZES[Math.min(POINT_SIZES.length - 1, Math.max(0, place))];
+    const index = POINT_SIZES.indexOf(this.pointSize) + by;
+    this.pointSize = POINT_SIZES[Math.min(POINT_SIZES.length - 1, Math.max(0, index))];
     this.changed("view");
   }
 
@@ -119,7 +119,7 @@ export class View {
     byId("help").setAttribute("aria-expanded", String(!byId("help-text").hidden));
   }
 
-  // A box for each method that has occurred, in the order of the frame.
+  // Shows a check box for each method that has occurred, in the order of its first occurrence.
   showMethods(clusters) {
     const before = this.methods.size;
     for (const { volumes } of clusters) for (const { method } of volumes) this.methods.add(String(method));

@@ -14,7 +14,7 @@
 namespace pcl_bv::live {
 namespace {
 
-// "localhost" of "localhost:8765", "::1" of "[::1]:8765".
+// Returns "localhost" for "localhost:8765", "::1" for "[::1]:8765".
 std::string_view without_port(std::string_view host) {
   if (host.starts_with('[')) {
     const std::size_t end = host.find(']');
@@ -23,7 +23,7 @@ std::string_view without_port(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-// Asio reads up to a zero byte, behind which a name could follow.
+// Parses a numeric address. Rejects texts with a zero byte: Asio would ignore the part after the zero byte.
 std::optional<boost::asio::ip::address> address_of(std::string_view host) {
   boost::system::error_code error;
   const auto address = boost::asio::ip::make_address(std::string(host), error);
@@ -31,7 +31,7 @@ std::optional<boost::asio::ip::address> address_of(std::string_view host) {
   return address;
 }
 
-bool is_this_machine(std::string_view host) {
+bool is_loopback_host(std::string_view host) {
   const auto address = address_of(host);
   return host == "localhost" || (address && address->is_loopback());
 }
@@ -49,7 +49,7 @@ Address parse_address(const std::string& text) {
   return address;
 }
 
-bool is_our_host(std::string_view header, const Address& server) {
+bool is_server_host(std::string_view header, const Address& server) {
   const std::string_view host = without_port(header);
   std::array<char, 256> name{};
   const bool named = gethostname(name.data(), name.size() - 1) == 0;
@@ -60,9 +60,9 @@ bool is_our_host(std::string_view header, const Address& server) {
 bool may_connect(std::string_view origin, std::string_view host_header) {
   if (origin.empty() || origin == "file://" || origin == "https://app.foxglove.dev") return true;
   const std::size_t scheme = origin.find("://");
-  if (scheme == std::string_view::npos) return false;  // "null": of a page that hides where it comes from
+  if (scheme == std::string_view::npos) return false;  // "null": opaque origin, such as a sandboxed page
   const std::string_view from = origin.substr(scheme + 3);
-  return from == host_header || is_this_machine(without_port(from));
+  return from == host_header || is_loopback_host(without_port(from));
 }
 
 }  // namespace pcl_bv::live

@@ -14,10 +14,10 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using Error = boost::system::error_code;
 
-constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::seconds kHttpTimeout{10};  // for reading the request, and for writing the reply
 
-// The page is whole: it needs nothing from anywhere but its own WebSocket.
-constexpr const char* kPolicy =
+// Content security policy: the page loads no other resources and connects only to its own server.
+constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -36,7 +36,7 @@ Connection::~Connection() {
 void Connection::start() {
   Error ignored;
   stream_.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
-  stream_.expires_after(kPatience);
+  stream_.expires_after(kHttpTimeout);
   http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](const Error& error, std::size_t) {
     if (!error) self->on_request();
   });
@@ -44,8 +44,8 @@ void Connection::start() {
 
 void Connection::on_request() {
   const HttpRequest& request = parser_.get();
-  if (const std::string why = refusal(request); !why.empty()) {
-    hub_.remark("refused: " + why);
+  if (const std::string why = refusal_reason(request); !why.empty()) {
+    hub_.add_warning("refused: " + why);
     Response response(http::status::forbidden, request.version(), why + '\n');
     response.set(http::field::content_type, "text/plain; charset=utf-8");
     return reply(std::move(response));
@@ -54,10 +54,10 @@ void Connection::on_request() {
   reply(answer(request));
 }
 
-std::string Connection::refusal(const HttpRequest& request) const {
+std::string Connection::refusal_reason(const HttpRequest& request) const {
   const auto text = [&](http::field field) { return std::string(request[field]); };
   const std::string host = text(http::field::host), origin = text(http::field::origin);
-  if (!is_our_host(host, server_)) return "the host '" + host.substr(0, 100) + "' is not this one";
+  if (!is_server_host(host, server_)) return "the host '" + host.substr(0, 100) + "' is not this one";
   if (!may_connect(origin, host)) return "a page of '" + origin.substr(0, 100) + "' may not connect";
   return {};
 }
@@ -65,7 +65,7 @@ std::string Connection::refusal(const HttpRequest& request) const {
 void Connection::upgrade(const HttpRequest& request) {
   const auto offered = request[http::field::sec_websocket_protocol];
   const auto subprotocol = known_subprotocol({offered.data(), offered.size()});
-  if (!subprotocol || hub_.viewers() >= Viewer::kMostViewers) {
+  if (!subprotocol || hub_.viewers() >= Viewer::kMaxViewers) {
     const bool full = subprotocol.has_value();
     return reply({full ? http::status::service_unavailable : http::status::bad_request, request.version(),
                   full ? "too many viewers\n" : "subprotocols: foxglove.sdk.v1, foxglove.websocket.v1\n"});
@@ -88,20 +88,20 @@ Connection::Response Connection::answer(const HttpRequest& request) const {
   }
   if (request.target() == "/") {
     Response response = text(http::status::ok, std::string(live_page()), "text/html; charset=utf-8");
-    response.set("Content-Security-Policy", kPolicy);
+    response.set("Content-Security-Policy", kContentSecurityPolicy);
     return response;
   }
   if (request.target() == "/settings") return text(http::status::ok, hub_.description(), "application/json");
-  return text(http::status::not_found, "there are / and /settings\n", "text/plain");
+  return text(http::status::not_found, "not found: this server has / and /settings only\n", "text/plain");
 }
 
 void Connection::reply(Response response) {
   response.set(http::field::server, "pcl_bv");
   response.keep_alive(false);
   response.prepare_payload();
-  if (parser_.get().method() == http::verb::head) response.body().clear();  // its length stays
+  if (parser_.get().method() == http::verb::head) response.body().clear();  // the header Content-Length stays
   response_ = std::make_shared<Response>(std::move(response));
-  stream_.expires_after(kPatience);
+  stream_.expires_after(kHttpTimeout);
   http::async_write(stream_, *response_, [self = shared_from_this()](Error error, std::size_t) {
     self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, error);
   });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What comes first on each connection: a request of HTTP, for the page or to become a WebSocket.
+// A TCP connection that answers one HTTP request: it serves the page or becomes a WebSocket (Viewer).
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace pcl_bv::live {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  static constexpr int kMostConnections = 64;  ///< Beside viewers.
+  static constexpr int kMaxConnections = 64;  ///< Viewers not included.
 
   Connection(boost::asio::ip::tcp::socket&& socket, Hub& hub, const Address& server, int& open);
   ~Connection();
@@ -27,7 +27,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
   void on_request();
-  std::string refusal(const HttpRequest& request) const;
+  std::string refusal_reason(const HttpRequest& request) const;
   void upgrade(const HttpRequest& request);
   Response answer(const HttpRequest& request) const;
   void reply(Response response);

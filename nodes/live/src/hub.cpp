@@ -20,7 +20,7 @@ void Hub::add(std::shared_ptr<Channel> channel) {
   channels_.push_back(std::move(channel));
   const std::string text = advertisement(topics(), channels_.size() - 1);
   for (const auto& viewer : viewers_)
-    viewer->tell(text);
+    viewer->queue_text(text);
 }
 
 void Hub::publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& message) {
@@ -33,31 +33,31 @@ void Hub::publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& messa
 
 void Hub::notice(const std::string& line) {
   const auto now = std::chrono::steady_clock::now();
-  if (now - noticed_ < std::chrono::seconds(1)) {
-    ++unsaid_;
+  if (now - last_notice_time_ < std::chrono::seconds(1)) {
+    ++skipped_notices_;
     return;
   }
-  noticed_ = now;
-  const std::uint64_t others = std::exchange(unsaid_, 0);
+  last_notice_time_ = now;
+  const std::uint64_t others = std::exchange(skipped_notices_, 0);
   const std::string text =
       status(Level::warning, others == 0 ? line : line + "; " + std::to_string(others) + " more before");
   for (const auto& viewer : viewers_)
-    viewer->tell(text);
+    viewer->queue_text(text);
 }
 
 void Hub::offer(std::shared_ptr<RemoteSettings> settings) {
   settings_ = std::move(settings);
-  tell_settings();
+  send_settings();
 }
 
-void Hub::tell_settings() {
+void Hub::send_settings() {
   if (settings_ == nullptr) return;
   std::string values = settings_->values();
-  if (values == told_) return;
-  told_ = std::move(values);
-  const std::string text = parameter_values(told_, {}, "");
+  if (values == sent_values_) return;
+  sent_values_ = std::move(values);
+  const std::string text = parameter_values(sent_values_, {}, "");
   for (const auto& viewer : viewers_)
-    if (viewer->watches_settings()) viewer->tell(text);
+    if (viewer->watches_settings()) viewer->queue_text(text);
 }
 
 std::string Hub::description() const {
@@ -66,8 +66,8 @@ std::string Hub::description() const {
 
 void Hub::join(const std::shared_ptr<Viewer>& viewer) {
   viewers_.insert(viewer);
-  viewer->tell(server_info(session_));
-  viewer->tell(advertisement(topics(), 0));
+  viewer->queue_text(server_info(session_));
+  viewer->queue_text(advertisement(topics(), 0));
 }
 
 void Hub::leave(const std::shared_ptr<Viewer>& viewer) {
@@ -81,16 +81,16 @@ void Hub::finish() {
 
 void Hub::change(Viewer& viewer, const SetParameters& wanted) {
   if (!changes_.allows(1)) {
-    return viewer.tell(status(Level::error, "settings are changed at most " +
-                                                std::to_string(kMostChangesASecond) + " times a second"));
+    return viewer.queue_text(status(Level::error, "too many changes of settings: the limit is " +
+                                                      std::to_string(kMaxChangesPerSecond) + " a second"));
   }
   const std::string problem =
       settings_ == nullptr ? "there are no settings" : settings_->change(wanted.object);
-  if (!problem.empty()) viewer.tell(status(Level::error, problem));
+  if (!problem.empty()) viewer.queue_text(status(Level::error, problem));
   if (settings_ == nullptr) return;
-  tell_settings();
+  send_settings();
   if (!wanted.id.empty() || !problem.empty())
-    viewer.tell(parameter_values(settings_->values(), wanted.names, wanted.id));
+    viewer.queue_text(parameter_values(settings_->values(), wanted.names, wanted.id));
 }
 
 void Hub::handle(Viewer& viewer, const Request& request) {
@@ -101,24 +101,26 @@ void Hub::handle(Viewer& viewer, const Request& request) {
     for (const std::uint32_t subscription : unwanted->subscriptions)
       viewer.unsubscribe(subscription);
   } else if (const auto* get = std::get_if<GetParameters>(&request)) {
-    viewer.tell(parameter_values(settings_ == nullptr ? "{}" : settings_->values(), get->names, get->id));
+    viewer.queue_text(
+        parameter_values(settings_ == nullptr ? "{}" : settings_->values(), get->names, get->id));
   } else if (const auto* set = std::get_if<SetParameters>(&request)) {
     change(viewer, *set);
   } else if (const auto* watch = std::get_if<WatchParameters>(&request)) {
     viewer.watch_settings(watch->watch);
   } else {
-    viewer.tell(status(Level::error, std::get<Unknown>(request).why));
+    viewer.queue_text(status(Level::error, std::get<InvalidRequest>(request).why));
   }
 }
 
-void Hub::remark(const std::string& line) {
+void Hub::add_warning(const std::string& line) {
   const std::lock_guard lock(mutex_);
-  if (std::exchange(last_remark_, line) != line && remarks_.size() < kMostRemarks) remarks_.push_back(line);
+  if (std::exchange(last_warning_, line) != line && warnings_.size() < kMaxStoredWarnings)
+    warnings_.push_back(line);
 }
 
-std::vector<std::string> Hub::take_remarks() {
+std::vector<std::string> Hub::take_warnings() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(remarks_, {});
+  return std::exchange(warnings_, {});
 }
 
 }  // namespace pcl_bv::live

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What all viewers share: channels, settings, who reads what.
+// The state that all viewers share: channels, settings and the set of viewers.
 #pragma once
 
 #include <atomic>
@@ -22,16 +22,16 @@ class Viewer;
 
 using Bytes = std::shared_ptr<const std::vector<std::byte>>;
 
-/// `readers` from any thread.
+/// A topic and the number of its readers. Any thread may use `readers`.
 struct Channel {
   MessageTopic topic;
   std::atomic<int> readers{0};
 };
 
-/// So much a second.
+/// Allows at most `limit` units per second.
 class RateLimit {
  public:
-  explicit RateLimit(std::size_t most) : most_(most) {}
+  explicit RateLimit(std::size_t limit) : limit_(limit) {}
   bool allows(std::size_t more) {
     const auto now = std::chrono::steady_clock::now();
     if (now - second_ > std::chrono::seconds(1)) {
@@ -39,35 +39,37 @@ class RateLimit {
       used_ = 0;
     }
     used_ += more;
-    return used_ <= most_;
+    return used_ <= limit_;
   }
 
  private:
-  std::size_t most_, used_ = 0;
+  std::size_t limit_, used_ = 0;
   std::chrono::steady_clock::time_point second_{};
 };
 
-/// Used by the server's thread only, but for what says otherwise.
+/// Used only by the server's thread, except where a member function says otherwise.
 class Hub {
  public:
-  static constexpr std::size_t kMostChangesASecond =
-      50;                                          ///< Of settings, by all viewers: each costs up to 1 ms.
-  static constexpr std::size_t kMostRemarks = 10;  ///< Until they are taken.
+  /// Changes of settings by all viewers together. A change takes up to 1 ms.
+  static constexpr std::size_t kMaxChangesPerSecond = 50;
+  static constexpr std::size_t kMaxStoredWarnings = 10;  ///< Stored for take_warnings().
 
   explicit Hub(std::string session) : session_(std::move(session)) {}
 
   void add(std::shared_ptr<Channel> channel);
   void publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
 
-  /// To all viewers, at most one a second; of those in between their number is said.
+  /// Sends a warning to all viewers, at most one per second. The next warning gives the number of warnings
+  /// that were skipped.
   void notice(const std::string& line);
 
   void offer(std::shared_ptr<RemoteSettings> settings);
 
-  /// Tells those who watch the settings their values, if these are not what was told last.
-  void tell_settings();
+  /// Sends the values of the settings to the viewers that watch them, if the values have changed since the
+  /// last time.
+  void send_settings();
 
-  /// RemoteSettings::description(), "[]" where there are none.
+  /// Returns RemoteSettings::description(), or "[]" if there are no settings.
   std::string description() const;
 
   void join(const std::shared_ptr<Viewer>& viewer);
@@ -75,12 +77,12 @@ class Hub {
   std::size_t viewers() const { return viewers_.size(); }
   void handle(Viewer& viewer, const Request& request);
 
-  /// Viewers get what waits for them, and then the end.
+  /// Closes the connections of all viewers after sending their queued messages.
   void finish();
 
-  /// For people; from any thread. One like the last is not noted.
-  void remark(const std::string& line);
-  std::vector<std::string> take_remarks();
+  /// Stores a warning for take_warnings(), unless it equals the previous one. Any thread may call these two.
+  void add_warning(const std::string& line);
+  std::vector<std::string> take_warnings();
 
   const std::vector<std::shared_ptr<Channel>>& channels() const { return channels_; }
 
@@ -92,14 +94,14 @@ class Hub {
   std::vector<std::shared_ptr<Channel>> channels_;
   std::set<std::shared_ptr<Viewer>> viewers_;
   std::shared_ptr<RemoteSettings> settings_;
-  std::string told_;
+  std::string sent_values_;
   std::int64_t last_time_ns_ = INT64_MIN;
-  std::chrono::steady_clock::time_point noticed_{};
-  std::uint64_t unsaid_ = 0;
-  RateLimit changes_{kMostChangesASecond};
+  std::chrono::steady_clock::time_point last_notice_time_{};
+  std::uint64_t skipped_notices_ = 0;
+  RateLimit changes_{kMaxChangesPerSecond};
   std::mutex mutex_;
-  std::vector<std::string> remarks_;
-  std::string last_remark_;
+  std::vector<std::string> warnings_;
+  std::string last_warning_;
 };
 
 }  // namespace pcl_bv::live

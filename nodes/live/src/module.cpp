@@ -10,10 +10,10 @@ namespace {
 class WebSockets final : public Middleware {
  public:
   std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string&) override {
-    throw std::invalid_argument(in_quotes(topic) + ": nothing is received from viewers");
+    throw std::invalid_argument(in_quotes(topic) + ": ws: cannot be used as a source");
   }
-  std::unique_ptr<MessageCarrier> carrier(const std::string& place) override {
-    return std::make_unique<Server>(place);
+  std::unique_ptr<MessageSender> carrier(const std::string& address) override {
+    return std::make_unique<Server>(address);
   }
 };
 

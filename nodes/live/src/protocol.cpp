@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// So that plots can be made of its numbers.
+// JSON schema of a frame's report. Foxglove needs it to plot the numbers.
 constexpr const char* kFrameSchema = R"({"title":"pcl_bv.Frame","type":"object","properties":{
 "schema":{"type":"integer"},"seq":{"type":"integer"},"stamp_ns":{"type":"integer"},"frame_id":{"type":"string"},
 "file":{"type":"string"},"error":{"type":"string"},"points":{"type":"integer"},
@@ -28,21 +28,22 @@ std::string text_of(const AnyJson& json) {
   return json.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
 }
 
-using FromClient = JsonFromOutside;
+using FromClient = UntrustedJson;
 
-struct TooMuch {
+struct LimitExceeded {
   const char* why;
 };
 
 const FromClient& list_of(const FromClient& request, const char* key) {
   const FromClient& list = request.at(key);
-  if (list.size() > kMaxNames) throw TooMuch{"a request names at most 100 things"};
+  if (list.size() > kMaxNames)
+    throw LimitExceeded{"a request may name at most 100 settings, channels or subscriptions"};
   return list;
 }
 
 std::string id_of(const FromClient& request) {
   std::string id = request.value("id", "");
-  if (id.size() > kMaxIdLength) throw TooMuch{"an id has at most 200 bytes"};
+  if (id.size() > kMaxIdLength) throw LimitExceeded{"an id has at most 200 bytes"};
   return id;
 }
 
@@ -86,7 +87,7 @@ Request request_of(const FromClient& request) {
   if (op == "setParameters") return set_parameters(request);
   if (op == "subscribeParameterUpdates") return WatchParameters{true};
   if (op == "unsubscribeParameterUpdates") return WatchParameters{false};
-  return Unknown{in_quotes(op) + " is not supported here"};
+  return InvalidRequest{in_quotes(op) + " is not supported here"};
 }
 
 }  // namespace
@@ -149,31 +150,31 @@ std::string parameter_values(const std::string& settings, const std::vector<std:
   return text_of(json);
 }
 
-MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns) {
-  MessageHead head{1};
+MessageHeader message_header(std::uint32_t subscription, std::int64_t stamp_ns) {
+  MessageHeader header{1};
   for (std::size_t i = 0; i < 4; ++i)
-    head[1 + i] = static_cast<unsigned char>(subscription >> (8 * i));
+    header[1 + i] = static_cast<unsigned char>(subscription >> (8 * i));
   for (std::size_t i = 0; i < 8; ++i)
-    head[5 + i] = static_cast<unsigned char>(static_cast<std::uint64_t>(stamp_ns) >> (8 * i));
-  return head;
+    header[5 + i] = static_cast<unsigned char>(static_cast<std::uint64_t>(stamp_ns) >> (8 * i));
+  return header;
 }
 
 std::string time_message(std::int64_t stamp_ns) {
-  const MessageHead head = message_head(0, stamp_ns);
-  return '\2' + std::string(head.begin() + 5, head.end());
+  const MessageHeader header = message_header(0, stamp_ns);
+  return '\2' + std::string(header.begin() + 5, header.end());
 }
 
 Request parse_request(const std::string& text) {
   try {
     const FromClient request = read_json(text);
-    if (!request.is_object()) return Unknown{"a request is an object of JSON"};
+    if (!request.is_object()) return InvalidRequest{"a request must be a JSON object"};
     return request_of(request);
   } catch (const IoError& error) {
-    return Unknown{std::string("a request is an object of JSON: ") + error.what()};
-  } catch (const TooMuch& error) {
-    return Unknown{error.why};
+    return InvalidRequest{std::string("a request must be a JSON object: ") + error.what()};
+  } catch (const LimitExceeded& error) {
+    return InvalidRequest{error.why};
   } catch (const FromClient::exception&) {
-    return Unknown{"a request lacks a field, or has one of another type"};
+    return InvalidRequest{"a request lacks a field or has a field of the wrong type"};
   }
 }
 

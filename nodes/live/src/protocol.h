@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Foxglove's WebSocket protocol: what is said, without a network.
+// Foxglove's WebSocket protocol: formats and parses its messages, without network access.
 #pragma once
 
 #include <array>
@@ -14,34 +14,35 @@
 #include <variant>
 #include <vector>
 
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::live {
 
-/// The first of a client's subprotocols, as its header lists them, that is one of the protocol's two names.
+/// Returns the first name in a client's header Sec-WebSocket-Protocol that is foxglove.sdk.v1 or
+/// foxglove.websocket.v1, or nothing.
 std::optional<std::string> known_subprotocol(std::string_view offered);
 
 std::string server_info(const std::string& session);
-/// Of topics by their numbers, which are those of their channels.
+/// Advertises the topics from index `first` on. The index of a topic is the id of its channel.
 std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t first);
 
 enum class Level : std::uint8_t { info, warning, error };
 std::string status(Level level, const std::string& message);
 
-/// Of settings by key (RemoteSettings::values()), those that are asked for, or all if none are; `id` of the
-/// request.
+/// Returns the values of the settings in `names`, or of all settings if `names` is empty. `settings` is the
+/// text of RemoteSettings::values(), `id` the id of the request or empty.
 std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,
                              const std::string& id);
 
-/// What comes before the bytes of a message.
-using MessageHead = std::array<unsigned char, 13>;
-MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns);
+/// The header before a message's bytes: opcode, subscription id and stamp.
+using MessageHeader = std::array<unsigned char, 13>;
+MessageHeader message_header(std::uint32_t subscription, std::int64_t stamp_ns);
 
 std::string time_message(std::int64_t stamp_ns);
 
 struct Subscribe {
   std::vector<std::pair<std::uint32_t, std::size_t>>
-      subscriptions;  ///< Their numbers, and those of the channels.
+      subscriptions;  ///< Subscription id and channel id of each.
 };
 struct Unsubscribe {
   std::vector<std::uint32_t> subscriptions;
@@ -51,25 +52,27 @@ struct GetParameters {
   std::string id;
 };
 struct SetParameters {
-  std::string object;  ///< As RemoteSettings::change() takes it.
+  std::string object;  ///< The argument of RemoteSettings::change().
   std::vector<std::string> names;
   std::string id;
 };
 struct WatchParameters {
   bool watch = true;
 };
-struct Unknown {
+/// An invalid or unsupported request.
+struct InvalidRequest {
   std::string why;
 };
-using Request = std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, Unknown>;
+using Request =
+    std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, InvalidRequest>;
 
-/// What one request may name, and how much of it comes back in answers: an answer is never much longer than
-/// the settings' values, whatever was asked.
-inline constexpr std::size_t kMaxNames = 100;     ///< Settings, channels or subscriptions; there are some 30.
+/// Limits on a request and on its parts that an answer repeats, so that no answer is much longer than the
+/// settings' values.
+inline constexpr std::size_t kMaxNames = 100;     ///< Settings, channels or subscriptions; about 30 exist.
 inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes.
-inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status' message.
+inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status message.
 
-/// Any text: what makes no sense, or names too much, is Unknown.
+/// Parses any text. Invalid requests and requests over the limits give InvalidRequest.
 Request parse_request(const std::string& text);
 
 }  // namespace pcl_bv::live

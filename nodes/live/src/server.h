@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The server of the middleware "ws".
 #pragma once
 
 #include <atomic>
@@ -17,30 +18,30 @@
 
 namespace pcl_bv::live {
 
-/// Viewers on one port, in a thread of its own: who sends waits for nobody.
-class Server final : public MessageCarrier {
+/// Serves all viewers on one port in a thread of its own, so that send() never waits for a viewer.
+class Server final : public MessageSender {
  public:
-  /// Throws std::invalid_argument for what parse_address() does not know, IoError where nobody can listen
-  /// there.
-  explicit Server(const std::string& place);
+  /// Listens at the address, [HOST:]PORT. Throws std::invalid_argument as parse_address() does, IoError if
+  /// the port cannot be opened.
+  explicit Server(const std::string& address);
   ~Server() override;
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
   std::size_t add_topic(const MessageTopic& topic) override;
-  bool wanted(std::size_t topic) const override;
+  bool has_subscribers(std::size_t topic) const override;
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override;
-  void settings(const std::string& yaml, std::int64_t stamp_ns) override;
-  void offer(const std::shared_ptr<RemoteSettings>& settings) override;
-  void notice(const std::string& line) override;
-  std::vector<std::string> take_remarks() override;
+  void announce_settings(const std::string& yaml, std::int64_t stamp_ns) override;
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override;
+  void notify(const std::string& line) override;
+  std::vector<std::string> take_warnings() override;
   void close() override;
 
  private:
   void listen();
   void accept();
   template <class Do>
-  void in_its_thread(Do&& what);
+  void post_to_server_thread(Do&& what);
 
   Address address_;
   boost::asio::io_context io_{1};
@@ -48,7 +49,7 @@ class Server final : public MessageCarrier {
   boost::asio::ip::tcp::acceptor acceptor_{io_};
   Hub hub_;
   int connections_ = 0;
-  std::atomic<std::size_t> waiting_bytes_{0};  // of messages on their way to the server's thread
+  std::atomic<std::size_t> queued_bytes_{0};  // of the messages queued for the server's thread
   std::atomic<std::uint64_t> lost_{0};
   std::vector<std::shared_ptr<Channel>> channels_;
   std::promise<void> ended_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One WebSocket: its subscriptions, and what waits to be sent.
+// A client's WebSocket: its subscriptions and its queue of outgoing messages.
 #pragma once
 
 #include <boost/beast/core.hpp>
@@ -20,25 +20,25 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
-  static constexpr std::size_t kMostViewers = 32;
-  static constexpr std::size_t kMostWaitingBytes = std::size_t{32}
-                                                   << 20;  ///< Of messages: 16 clouds of 2 MB.
-  static constexpr std::size_t kMostWaitingAnswers = 256;
-  /// Of a client in a second: reading them all keeps the others waiting for some milliseconds. 30 settings
-  /// are 2 kB.
-  static constexpr std::size_t kLongestRequest = std::size_t{64} << 10;
-  static constexpr std::size_t kMostRequestBytesASecond = 4 * kLongestRequest;
-  static constexpr std::size_t kMostRequestsASecond = 200;
+  static constexpr std::size_t kMaxViewers = 32;
+  static constexpr std::size_t kMaxQueuedBytes = std::size_t{32} << 20;  ///< 16 clouds of 2 MB.
+  static constexpr std::size_t kMaxQueuedAnswers = 256;
+  /// Limits on a client's requests: parsing the requests of one second delays other clients by some
+  /// milliseconds. A request with 30 settings has 2 kB.
+  static constexpr std::size_t kMaxRequestBytes = std::size_t{64} << 10;
+  static constexpr std::size_t kMaxRequestBytesPerSecond = 4 * kMaxRequestBytes;
+  static constexpr std::size_t kMaxRequestsPerSecond = 200;
 
   Viewer(boost::beast::tcp_stream&& stream, Hub& hub) : ws_(std::move(stream)), hub_(hub) {}
 
   void start(const HttpRequest& request, const std::string& subprotocol);
 
-  /// A text that has to arrive. A client that leaves too many of them unread is cut off.
-  void tell(const std::string& text);
+  /// Queues a text that is never dropped. A client with kMaxQueuedAnswers unread texts is disconnected.
+  void queue_text(const std::string& text);
 
-  /// A message, if it is subscribed. Where too much waits already, all messages that wait are dropped for it,
-  /// and it counts as no reader until it reads on: a viewer that hangs costs nobody the making of messages.
+  /// Queues a message if the client has subscribed to its channel. If the queue would exceed
+  /// kMaxQueuedBytes, the messages in the queue are dropped first, and the client is not counted as a
+  /// reader until it reads again. Messages are therefore not produced for a client that hangs.
   void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
   void send_time(std::int64_t stamp_ns);
 
@@ -47,12 +47,12 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void watch_settings(bool watch) { watches_settings_ = watch; }
   bool watches_settings() const { return watches_settings_; }
 
-  /// What waits is sent, then the connection is closed.
+  /// Sends the queue, then closes the connection.
   void finish();
 
  private:
   struct Outgoing {
-    std::string text;  // the whole of it, or what comes before `message`
+    std::string text;  // the whole text, or the header of `message`
     Bytes message;
     bool is_text = false;
     bool is_answer = false;
@@ -61,24 +61,24 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
   void read();
   void on_request();
-  void put(Outgoing outgoing);
-  void make_room();
+  void enqueue(Outgoing outgoing);
+  void drop_queued_messages();
   void count_as_reader(bool reads);
   void write();
   void on_written(const boost::system::error_code& error);
   void close(boost::beast::websocket::close_code code);
-  void end();
+  void drop_connection();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> ws_;
   Hub& hub_;
   boost::beast::flat_buffer buffer_;
-  std::deque<Outgoing> waiting_;  // the first is on its way if `writing_`
-  std::size_t waiting_bytes_ = 0, waiting_answers_ = 0;
+  std::deque<Outgoing> send_queue_;  // the first is being sent if `writing_`
+  std::size_t queued_bytes_ = 0, queued_answers_ = 0;
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
-  bool counts_ = true;                                  // as a reader of what it has subscribed
-  std::map<std::size_t, std::uint32_t> subscriptions_;  // by channel
-  RateLimit requests_{kMostRequestsASecond}, request_bytes_{kMostRequestBytesASecond};
+  bool counted_as_reader_ = true;                       // in `readers` of the subscribed channels
+  std::map<std::size_t, std::uint32_t> subscriptions_;  // channel id -> subscription id
+  RateLimit requests_{kMaxRequestsPerSecond}, request_bytes_{kMaxRequestBytesPerSecond};
 };
 
 }  // namespace pcl_bv::live

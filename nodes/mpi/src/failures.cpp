@@ -9,7 +9,7 @@ namespace pcl_bv {
 namespace {
 
 void write(const TileHeader& header, std::ostream& out) {
-  out << header.points << ' ' << size_of(header.scalar) << ' ' << header.by_position << ' '
+  out << header.points << ' ' << size_of(header.scalar) << ' ' << header.random_access << ' '
       << header.error.has_value() << ' ' << header.error.value_or("").size() << ' ' << header.note.size()
       << ' ' << header.error.value_or("") << header.note << '\n';
 }
@@ -18,7 +18,7 @@ TileHeader read_header(std::istream& in) {
   TileHeader header;
   std::size_t scalar = 0, length = 0, note_length = 0;
   bool failed = false;
-  in >> header.points >> scalar >> header.by_position >> failed >> length >> note_length;
+  in >> header.points >> scalar >> header.random_access >> failed >> length >> note_length;
   header.scalar = scalar == 8 ? ScalarType::float64 : ScalarType::float32;
   in.get();
   std::string error(length, '\0');
@@ -31,9 +31,9 @@ TileHeader read_header(std::istream& in) {
 
 }  // namespace
 
-std::optional<TileFailure> agreed(Ranks& ranks, const std::optional<TileFailure>& own) {
+std::optional<TileFailure> first_failure(Ranks& ranks, const std::optional<TileFailure>& own) {
   const std::string text = own ? std::to_string(own->tile) + ' ' + own->reason : std::string();
-  for (const std::string& each : ranks.all(text)) {
+  for (const std::string& each : ranks.all_gather(text)) {
     if (each.empty()) continue;
     const std::size_t space = each.find(' ');
     return TileFailure{std::stoul(each.substr(0, space)), each.substr(space + 1)};
@@ -47,7 +47,7 @@ std::vector<TileHeader> describe_tiles(Ranks& ranks, const std::vector<Job>& job
     write(describe_tile(jobs[i]), own);
   std::vector<TileHeader> headers(jobs.size());
   std::size_t rank = 0;
-  for (const std::string& text : ranks.all(own.str())) {
+  for (const std::string& text : ranks.all_gather(own.str())) {
     std::istringstream in(text);
     for (std::size_t i = rank; i < jobs.size(); i += ranks.size())
       headers[i] = read_header(in);

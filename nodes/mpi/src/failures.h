@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What fails on one rank is known to all before the next step, or they would wait for it.
+// Failures of tiles. All ranks learn of a failure before the next step, because they would otherwise wait for
+// the failed rank.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "pcd_bv/tiles.h"
+#include "commands/pcd_bv/tiles.h"
 #include "ranks.h"
 
 namespace pcl_bv {
@@ -19,9 +20,9 @@ struct TileFailure {
   std::string reason;
 };
 
-/// Does what reads tiles; if one fails, which.
+/// Calls work(), which reads tiles. Returns the failure if a tile cannot be read.
 template <typename Work>
-std::optional<TileFailure> attempt(const Work& work) {
+std::optional<TileFailure> run_and_catch(const Work& work) {
   try {
     work();
     return std::nullopt;
@@ -30,10 +31,10 @@ std::optional<TileFailure> attempt(const Work& work) {
   }
 }
 
-/// The failure of the lowest rank that has one, the same for all ranks, which all call this.
-std::optional<TileFailure> agreed(Ranks& ranks, const std::optional<TileFailure>& own);
+/// Collective call: returns the failure of the lowest rank that has one, the same on all ranks.
+std::optional<TileFailure> first_failure(Ranks& ranks, const std::optional<TileFailure>& own);
 
-/// Headers of all tiles, of which each rank has read its share.
+/// Collective call: returns the headers of all tiles. Each rank reads its share of the tiles.
 std::vector<TileHeader> describe_tiles(Ranks& ranks, const std::vector<Job>& jobs);
 
 }  // namespace pcl_bv

@@ -1,51 +1,52 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command pcd_bv_mpi: pcd_bv over the ranks of MPI.
+// The command pcd_bv_mpi: pcd_bv distributed over MPI ranks.
 
 #include <exception>
 #include <functional>
 #include <new>
 
-#include "command/interruption.h"
-#include "command/messages.h"
-#include "command/run_command.h"
-#include "command/values.h"
-#include "dealt.h"
+#include "commands/pcd_bv/ordered_results.h"
+#include "commands/shared/interruption.h"
+#include "commands/shared/messages.h"
+#include "commands/shared/run_command.h"
+#include "commands/shared/values.h"
+#include "distributed_jobs.h"
 #include "failures.h"
-#include "pcd_bv/in_order.h"
+#include "merged_cloud.h"
 #include "ranks.h"
-#include "together.h"
 
 namespace pcl_bv {
 namespace {
 
-/// Does what every rank does to the same end, unless one finds the use wrong: then none goes on, and the
-/// first rank says why.
-bool all_do(Ranks& ranks, const std::function<void()>& work) {
+/// Collective call: calls work(), which gives the same result on every rank. The first rank prints its
+/// warnings. If work() throws UsageError on any rank, all ranks return false and the first rank prints the
+/// reason.
+bool run_on_all_ranks(Ranks& ranks, const std::function<void()>& work) {
   std::string problem;
   {
-    const HeldComplaints held;
+    const DeferredMessages held;
     try {
       work();
     } catch (const UsageError& error) {
       problem = error.what();
     }
     if (ranks.first()) {
-      for (const std::string& complaint : held.kept)
-        say(complaint);
+      for (const std::string& complaint : held.messages)
+        print_message(complaint);
     }
   }
-  for (const std::string& each : ranks.all(problem)) {
+  for (const std::string& each : ranks.all_gather(problem)) {
     if (each.empty()) continue;
-    if (ranks.first()) complain(each);
+    if (ranks.first()) report_problem(each);
     return false;
   }
   return true;
 }
 
-void refuse_for_ranks(const Options& options) {
-  if (options.together && (options.image || options.view_html || options.info))
+void check_options_for_ranks(const Options& options) {
+  if (options.tiled && (options.image || options.view_html || options.info))
     throw UsageError("--together: cannot be combined with --image, --view-html or --info over ranks");
 }
 
@@ -56,53 +57,54 @@ std::string names_of(const std::vector<Job>& inputs) {
   return names;
 }
 
-Status process_together(Ranks& ranks, const Job& job, const Options& options, WhenInterrupted& interrupted) {
+Status process_merged(Ranks& ranks, const Job& job, const Options& options, InterruptAction& interrupted) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = fit_together(ranks, *job.tiles, options, outcome.report);
-  } catch (const IoError& error) {  // of all ranks
+    outcome.status = fit_merged(ranks, *job.tiles, options, outcome.report);
+  } catch (const IoError& error) {  // thrown on all ranks
     outcome.report.error = error.what();
     outcome.status = Status::failed;
   }
   if (!ranks.first()) return Status::done;
   if (outcome.report.error) {
-    complain(job.input + ": " + *outcome.report.error);
+    report_problem(job.input + ": " + *outcome.report.error);
   } else {
     outcome.status = worse(outcome.status, write_mesh(job, outcome.report.clusters));
   }
-  InOrder order(options, 1, 1);
+  OrderedResults order(options, 1, 1);
   interrupted.set([&] { order.interrupt(); });
-  order.take(0, result_of(outcome, options.format));
+  order.add_result(0, result_of(outcome, options.format));
   const Status status = order.finish();
   interrupted.set(nullptr);
   return status;
 }
 
-int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
-  std::variant<Options, std::string> asked;
+int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
+  std::variant<Options, std::string> parsed;
   std::vector<Job> inputs, jobs;
-  const bool understood = all_do(ranks, [&] {
-    asked = parse_options(argc, argv, PcdBvCommand::ranks);
-    const auto* const options = std::get_if<Options>(&asked);
+  const bool valid = run_on_all_ranks(ranks, [&] {
+    parsed = parse_options(argc, argv, PcdBvCommand::mpi);
+    const auto* const options = std::get_if<Options>(&parsed);
     if (options == nullptr) return;
-    refuse_for_ranks(*options);
+    check_options_for_ranks(*options);
     inputs = list_inputs(*options);
   });
-  if (!understood) return static_cast<int>(Status::misuse);
-  if (const auto* text = std::get_if<std::string>(&asked)) return ranks.first() ? print(*text) : 0;
-  Options options = std::get<Options>(asked);
-  if (!options.threads_given) options.pipeline.threads = 1;  // as many ranks as processors are the rule
+  if (!valid) return static_cast<int>(Status::misuse);
+  if (const auto* text = std::get_if<std::string>(&parsed)) return ranks.first() ? print_text(*text) : 0;
+  Options options = std::get<Options>(parsed);
+  if (!options.threads_given) options.pipeline.threads = 1;  // usually there is one rank per processor
   if (ranks.broadcast(names_of(inputs)) != names_of(inputs))
-    throw IoError("sees other inputs than rank 0: all ranks need the same files at the same paths");
+    throw IoError(
+        "the list of inputs differs from that of rank 0: all ranks need the same files at the same paths");
   std::shared_ptr<Tiles> tiles;
-  if (options.together)
+  if (options.tiled)
     tiles = std::make_shared<Tiles>(inputs, describe_tiles(ranks, inputs),
-                                    thread_count(options.pipeline.policy()));
-  if (!all_do(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
+                                    thread_count(options.pipeline.parallel_policy()));
+  if (!run_on_all_ranks(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
     return static_cast<int>(Status::misuse);
-  const Status status = options.together ? process_together(ranks, jobs.front(), options, interrupted)
-                                         : process_dealt(ranks, jobs, options, interrupted);
+  const Status status = options.tiled ? process_merged(ranks, jobs.front(), options, interrupted)
+                                      : process_jobs(ranks, jobs, options, interrupted);
   return static_cast<int>(status);
 }
 
@@ -112,8 +114,8 @@ int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
 int main(int argc, char** argv) {
   using namespace pcl_bv;
   return run_command("pcd_bv_mpi", [&]() -> int {
-    WhenInterrupted interrupted;
-    const Interruption interruption([&] { interrupted(); });  // before MPI has threads
+    InterruptAction interrupted;
+    const Interruption interruption([&] { interrupted(); });  // before MPI starts its threads
     Ranks ranks(&argc, &argv);
     std::string reason;
     try {
@@ -124,7 +126,7 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
       reason = error.what();
     }
-    say("rank " + std::to_string(ranks.rank()) + ": " + reason);
-    Ranks::abort();  // the others may wait for this one
+    print_message("rank " + std::to_string(ranks.rank()) + ": " + reason);
+    Ranks::abort();  // the other ranks may be waiting for this rank
   });
 }

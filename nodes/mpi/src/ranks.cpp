@@ -18,20 +18,20 @@ static_assert(sizeof(std::size_t) == sizeof(unsigned long));
 
 int length(const std::string& text) {
   if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw std::length_error("a message of more than 2 GiB: the hull of this cloud is too large to be sent");
+    throw std::length_error("message larger than 2 GiB: the hull of this cloud is too large for MPI");
   return static_cast<int>(text.size());
 }
 
-struct Answer {
+struct FarthestMessage {
   OctantPoints farthest;
   bool failed;
 };
 
-extern "C" void merge_answers(void* from, void* to, int* count, MPI_Datatype*) {
-  const auto* const a = static_cast<const Answer*>(from);
-  auto* const b = static_cast<Answer*>(to);
+extern "C" void merge_messages(void* from, void* to, int* count, MPI_Datatype*) {
+  const auto* const a = static_cast<const FarthestMessage*>(from);
+  auto* const b = static_cast<FarthestMessage*>(to);
   for (int i = 0; i < *count; ++i) {
-    keep_farthest(a[i].farthest, b[i].farthest);
+    update_farthest(a[i].farthest, b[i].farthest);
     b[i].failed = b[i].failed || a[i].failed;
   }
 }
@@ -53,7 +53,7 @@ Ranks::~Ranks() {
 
 void Ranks::abort() {
   MPI_Abort(MPI_COMM_WORLD, 1);
-  std::abort();  // unless MPI has ended it
+  std::abort();  // in case MPI_Abort() returns
 }
 
 std::string Ranks::broadcast(const std::string& text, std::size_t from) {
@@ -66,22 +66,23 @@ std::string Ranks::broadcast(const std::string& text, std::size_t from) {
   return copy;
 }
 
-std::vector<std::string> Ranks::all(const std::string& text) {
+std::vector<std::string> Ranks::all_gather(const std::string& text) {
   const int own = length(text);
-  std::vector<int> lengths(size_), places(size_);
+  std::vector<int> lengths(size_), offsets(size_);
   MPI_Allgather(&own, 1, MPI_INT, lengths.data(), 1, MPI_INT, MPI_COMM_WORLD);
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    places[i] = static_cast<int>(bytes);
+    offsets[i] = static_cast<int>(bytes);
     bytes += static_cast<std::size_t>(lengths[i]);
   }
   std::string joined(bytes, '\0');
   length(joined);
-  MPI_Allgatherv(text.data(), own, MPI_BYTE, joined.data(), lengths.data(), places.data(), MPI_BYTE,
+  MPI_Allgatherv(text.data(), own, MPI_BYTE, joined.data(), lengths.data(), offsets.data(), MPI_BYTE,
                  MPI_COMM_WORLD);
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < size_; ++i)
-    texts.push_back(joined.substr(static_cast<std::size_t>(places[i]), static_cast<std::size_t>(lengths[i])));
+    texts.push_back(
+        joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(lengths[i])));
   return texts;
 }
 
@@ -91,23 +92,23 @@ std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) {
   return numbers;
 }
 
-std::vector<double> Ranks::least(std::vector<double> numbers) {
+std::vector<double> Ranks::min_over_ranks(std::vector<double> numbers) {
   MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MIN,
                 MPI_COMM_WORLD);
   return numbers;
 }
 
-bool Ranks::farthest(const OctantPoints& own, bool failed, OctantPoints& of_all) {
-  Answer answer{own, failed}, merged{};
+bool Ranks::merge_farthest(const OctantPoints& own, bool failed, OctantPoints& of_all) {
+  FarthestMessage message{own, failed}, merged{};
   MPI_Datatype type = MPI_DATATYPE_NULL;
   MPI_Op op = MPI_OP_NULL;
-  MPI_Type_contiguous(sizeof answer, MPI_BYTE, &type);
+  MPI_Type_contiguous(sizeof message, MPI_BYTE, &type);
   MPI_Type_commit(&type);
-  MPI_Op_create(merge_answers, 1, &op);
-  MPI_Allreduce(&answer, &merged, 1, type, op, MPI_COMM_WORLD);
+  MPI_Op_create(merge_messages, 1, &op);
+  MPI_Allreduce(&message, &merged, 1, type, op, MPI_COMM_WORLD);
   MPI_Op_free(&op);
   MPI_Type_free(&type);
-  bytes_sent_ += sizeof answer;
+  bytes_sent_ += sizeof message;
   ++messages_sent_;
   of_all = merged.farthest;
   return merged.failed;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The processes of a run, by the few ways in which they talk. What comes of an error of MPI's own is MPI's
-// business: it ends the run and says why.
+// The ranks of a run and their messages, by MPI. MPI handles its own errors: it ends the run and prints the
+// reason.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace pcl_bv {
 
 class Ranks {
  public:
-  Ranks(int* argc, char*** argv);  ///< Not to be made twice.
+  Ranks(int* argc, char*** argv);  ///< Initializes MPI: at most one object per process.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -29,33 +29,36 @@ class Ranks {
   /// Ends all ranks, with status 1.
   [[noreturn]] static void abort();
 
-  // All ranks have to call these in the same order. Texts are of up to 2^31 - 1 bytes.
+  // Collective calls: all ranks must call them in the same order. Texts have at most 2^31 - 1 bytes.
 
-  /// The first rank's.
+  /// Returns the text of the rank `from`.
   std::string broadcast(const std::string& text, std::size_t from = 0);
 
-  /// Those of all, by rank.
-  std::vector<std::string> all(const std::string& text);
+  /// Returns the texts of all ranks, by rank.
+  std::vector<std::string> all_gather(const std::string& text);
 
-  /// What all add up to, by place.
+  /// Returns the element-wise sums over all ranks.
   std::vector<std::size_t> sum(std::vector<std::size_t> numbers);
 
-  /// The least of all, by place.
-  std::vector<double> least(std::vector<double> numbers);
+  /// Returns the element-wise minima over all ranks.
+  std::vector<double> min_over_ranks(std::vector<double> numbers);
 
-  /// For the first rank the farthest of all; whether some rank has `failed`, for all.
-  bool farthest(const OctantPoints& own, bool failed, OctantPoints& of_all);
+  /// Sets `of_all` to the farthest points of all ranks. Returns whether any rank has `failed`.
+  bool merge_farthest(const OctantPoints& own, bool failed, OctantPoints& of_all);
 
-  // Messages of one rank to another.
+  // Messages from one rank to another.
 
   void send(const std::string& text, std::size_t to);
   std::string receive(std::size_t from);
 
-  /// A message of any rank to the first, if one is there; with `wait`, when one is.
+  /// Returns a message from any rank. If there is none, waits for one if `wait` is true, otherwise returns
+  /// nothing.
   std::optional<std::string> receive_any(bool wait);
 
-  std::size_t bytes_sent() const { return bytes_sent_; }        ///< By this rank, in send() and broadcast().
-  std::size_t messages_sent() const { return messages_sent_; }  ///< The same.
+  // Sent by send(), broadcast() and merge_farthest().
+
+  std::size_t bytes_sent() const { return bytes_sent_; }
+  std::size_t messages_sent() const { return messages_sent_; }
 
  private:
   std::size_t rank_ = 0, size_ = 1, bytes_sent_ = 0, messages_sent_ = 0;

@@ -24,8 +24,8 @@ struct Fixed {
 };
 static_assert(std::is_trivially_copyable_v<Fixed>);
 
-// Reasons are texts that are never freed.
-std::string_view kept(const std::string& reason) {
+// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
+std::string_view interned(const std::string& reason) {
   static std::set<std::string> reasons;
   return reason.empty() ? std::string_view() : *reasons.insert(reason).first;
 }
@@ -67,7 +67,7 @@ Fitted fitted_from(const std::string& bytes) {
   const double* const numbers = fixed.numbers.data();
   const Eigen::Map<const Eigen::Vector3d> center(numbers), half(numbers + 12);
   Fitted fitted;
-  fitted.result = {fixed.status, fixed.rank, fixed.used, fixed.dropped, kept(bytes.substr(sizeof fixed))};
+  fitted.result = {fixed.status, fixed.rank, fixed.used, fixed.dropped, interned(bytes.substr(sizeof fixed))};
   switch (fixed.shape) {
     case Shape::sphere:
       fitted.volume = Sphere(center, numbers[3]);

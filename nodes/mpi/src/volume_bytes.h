@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Serialization of fitted volumes, for messages between ranks.
 #pragma once
 
 #include <string>
@@ -10,17 +11,17 @@
 
 namespace pcl_bv {
 
-/// What a fit gave.
+/// The result of a fit.
 struct Fitted {
   EstimationResult result;
   AnyVolume volume;
 };
 
-/// For another rank, bit by bit: of spheres and boxes, as the methods give that pass over all points. Throws
-/// std::invalid_argument for other shapes.
+/// Serializes the exact bits of a Sphere or an Obb, the volumes of the methods that need all points and of
+/// `sphere-exact`. Throws std::invalid_argument for other volumes.
 std::string bytes_of(const Fitted& fitted);
 
-/// What bytes_of() gave on the same kind of machine.
+/// The inverse of bytes_of() on a machine with the same memory layout.
 Fitted fitted_from(const std::string& bytes);
 
 }  // namespace pcl_bv

@@ -17,13 +17,13 @@ namespace pcl_bv {
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics) {
   const StreamConfig config = config_of(parameters);
-  for (const std::string& line : config.pipeline.without_effect())
+  for (const std::string& line : config.pipeline.ineffective_settings())
     ROS_WARN_STREAM(name_ << ": " << line);
   if (const auto& field = config.pipeline.cluster.class_field) class_field_ = field->name;
   pipeline_ = FramePipeline(config.pipeline);
   runner_ = std::make_unique<StreamRunner>(callbacks(), config.runner);
-  const std::lock_guard lock(connecting_);
-  const auto changed = [this](const ros::SingleSubscriberPublisher&) { listen_while_wanted(); };
+  const std::lock_guard lock(subscription_mutex_);
+  const auto changed = [this](const ros::SingleSubscriberPublisher&) { update_subscription(); };
   markers_ = topics_.advertise<visualization_msgs::MarkerArray>("markers", 5, changed, changed);
   labels_ = topics_.advertise<sensor_msgs::PointCloud2>("labels", 2, changed, changed);
   diagnostics_ = topics_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 5);
@@ -41,20 +41,20 @@ StreamRunner::Callbacks ClusterVolumes::callbacks() {
   calls.process = [this](const Frame& frame, FrameResult& result) { pipeline_.process(frame, result); };
   calls.on_result = [this](const Frame& frame, const FrameResult& result) { publish(frame, result); };
   calls.on_lost = [this](const Frame&, Loss loss, const std::string& reason) {
-    health_.lost();
-    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": a cloud is lost: " << reason);
+    health_.count_lost();
+    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": cloud lost: " << reason);
   };
   calls.on_silence = [this](double seconds) {
-    if (listens_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
+    if (subscribed_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
   };
   return calls;
 }
 
-void ClusterVolumes::listen_while_wanted() {
-  const std::lock_guard lock(connecting_);
+void ClusterVolumes::update_subscription() {
+  const std::lock_guard lock(subscription_mutex_);
   const bool wanted = markers_.getNumSubscribers() + labels_.getNumSubscribers() > 0;
-  if (wanted == listens_) return;
-  listens_ = wanted;
+  if (wanted == subscribed_) return;
+  subscribed_ = wanted;
   if (wanted) {
     points_ =
         topics_.subscribe("points", 2, &ClusterVolumes::receive, this, ros::TransportHints().tcpNoDelay());
@@ -77,7 +77,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   runner_->push(std::move(frame));
 }
 
-// Messages are handed over, so that nodelets in the same manager get them without a copy.
+// Publishes shared pointers, so that nodelets in the same manager receive the messages without a copy.
 void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
   if (!frame.note.empty()) ROS_WARN_STREAM_THROTTLE(60, name_ << ": " << frame.note);
   if (labels_.getNumSubscribers() > 0) {
@@ -88,10 +88,10 @@ void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
   const std::int64_t lifetime = lifetime_.next(frame.header.stamp_ns);
   if (markers_.getNumSubscribers() > 0) {
     const auto markers = boost::make_shared<visualization_msgs::MarkerArray>();
-    fill_markers(frame, result, drawn(result), lifetime, shown_, *markers);
+    fill_markers(frame, result, viewer_shapes(result), lifetime, shown_, *markers);
     markers_.publish(markers);
   }
-  if (!health_.heeds(frame, result)) return;
+  if (!health_.record_frame(frame, result)) return;
   const auto array = boost::make_shared<diagnostic_msgs::DiagnosticArray>();
   health_.fill(frame, *array);
   array->status.front().name = name_ + ": objects in clouds";

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The ROS 1 node: clouds in, objects out.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -19,19 +20,20 @@
 
 namespace pcl_bv {
 
-/// Clouds on `points`, their objects on `markers` (visualization_msgs/MarkerArray), the points with the numbers of their
-/// objects on `labels`, and once a second how it goes on `/diagnostics`. Listens to clouds only while somebody listens to
-/// markers or labels. A cloud that cannot be read is counted and said at most every ten seconds.
+/// Subscribes to clouds on `points`. Publishes their objects on `markers` (visualization_msgs/MarkerArray),
+/// the points with the ids of their objects on `labels`, and once a second the node's state on
+/// `/diagnostics`. Subscribes to `points` only while `markers` or `labels` has subscribers. Counts clouds
+/// that cannot be read and logs a warning about them at most every ten seconds.
 class ClusterVolumes {
  public:
-  /// Throws ConfigError for parameters as config_of(), IoError for a file of regions that cannot be read.
+  /// Throws ConfigError for invalid parameters (config_of()), IoError if a file of regions cannot be read.
   ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters);
   ~ClusterVolumes();
   ClusterVolumes(const ClusterVolumes&) = delete;
   ClusterVolumes& operator=(const ClusterVolumes&) = delete;
 
  private:
-  void listen_while_wanted();
+  void update_subscription();
   void receive(const sensor_msgs::PointCloud2ConstPtr& cloud);
   void publish(const Frame& frame, const FrameResult& result);
   StreamRunner::Callbacks callbacks();
@@ -39,8 +41,8 @@ class ClusterVolumes {
   std::string name_, class_field_;
   ros::NodeHandle topics_;
   FramePipeline pipeline_;
-  std::mutex connecting_;
-  std::atomic<bool> listens_{false};
+  std::mutex subscription_mutex_;
+  std::atomic<bool> subscribed_{false};
   ros::Publisher markers_, labels_, diagnostics_;
   ros::Subscriber points_;
   ShownObjects shown_;

@@ -13,7 +13,7 @@ namespace pcl_bv {
 
 class ClusterVolumesNodelet : public nodelet::Nodelet {
  private:
-  // The manager lives on after an exception and says that the nodelet is not loaded, but not why.
+  // Log the reason here: the manager catches the exception and reports only that the nodelet is not loaded.
   void onInit() override {
     try {
       work_ = std::make_unique<ClusterVolumes>(getNodeHandle(), getPrivateNodeHandle());

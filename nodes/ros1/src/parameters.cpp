@@ -9,15 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {
 
-// Parameters are the only place where whole numbers have 32 bits: what they cannot hold is in the file.
+// Converts parameters to YAML. Their whole numbers have only 32 bits; larger ones must be in the file
+// `config`.
 YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
   constexpr int max_depth = 16;  // settings nest 4 deep
-  if (depth > max_depth) throw ConfigError("parameters are nested more than 16 deep");
+  if (depth > max_depth) throw ConfigError("parameters have more than 16 levels");
   using Value = XmlRpc::XmlRpcValue;
   YAML::Node node;
   switch (value.getType()) {
@@ -40,12 +41,13 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
         node[key] = yaml_of(inner, depth + 1);
       return node;
     default:
-      throw ConfigError("a parameter is neither a number, a text, a list nor a group of others");
+      throw ConfigError(
+          "a parameter has a type that is not supported (supported: number, text, bool, list, map)");
   }
 }
 
-// The lines are those of a text that nobody has seen.
-std::string without_line(std::string problem) {
+// Removes the line number from an error message, because it refers to a generated text.
+std::string without_line_number(std::string problem) {
   const std::size_t at = problem.find(": line ");
   if (at != std::string::npos) problem.erase(at, problem.find(':', at + 2) - at);
   return problem;
@@ -65,14 +67,14 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
     tree.remove(key);
     return text;
   };
-  take("num_worker_threads");  // of a nodelet manager that has only this nodelet
+  take("num_worker_threads");  // a parameter of a standalone nodelet's manager, not ours
   try {
     if (const std::string preset = take("preset"); !preset.empty()) apply_preset(preset, config.pipeline);
   } catch (const std::invalid_argument& error) {
     throw ConfigError(name + ": preset: " + error.what());
   }
   if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
-  if (tree["volumes"] && tree["volumes"].IsScalar()) {  // a command line has no lists: _volumes:=aabb,sphere
+  if (tree["volumes"] && tree["volumes"].IsScalar()) {  // from a command line: _volumes:=aabb,sphere
     std::vector<std::string> methods;
     read_text(tree["volumes"].Scalar(), methods);
     tree["volumes"] = methods;
@@ -80,7 +82,7 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
   try {
     return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), name, config);
   } catch (const ConfigError& error) {
-    throw ConfigError(without_line(error.what()));
+    throw ConfigError(without_line_number(error.what()));
   }
 }
 

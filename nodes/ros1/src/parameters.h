@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads the configuration from ROS parameters.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -9,8 +10,9 @@
 
 namespace pcl_bv {
 
-/// The parameters of a namespace as a configuration: `preset` first, then the file `config`, then parameters with the
-/// keys of such a file. Throws ConfigError for an unknown key and for a value that is not allowed.
+/// Returns the configuration from the parameters of a namespace. Applies the parameter `preset`, then the
+/// file that the parameter `config` names, then the parameters with the same keys as that file. Throws
+/// ConfigError for an unknown key or an invalid value.
 StreamConfig config_of(const ros::NodeHandle& parameters);
 
 }  // namespace pcl_bv

@@ -6,7 +6,7 @@
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/bounding_volume_estimation.h>
 #include <pcl_bv/estimation/fit_cloud.h>
-#include <pcl_bv/kernels/point_groups.h>
+#include <pcl_bv/points/point_groups.h>
 #include <pcl_bv/segmentation/extract_clusters.h>
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Polynomials on [0, 1] by their Bernstein coefficients: a polynomial is nowhere below the smallest of them.
+// Polynomials on [0, 1] in Bernstein form: a polynomial is nowhere below its smallest coefficient.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool any_negative(const std::array<double, n>& coefficients) {
   return *std::min_element(coefficients.begin(), coefficients.end()) < 0;
 }
 
-/// The value at t, by de Casteljau's scheme.
+/// Returns the value at t (de Casteljau's algorithm).
 template <std::size_t n>
 double value_at(std::array<double, n> coefficients, double t) {
   for (std::size_t left = n - 1; left > 0; --left) {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "box/flat_box.h"
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 
@@ -23,22 +23,23 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eige
   return high - low;
 }
 
-void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::View& view) {
+void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
+                  Silhouette::Projection& projection) {
   for (; times > 0 && !frame.done(); --times) {
     const int b = (frame.axis + 1) % 3, c = (frame.axis + 2) % 3;
     frame.axis = b;
     const Eigen::Vector3d u = frame.axes.col(b), v = frame.axes.col(c);
-    const std::vector<Eigen::Vector2d>& corners = shape.look(u, v, view);
-    const FlatBox box = least_rectangle(corners.data(), corners.size());
+    const std::vector<Eigen::Vector2d>& corners = shape.project(u, v, projection);
+    const Rectangle box = smallest_rectangle(corners.data(), corners.size());
     if (!(box.area() < frame.size[b] * frame.size[c] * (1 - smaller))) {
-      ++frame.in_vain;
+      ++frame.stuck_axes;
       continue;
     }
     frame.axes.col(b) = box.side.x() * u + box.side.y() * v;
     frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
     frame.size[b] = box.width;
     frame.size[c] = box.height;
-    frame.in_vain = 1;  // about this axis it cannot get better
+    frame.stuck_axes = 1;  // no further rotation about this axis can shrink the box
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A box on its way to a smaller one, turned about one of its axes after the other.
+// A box that shrinks as it is rotated about one of its axes after another.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,19 +13,21 @@ namespace pcl_bv {
 
 struct BoxFrame {
   Eigen::Matrix3d axes;
-  Eigen::Vector3d size;  ///< Along the axes.
-  int axis = 0;          ///< The next turn is about this one.
-  int in_vain = 0;       ///< Turns since the last that made the box smaller.
+  Eigen::Vector3d size;  ///< Extents along the axes.
+  int axis = 0;          ///< The next rotation is about this axis.
+  int stuck_axes = 0;    ///< Number of axes in a row about which no rotation shrinks the box.
 
   double volume() const { return size.prod(); }
-  bool done() const { return in_vain == 3; }
+  bool done() const { return stuck_axes == 3; }
 };
 
-/// The extents of the vertices along the axes.
+/// Returns the extents of the vertices along the axes.
 Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Matrix3d& axes);
 
-/// Turns the frame about its axes, `times` times or until no turn makes the box smaller by more than
-/// `smaller` of its area. A turn leads to the smallest box that has the axis.
-void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::View& view);
+/// Rotates the frame about one axis after another, each time to the smallest box that has this axis. Ends
+/// after `times` rotations, or when no rotation reduces the area across its axis by more than the fraction
+/// `smaller`.
+void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
+                  Silhouette::Projection& projection);
 
 }  // namespace pcl_bv

@@ -40,7 +40,7 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
   const Supports supports = find_supports(points, DirectionSet::dop14, SupportDetail::points, execution);
   if (supports.used > 0) {
     const LocalFrame frame(supports);
-    const Eigen::Matrix3d axes = dito_axes(few_points(points, supports, frame), supports, frame);
+    const Eigen::Matrix3d axes = dito_axes(support_or_all_points(points, supports, frame), supports, frame);
     const Aabb upright = aabb_of(supports);
     if (!axes.isIdentity(0)) box = measured_box(axes, points, supports, execution).canonical();
     if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
@@ -83,10 +83,10 @@ std::optional<Coordinates> first_valid(const PointView& points) {
   return std::nullopt;
 }
 
-// Few points all in double, a third of the time of the search on 300 of them. Rounding of n . q is 8 2^-53 of
-// |q|_1 at most, twice what it can be (obb.cpp); the sides of the points' box add up to no less than any
-// |q|_1, and the smallest normal covers products that underflow. Coordinate axes need none of that: the box
-// says exactly how far the points reach.
+// For few points: projects all of them in double, which takes a third of the time of the search on 300
+// points. The margin for the rounding of n . q is 8 2^-53 of |q|_1, twice the possible error
+// (volumes/src/obb.cpp). No |q|_1 exceeds the sum of the sides of the points' box; the smallest normal number
+// covers products that underflow. Coordinate axes need no margin, because the box is exact along them.
 Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                 UsableIsa isa) {
   const LoadedPoints loaded(points, 0, points.count);
@@ -110,7 +110,7 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
   return Obb::from_slabs(axes, from, low, high);
 }
 
-// Many points: floats reject nearly all of them, and the supports are exact.
+// For many points: the search rejects nearly all of them in floats, and the supports are exact.
 Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
   SupportDirections directions;

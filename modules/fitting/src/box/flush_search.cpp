@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A smallest box has two adjacent sides that each hold an edge of the hull (O'Rourke 1985). For two edges,
-// the normal of one side moves along the arc of its edge, n1 = (1 - t) a + t b, and the other is normal to it
-// and to its own edge: n2 is linear in t, too, and n3 = n1 x n2 quadratic. Over given far vertices, with d1,
-// d2, d3 from there to the vertices on the sides, the volume is (d1.n1)(d2.n2)(d3.n3) / (|n1|^2 |n2|^2), and
-// that of the box is the greatest over all vertices. So any six vertices whose quartic (d1.n1)(d2.n2)(d3.n3)
-// - v |n1|^2 |n2|^2 is not negative on a range of t prove that no box there is smaller than v. Ranges without
-// a proof are cut where the far vertices change.
+// A smallest box has two adjacent sides that each contain an edge of the hull (O'Rourke 1985). Take a pair of
+// edges. The normal of one side moves along the arc of its edge: n1 = (1 - t) a + t b. The normal of the
+// other side is perpendicular to n1 and to its own edge, so n2 is linear in t, too, and n3 = n1 x n2 is
+// quadratic.
+//
+// Take any six vertices, two for each normal, and let d1, d2, d3 be the vectors from the vertex on the low
+// side to the vertex on the high side. The volume over these six vertices is (d1.n1)(d2.n2)(d3.n3) /
+// (|n1|^2 |n2|^2). The volume of the box around the hull is the maximum of this over all choices of vertices.
+// So if for one choice the quartic (d1.n1)(d2.n2)(d3.n3) - v |n1|^2 |n2|^2 is not negative on a range of t,
+// no box in this range is smaller than v. A range without such a proof is divided where the support vertices
+// change.
 
 #include "box/flush_search.h"
 
@@ -27,30 +31,30 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The normals of two adjacent sides, on a range of t, and the arcs that they are on.
-struct Swing {
+// The normals of two adjacent sides at both ends of a range of t, and the arcs that the normals are on.
+struct NormalRange {
   std::array<Vector3d, 2> first, second;
   const GaussArcs::Arc *one, *other;
 
   Vector3d first_at(double t) const { return first[0] + t * (first[1] - first[0]); }
   Vector3d second_at(double t) const { return second[0] + t * (second[1] - second[0]); }
-  Swing part(double from, double to) const {
+  NormalRange part(double from, double to) const {
     return {{first_at(from), first_at(to)}, {second_at(from), second_at(to)}, one, other};
   }
 };
 
-// From the vertex at the low side to the one at the high side, for each direction of a box.
-struct Across {
+// The vectors from the vertex on the low side to the vertex on the high side, for each direction of a box.
+struct Widths {
   Vector3d first, second, third;
 };
 
-// Numbers of the vertices at the low and the high side of each direction.
-using Ends = std::array<std::int32_t, 6>;
+// Indices of the vertices on the low and the high side of each direction.
+using SupportVertices = std::array<std::int32_t, 6>;
 
-// A box around all vertices, or over some.
+// A box over six vertices: around the whole hull, if these are the support vertices.
 struct Measured {
-  Across across;
-  Ends ends;
+  Widths widths;
+  SupportVertices supports;
   double volume;
 };
 
@@ -62,7 +66,7 @@ Quadratic square(const std::array<Vector3d, 2>& n) {
   return {dot3(n[0], n[0]), dot3(n[0], n[1]), dot3(n[1], n[1])};
 }
 
-std::array<Vector3d, 3> third(const Swing& s) {
+std::array<Vector3d, 3> third(const NormalRange& s) {
   return {cross3(s.first[0], s.second[0]),
           0.5 * (cross3(s.first[0], s.second[1]) + cross3(s.first[1], s.second[0])),
           cross3(s.first[1], s.second[1])};
@@ -82,26 +86,27 @@ class FlushSearch {
   void search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
                    const double* to_row);
   bool may_carry_side(const GaussArcs::Arc& arc) const;
-  void search(const Swing& swing);
-  void refine(const Swing& swing, const Measured& begin, const Measured& end, int depth);
-  bool is_proven(const Swing& swing, const Across& across) const;
+  void search(const NormalRange& range);
+  void refine(const NormalRange& range, const Measured& begin, const Measured& end, int depth);
+  bool is_proven(const NormalRange& range, const Widths& widths) const;
   Vector3d across(const GaussArcs::Arc& arc) const { return vertices_[arc.vertex] - vertices_[arc.opposite]; }
-  Quartic numerator(const Swing& swing, const Across& across) const;
-  double change(const Swing& swing, const Measured& begin, const Measured& end) const;
-  Measured over(const Eigen::Matrix3d& axes, const Ends& ends) const;
-  Measured measure(const Swing& swing, double t);
+  Quartic numerator(const NormalRange& range, const Widths& widths) const;
+  double change(const NormalRange& range, const Measured& begin, const Measured& end) const;
+  Measured over(const Eigen::Matrix3d& axes, const SupportVertices& supports) const;
+  Measured measure(const NormalRange& range, double t);
   void accept(const Eigen::Matrix3d& axes);
 
   const Silhouette& shape_;
   const std::vector<Vector3d>& vertices_;
   SupportGraph graph_;
   GaussArcs gauss_;
-  Silhouette::View view_;
+  Silhouette::Projection projection_;
   BoxFrame best_;
   double limit_ = 0;
 };
 
-// Rounding moves each width by some units of 2^-53 of the hull's size.
+// Sets the volume below which a box is smaller than the best. The margin is above rounding, which moves each
+// width by a few 2^-53 of the hull's size.
 void FlushSearch::set_limit() {
   constexpr double kClose = 1e-10, kOfRounding = 1e-14;
   limit_ =
@@ -129,7 +134,8 @@ const BoxFrame& FlushSearch::run() {
   return best_;
 }
 
-// n2 is between f and g where n1.f and n1.g have different signs.
+// Searches the ranges of t in which n2 is on the arc of the other edge: where f and g, the dot products of n1
+// with the two ends of this arc, have different signs.
 void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
                               const double* to_row) {
   const Linear f = {from_row[other.from], to_row[other.from]}, g = {from_row[other.to], to_row[other.to]};
@@ -150,19 +156,21 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
       return sign * (on(g, t) * gauss_.nodes[other.from] - on(f, t) * gauss_.nodes[other.to]);
     };
     const auto first = [&](double t) -> Vector3d { return arc[0] + t * (arc[1] - arc[0]); };
-    Swing swing{{first(begin), first(end)}, {second(begin), second(end)}, &one, &other};
-    // Where n1 is along the other edge, n2 is any; what this leaves out is a turn about n1, smallest at its
-    // ends.
-    const double lengths[2] = {swing.second[0].squaredNorm(), swing.second[1].squaredNorm()};
+    NormalRange range{{first(begin), first(end)}, {second(begin), second(end)}, &one, &other};
+    // Where n1 is parallel to the other edge, n2 can be anywhere on the arc. The boxes left out there are
+    // rotations about n1, of which the smallest is at an end of the arc.
+    const double lengths[2] = {range.second[0].squaredNorm(), range.second[1].squaredNorm()};
     if (std::max(lengths[0], lengths[1]) < 1e-24) continue;
     for (std::size_t k = 0; k < 2; ++k)
-      if (lengths[k] < 1e-18 * lengths[1 - k]) swing.second[k] = swing.second[1 - k];
-    search(swing);
+      if (lengths[k] < 1e-18 * lengths[1 - k]) range.second[k] = range.second[1 - k];
+    search(range);
   }
 }
 
-// A box with this side is no smaller than the side's width times the area of the hull's shadow along the
-// normal, which is no less than the sum of the facets with any fixed signs, a linear function.
+// Whether a side of a box smaller than the limit may have its normal on this arc. The volume of a box is no
+// less than the hull's width along the normal times the area of the hull's shadow along the normal. This area
+// is no less than the sum of the facets' projected areas with any fixed signs, which is a linear function of
+// the normal.
 bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   const std::array<Vector3d, 2> n = {gauss_.nodes[arc.from], gauss_.nodes[arc.to]};
   const Vector3d middle = n[0] + n[1];
@@ -179,42 +187,43 @@ bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   return false;
 }
 
-// First over vertices that cost no climb.
-void FlushSearch::search(const Swing& swing) {
-  const Vector3d n1 = swing.first[0] + swing.first[1], n2 = swing.second[0] + swing.second[1],
+// Tries vertices first that need no climb.
+void FlushSearch::search(const NormalRange& range) {
+  const Vector3d n1 = range.first[0] + range.first[1], n2 = range.second[0] + range.second[1],
                  n3 = cross3(n1, n2);
-  const SupportGraph::LowHigh ends = graph_.near_ends(n3);
-  if (is_proven(swing,
-                {across(*swing.one), across(*swing.other), vertices_[ends.high] - vertices_[ends.low]}))
+  const SupportGraph::LowHigh supports = graph_.approximate_supports(n3);
+  if (is_proven(range, {across(*range.one), across(*range.other),
+                        vertices_[supports.high] - vertices_[supports.low]}))
     return;
-  if (is_proven(swing, measure(swing, 0.5).across)) return;
-  const Measured begin = measure(swing, 0), end = measure(swing, 1);
-  refine(swing, begin, end, 0);
+  if (is_proven(range, measure(range, 0.5).widths)) return;
+  const Measured begin = measure(range, 0), end = measure(range, 1);
+  refine(range, begin, end, 0);
 }
 
-Quartic FlushSearch::numerator(const Swing& swing, const Across& across) const {
-  const auto n3 = third(swing);
-  return product(product(along(across.first, swing.first), along(across.second, swing.second)),
-                 Quadratic{dot3(across.third, n3[0]), dot3(across.third, n3[1]), dot3(across.third, n3[2])});
+Quartic FlushSearch::numerator(const NormalRange& range, const Widths& widths) const {
+  const auto n3 = third(range);
+  return product(product(along(widths.first, range.first), along(widths.second, range.second)),
+                 Quadratic{dot3(widths.third, n3[0]), dot3(widths.third, n3[1]), dot3(widths.third, n3[2])});
 }
 
-bool FlushSearch::is_proven(const Swing& swing, const Across& across) const {
-  const Linear w1 = along(across.first, swing.first), w2 = along(across.second, swing.second);
-  const auto n3 = third(swing);
-  const Quadratic w3 = {dot3(across.third, n3[0]), dot3(across.third, n3[1]), dot3(across.third, n3[2])};
+bool FlushSearch::is_proven(const NormalRange& range, const Widths& widths) const {
+  const Linear w1 = along(widths.first, range.first), w2 = along(widths.second, range.second);
+  const auto n3 = third(range);
+  const Quadratic w3 = {dot3(widths.third, n3[0]), dot3(widths.third, n3[1]), dot3(widths.third, n3[2])};
   if (any_negative(w1) || any_negative(w2) || any_negative(w3)) return false;
   const Quartic volume = product(product(w1, w2), w3);
-  const Quartic lengths = product(square(swing.first), square(swing.second));
+  const Quartic lengths = product(square(range.first), square(range.second));
   for (std::size_t i = 0; i < volume.size(); ++i)
     if (!(volume[i] >= limit_ * lengths[i])) return false;
   return true;
 }
 
-// Where the volume over the far vertices of the end overtakes that over those of the beginning.
-double FlushSearch::change(const Swing& swing, const Measured& begin, const Measured& end) const {
-  if (begin.ends == end.ends) return 0.5;
-  Quartic lead = numerator(swing, begin.across);
-  const Quartic other = numerator(swing, end.across);
+// Returns the t at which the volume over the vertices of `end` overtakes the volume over the vertices of
+// `begin`; 0.5 if there is no such t.
+double FlushSearch::change(const NormalRange& range, const Measured& begin, const Measured& end) const {
+  if (begin.supports == end.supports) return 0.5;
+  Quartic lead = numerator(range, begin.widths);
+  const Quartic other = numerator(range, end.widths);
   for (std::size_t i = 0; i < lead.size(); ++i)
     lead[i] -= other[i];
   double low = 0, high = 1, below = lead.front(), above = lead.back();
@@ -225,64 +234,65 @@ double FlushSearch::change(const Swing& swing, const Measured& begin, const Meas
     if (value == 0) return t;
     (value > 0 ? low : high) = t;
     (value > 0 ? below : above) = value;
-    (value > 0 ? above : below) *= 0.5;  // Illinois
+    (value > 0 ? above : below) *= 0.5;  // Illinois variant of regula falsi
   }
   return 0.5 * (low + high);
 }
 
-void FlushSearch::refine(const Swing& swing, const Measured& begin, const Measured& end, int depth) {
+void FlushSearch::refine(const NormalRange& range, const Measured& begin, const Measured& end, int depth) {
   constexpr int kDeepest = 40;
   constexpr double kLeast = 1e-3;
-  if (is_proven(swing, begin.across) || is_proven(swing, end.across) || depth == kDeepest) return;
-  const double t = std::clamp(change(swing, begin, end), kLeast, 1 - kLeast);
-  const Measured middle = measure(swing, t);
-  refine(swing.part(0, t), begin, middle, depth + 1);
-  refine(swing.part(t, 1), middle, end, depth + 1);
+  if (is_proven(range, begin.widths) || is_proven(range, end.widths) || depth == kDeepest) return;
+  const double t = std::clamp(change(range, begin, end), kLeast, 1 - kLeast);
+  const Measured middle = measure(range, t);
+  refine(range.part(0, t), begin, middle, depth + 1);
+  refine(range.part(t, 1), middle, end, depth + 1);
 }
 
-Measured FlushSearch::over(const Eigen::Matrix3d& axes, const Ends& ends) const {
-  Measured found{{}, ends, 1};
-  const auto measure = [&](int i, Vector3d& across) {
-    const auto end = [&](int k) {
-      return vertices_[static_cast<std::size_t>(ends[static_cast<std::size_t>(k)])];
+Measured FlushSearch::over(const Eigen::Matrix3d& axes, const SupportVertices& supports) const {
+  Measured found{{}, supports, 1};
+  const auto measure = [&](int i, Vector3d& width) {
+    const auto vertex = [&](int k) {
+      return vertices_[static_cast<std::size_t>(supports[static_cast<std::size_t>(k)])];
     };
-    across = end(2 * i + 1) - end(2 * i);
-    found.volume *= dot3(axes.col(i), across);
+    width = vertex(2 * i + 1) - vertex(2 * i);
+    found.volume *= dot3(axes.col(i), width);
   };
-  measure(0, found.across.first);
-  measure(1, found.across.second);
-  measure(2, found.across.third);
+  measure(0, found.widths.first);
+  measure(1, found.widths.second);
+  measure(2, found.widths.third);
   return found;
 }
 
-// A climb may end early, among vertices that are in one line or plane but for rounding: what it says is too
-// small is looked at again, with all vertices.
-Measured FlushSearch::measure(const Swing& swing, double t) {
-  const Vector3d second = swing.second_at(t);
+// Measures the box at t. A climb may end early, among vertices in one line or plane up to rounding. So a
+// volume below the limit is measured again over all vertices.
+Measured FlushSearch::measure(const NormalRange& range, double t) {
+  const Vector3d second = range.second_at(t);
   Eigen::Matrix3d axes;
-  axes.col(0) = unit3(swing.first_at(t));
+  axes.col(0) = unit3(range.first_at(t));
   axes.col(1) = unit3(Vector3d(second - dot3(second, axes.col(0)) * axes.col(0)));
   axes.col(2) = cross3(Vector3d(axes.col(0)), Vector3d(axes.col(1)));
-  const auto [low, high] = graph_.ends(axes.col(2));
+  const auto [low, high] = graph_.support_vertices(axes.col(2));
   const Measured found =
-      over(axes, {graph_.climb(swing.one->opposite, -axes.col(0)), swing.one->vertex,
-                  graph_.climb(swing.other->opposite, -axes.col(1)), swing.other->vertex, low, high});
+      over(axes, {graph_.climb(range.one->opposite, -axes.col(0)), range.one->vertex,
+                  graph_.climb(range.other->opposite, -axes.col(1)), range.other->vertex, low, high});
   if (!(found.volume < limit_)) return found;
-  const Measured whole = over(axes, graph_.all_ends(axes));
+  const Measured whole = over(axes, graph_.exact_supports(axes));
   if (whole.volume < limit_) accept(axes);
   return whole;
 }
 
-// Turned on to where it is smallest nearby, so that the next proofs have a lower volume to beat.
+// Rotates a better box to a local minimum before it becomes the best, so that a lower limit discards more
+// pairs.
 void FlushSearch::accept(const Eigen::Matrix3d& axes) {
-  constexpr int kTurns = 90;
+  constexpr int kRotations = 90;
   BoxFrame better{orthonormal_axes(axes), {}};
   better.size = extents(vertices_, better.axes);
-  BoxFrame turned = better;
-  turn(turned, kTurns, 1e-13, shape_, view_);
-  turned.axes = orthonormal_axes(turned.axes);
-  turned.size = extents(vertices_, turned.axes);
-  if (turned.volume() < better.volume()) better = turned;
+  BoxFrame shrunk = better;
+  shrink_frame(shrunk, kRotations, 1e-13, shape_, projection_);
+  shrunk.axes = orthonormal_axes(shrunk.axes);
+  shrunk.size = extents(vertices_, shrunk.axes);
+  if (shrunk.volume() < better.volume()) better = shrunk;
   if (!(better.volume() < best_.volume())) return;
   best_ = better;
   set_limit();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The smallest box around a convex hull.
 #pragma once
 
 #include "box/box_frame.h"
@@ -8,9 +9,9 @@
 
 namespace pcl_bv {
 
-/// The box of least volume around a hull, to 1e-10 of it (of a hull thinner than 1e-4 of its size, to 1e-14
-/// of size over thickness). `known` is some box; the nearer its volume is to the least, the sooner pairs of
-/// edges are discarded. O'Rourke 1985.
+/// Returns the box of minimum volume around a hull, to a relative 1e-10; if the hull is thinner than 1e-4 of
+/// its size, to 1e-14 times size / thickness. `known` is any box around the hull: the nearer its volume is to
+/// the minimum, the sooner pairs of edges are discarded. O'Rourke 1985.
 BoxFrame smallest_box(const BoxFrame& known, const Silhouette& shape);
 
 }  // namespace pcl_bv

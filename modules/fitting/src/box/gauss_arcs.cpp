@@ -17,7 +17,8 @@ GaussArcs::GaussArcs(const Silhouette& shape, SupportGraph& graph) {
   measure(shape.vertices(), graph);
 }
 
-// A facet that has no area but by rounding lies in the plane of its neighbour at any edge of some length.
+// Computes the normals of the facets. A facet whose area is mere rounding lies in the plane of a neighbour,
+// so it gets that neighbour's normal; neighbours at long edges come first.
 void GaussArcs::add_nodes(const Silhouette& shape) {
   constexpr double kNoArea = 1e-14;
   nodes.reserve(shape.facets() * 5 / 4);
@@ -67,13 +68,13 @@ void GaussArcs::add_cut(std::int32_t from, std::int32_t to, const Eigen::Vector3
   add_cut(cut, to, along, vertex, depth + 1);
 }
 
-// Over any one vertex the width along the unit normals of an arc is a cosine, concave where it is positive:
-// it is smallest at an end.
+// Measures the widths. Over any one opposite vertex, the width along the unit normals of an arc is a cosine.
+// It is concave where it is positive, so its minimum is at an end of the arc.
 void GaussArcs::measure(const std::vector<Eigen::Vector3d>& vertices, SupportGraph& graph) {
   std::vector<std::int32_t> farthest;
   farthest.reserve(nodes.size());
   for (const Eigen::Vector3d& n : nodes)
-    farthest.push_back(graph.ends(n).low);
+    farthest.push_back(graph.support_vertices(n).low);
   width = kInfinity;
   for (Arc& arc : arcs) {
     const auto over = [&](std::int32_t vertex) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The Gauss map of a hull: the outward normals of planes that touch it along an edge are an arc from the
-// normal of one facet at the edge to that of the other.
+// The Gauss map of a hull. The outward normals of the planes that touch the hull along an edge form an arc,
+// from the normal of one facet at the edge to the normal of the other.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,21 +14,22 @@
 
 namespace pcl_bv {
 
+/// The arcs of all edges of a hull, and lower bounds of its width.
 struct GaussArcs {
-  /// Long arcs are cut: the ends of none are farther apart than 60 degrees.
+  /// An arc, or a part of one: arcs of more than 60 degrees are divided.
   struct Arc {
-    std::int32_t from, to;  ///< Nodes.
-    std::int32_t vertex;    ///< On the edge.
-    std::int32_t opposite;  ///< A vertex that is farthest back along the middle of the arc.
-    double width;           ///< A lower bound of the hull's width along any normal of the arc.
+    std::int32_t from, to;  ///< Indices into `nodes`: the normals at the two ends.
+    std::int32_t vertex;    ///< A vertex of the edge.
+    std::int32_t opposite;  ///< A vertex with the minimum projection on the middle of the arc.
+    double width;           ///< Lower bound of the hull's width along any normal of the arc.
   };
 
-  /// Unit normals: of the facets, then of the cuts.
+  /// Unit normals: of the facets, then of the points at which arcs are divided.
   std::vector<Eigen::Vector3d> nodes;
   std::vector<Arc> arcs;
 
-  /// A lower bound of the hull's width along any direction: a polytope is thinnest between two edges, or a
-  /// facet and a vertex.
+  /// Lower bound of the hull's width along any direction. It follows from the arcs, because a polytope is
+  /// thinnest between two edges, or between a facet and a vertex.
   double width = 0;
 
   GaussArcs(const Silhouette& shape, SupportGraph& graph);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// DiTO, the ditetrahedron of Larsson and Kallberg 2011: the two tetrahedra on a large triangle of extremal
-// points have seven triangles, and each edge of each is tried as an axis.
+// DiTO, the ditetrahedron of Larsson, Kallberg 2011: two tetrahedra on a large triangle of extremal points
+// have seven triangles. Each triangle's normal with each of its edges is tried as a pair of axes.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,10 +14,10 @@
 namespace pcl_bv {
 namespace {
 
-// Local coordinates have an extent from 1 to 2. What is thinner than 1e-10 of it, squared, is flat.
+// Points thinner than this are flat. Local coordinates have an extent from 1 to 2.
 constexpr double kThin = 1e-10;
 
-// Few points side by side: frames are compared in floats, all points at a time.
+// The coordinates of a few points as lanes of floats, so that a frame is measured on all points at a time.
 class PointLanes {
  public:
   explicit PointLanes(const FewPoints& few) {
@@ -37,7 +37,7 @@ class PointLanes {
   }
 
  private:
-  static constexpr std::size_t kCount = 16;  // at least the 14 points
+  static constexpr std::size_t kCount = 16;  // no less than the 14 support points
   using Array = Eigen::Array<float, static_cast<int>(kCount), 1>;
   Array x_, y_, z_;
 };
@@ -72,7 +72,7 @@ struct Best {
   float half_area;
 };
 
-// The two points of a direction's ends that are farthest apart.
+// Each direction has a pair of support points: finds the pair that is farthest apart.
 void farthest_pair(const Supports& supports, const LocalFrame& frame, Eigen::Vector3d& p,
                    Eigen::Vector3d& q) {
   double greatest = -1;
@@ -103,7 +103,7 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& e) {
   return orthonormal_axes(axes);
 }
 
-FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
+FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   FewPoints few;
   const std::size_t directions = direction_count(supports.set);
   if (supports.used + supports.dropped <= 2 * directions) {

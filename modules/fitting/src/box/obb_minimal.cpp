@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest box. Hulls of few vertices: all pairs of edges (flush_search.h). Others: a search that starts
-// from many frames and turns each about one of its axes after the other as far as the volume sinks; the box
-// around the outline along that axis is a matter of calipers (Barequet, Har-Peled 2001; Chang et al. 2011).
-// It ends within a few thousandths of the smallest, now and then within a few hundredths. Frames that fall
-// behind are given up, half of them at a time (Karnin, Koren, Somekh 2013).
+// The smallest box. For hulls of few vertices, all pairs of edges are compared (flush_search.h). For other
+// hulls, a search starts from many frames and rotates each about one of its axes after another while the
+// volume decreases. Rotating calipers give the smallest box around the outline along an axis (Barequet,
+// Har-Peled 2001; Chang et al. 2011). The search ends within a few thousandths of the minimum, occasionally
+// within a few hundredths. The worse half of the frames is dropped repeatedly (Karnin, Koren, Somekh 2013).
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "box/box_frame.h"
-#include "box/flat_box.h"
 #include "box/flush_search.h"
 #include "box/obb_axes.h"
+#include "box/rectangle.h"
 #include "box/silhouette.h"
 #include "hull/local_hull.h"
 #include "pcl_bv/numeric/constants.h"
@@ -27,8 +27,8 @@
 namespace pcl_bv {
 namespace {
 
-// From the unit quaternions of seeded integers: the same on every machine.
-std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
+// Random rotations, from unit quaternions of seeded integers: the same on every machine.
+std::vector<Eigen::Matrix3d> random_rotations(std::size_t count) {
   std::vector<Eigen::Matrix3d> frames;
   std::mt19937_64 random(1);
   const auto component = [&] { return static_cast<double>(random() >> 40) * 0x1p-23 - 1; };
@@ -43,10 +43,10 @@ std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
   return frames;
 }
 
-// Normals of the greatest facets.
+// Adds frames with the normals of the largest facets.
 void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
   constexpr std::size_t kFacets = 20;
-  constexpr double kNoNormal = 1e-20;  // squared: of what is rounding alone
+  constexpr double kNoNormal = 1e-20;  // squared length: below, a normal is mere rounding
   std::vector<Eigen::Vector3d> normals;
   for (const Triangle& t : hull.triangles) {
     const auto at = [&](std::size_t k) { return hull.vertices[static_cast<std::size_t>(t[k])].local; };
@@ -58,30 +58,33 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
     if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
-// Hulls of more vertices are only searched from many frames: the time of pairs of edges grows with their square.
+// Hulls of more vertices are only searched from many frames: the time for all pairs of edges grows
+// quadratically.
 constexpr std::size_t kExhaustive = 128;
 
-// How many frames the search begins with, and goes on with. Before pairs of edges are tried, a box within
-// some percent of the smallest is enough.
+// Numbers of frames in the search: random frames among the starts, the best starts, which are rotated, and
+// the best frames, which are rotated to the end. If pairs of edges are compared afterwards, a box within some
+// percent of the minimum is enough.
 struct Effort {
-  std::size_t scattered, beginners, finalists;
+  std::size_t random_starts, rotated_starts, finalists;
 };
 constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 
-// The first of the starts: what the box must not be greater than.
-constexpr std::size_t kSureStarts = 3;
+// The first starts are DiTO, PCA and the coordinate axes: the result must not be larger than their boxes.
+constexpr std::size_t kGuaranteedStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
                                           const LocalFrame& frame, const LocalHull& hull,
                                           const Effort& effort) {
   Supports supports = summary.supports;
-  supports.set = DirectionSet::dop14;  // whose directions come first
-  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(kSearch.scattered);
-  std::vector<Eigen::Matrix3d> frames{dito_axes(few_points(points, supports, frame), supports, frame),
-                                      principal_axes(summary), Eigen::Matrix3d::Identity()};
+  supports.set = DirectionSet::dop14;  // the directions of dop14 come first in dop26
+  static const std::vector<Eigen::Matrix3d> rotations = random_rotations(kSearch.random_starts);
+  std::vector<Eigen::Matrix3d> frames{
+      dito_axes(support_or_all_points(points, supports, frame), supports, frame), principal_axes(summary),
+      Eigen::Matrix3d::Identity()};
   add_facets(hull, frames);
-  frames.insert(frames.end(), scattered.begin(),
-                scattered.begin() + static_cast<std::ptrdiff_t>(effort.scattered));
+  frames.insert(frames.end(), rotations.begin(),
+                rotations.begin() + static_cast<std::ptrdiff_t>(effort.random_starts));
   return frames;
 }
 
@@ -90,48 +93,50 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   const Eigen::Vector3d u = hull.axes.col(0), v = hull.axes.col(1);
   for (const HullPoint& vertex : hull.vertices)
     flat.emplace_back(u.dot(vertex.local), v.dot(vertex.local));
-  const Eigen::Vector2d side = least_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
+  const Eigen::Vector2d side =
+      smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
   Eigen::Matrix3d axes;
   axes << hull.axes.col(2), side.x() * u + side.y() * v, Eigen::Vector3d::Zero();
   return orthonormal_axes(axes);
 }
 
-void turn_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
+void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape,
+                const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
-  constexpr double kSmaller = 1e-9;  // less is not worth another round
-  const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
-  const ParallelPolicy policy = worthwhile(execution, Work::look, looks);
-  for_each_run(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
+  constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
+  const std::size_t vertices = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
+  const ParallelPolicy policy = worthwhile(execution, Work::silhouette, vertices);
+  for_each_range(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
-    Silhouette::View view;
+    Silhouette::Projection projection;
     for (std::size_t i = begin; i < end; ++i)
-      turn(frames[i], times, kSmaller, shape, view);
+      shrink_frame(frames[i], times, kSmaller, shape, projection);
   });
 }
 
 BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& starts, const Effort& effort,
                    const Execution& execution) {
-  constexpr int kTurns = 3, kLastTurns = 90;
+  constexpr int kRotations = 3, kLastRotations = 90;
   std::vector<BoxFrame> frames;
   frames.reserve(starts.size());
   for (const Eigen::Matrix3d& axes : starts)
     frames.push_back({axes, extents(shape.vertices(), axes)});
-  const std::vector<BoxFrame> sure(frames.begin(), frames.begin() + kSureStarts);
+  const std::vector<BoxFrame> guaranteed(frames.begin(), frames.begin() + kGuaranteedStarts);
   const auto smaller = [](const BoxFrame& a, const BoxFrame& b) { return a.volume() < b.volume(); };
   const auto keep = [&](std::size_t count) {
     std::stable_sort(frames.begin(), frames.end(), smaller);
     frames.resize(std::min(count, frames.size()));
   };
-  keep(effort.beginners);
+  keep(effort.rotated_starts);
   while (frames.size() > effort.finalists) {
-    turn_all(frames, kTurns, shape, execution);
+    shrink_all(frames, kRotations, shape, execution);
     keep(std::max(effort.finalists, frames.size() / 2));
   }
-  turn_all(frames, kLastTurns, shape, execution);
+  shrink_all(frames, kLastRotations, shape, execution);
   BoxFrame best = *std::min_element(frames.begin(), frames.end(), smaller);
-  best.size = extents(shape.vertices(), best.axes);  // without the rounding of rims
-  const BoxFrame& surest = *std::min_element(sure.begin(), sure.end(), smaller);
-  return smaller(surest, best) ? surest : best;
+  best.size = extents(shape.vertices(), best.axes);  // over all vertices, without the rounding of silhouettes
+  const BoxFrame& best_guaranteed = *std::min_element(guaranteed.begin(), guaranteed.end(), smaller);
+  return smaller(best_guaranteed, best) ? best_guaranteed : best;
 }
 
 Eigen::Matrix3d solid_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,

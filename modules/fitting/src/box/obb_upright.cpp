@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upright boxes: of least area, or close to the points (Zhang, Xu, Dong, Dolan 2017).
+// Upright boxes: of minimum area, or with the sides closest to the points (Zhang et al. 2017).
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,16 +9,17 @@
 #include <cmath>
 #include <vector>
 
-#include "box/flat_box.h"
 #include "box/obb_axes.h"
 #include "box/outline.h"
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/constants.h"
 #include "same_points.h"
 
 namespace pcl_bv {
 namespace {
 
-// As directions: a quarter turn as t goes from 0 to 1, without a sine, which libraries round differently.
+// The unit vector at t, which makes a quarter turn from t = 0 to t = 1. Not computed by a sine, which
+// libraries round differently.
 Eigen::Vector2d direction(double t) {
   const double x = 1 - t, length = std::sqrt(x * x + t * t);
   return {x / length, t / length};
@@ -28,12 +29,12 @@ constexpr std::size_t kCoarseSteps = 20;  // 3 to 6 degrees apart
 constexpr std::size_t kCoarsePoints = 512;
 constexpr std::size_t kFinePoints = 4096;
 constexpr int kStarts = 3;
-constexpr int kHalvings = 7;  // to 0.02 to 0.05 degrees
+constexpr int kHalvings = 7;  // down to steps of 0.02 to 0.05 degrees
 
-// Sides count as equally near below this part of the rectangle's diagonal: 12 cm for a car.
+// Distances from a side below this part of the rectangle's diagonal are treated as equal: 12 cm for a car.
 constexpr double kNear = 1.0 / 40;
 
-// Points from above, every so many of the cloud, in floats: they only choose an angle.
+// An evenly spaced sample of the cloud seen from above. In floats, because it only chooses an angle.
 struct Sample {
   Sample(const PointView& points, const Supports& supports, const LocalFrame& frame, const Ground& ground,
          const Eigen::Vector2d& origin, std::size_t size) {
@@ -51,7 +52,8 @@ struct Sample {
   std::vector<float> x, y;
 };
 
-// The sum over the points of 1 / max(d, near)^2, d their distance to the nearest side.
+// How close the points are to the sides: the sum of 1 / max(d, near)^2, with d the distance of a point from
+// the nearest side.
 class Closeness {
  public:
   Closeness(const Outline& outline, double diagonal)
@@ -105,13 +107,14 @@ class Closeness {
   float near_;
 };
 
-struct Turn {
+// A candidate angle, as the t of direction(), with its closeness.
+struct AngleScore {
   double t;
   double closeness;
 };
 
-// Ever smaller steps to either side, kept where they come closer.
-Turn refined(Turn best, const Closeness& closeness, const Sample& sample) {
+// Refines an angle by ever smaller steps to either side; a step is taken if it increases the closeness.
+AngleScore refined(AngleScore best, const Closeness& closeness, const Sample& sample) {
   best.closeness = closeness(sample, direction(best.t));
   double step = 0.5 / static_cast<double>(kCoarseSteps);
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
@@ -131,29 +134,29 @@ Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, cons
                          const Eigen::Vector3d& up, const Execution& execution) {
   const Ground ground(up);
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
-  return ground.axes_along(least_rectangle(outline.data(), outline.size()).side);
+  return ground.axes_along(smallest_rectangle(outline.data(), outline.size()).side);
 }
 
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                             const Eigen::Vector3d& up, const Execution& execution) {
   const Ground ground(up);
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
-  const FlatBox rectangle = least_rectangle(outline.data(), outline.size());
+  const Rectangle rectangle = smallest_rectangle(outline.data(), outline.size());
   if (outline.size() < 3) return ground.axes_along(rectangle.side);
   const Closeness closeness(outline, rectangle.diagonal());
   const Sample coarse(points, supports, frame, ground, outline[0], kCoarsePoints);
-  std::array<Turn, kCoarseSteps> turns;
+  std::array<AngleScore, kCoarseSteps> scores;
   for (std::size_t k = 0; k < kCoarseSteps; ++k) {
     const double t = static_cast<double>(k) / static_cast<double>(kCoarseSteps);
-    turns[k] = {t, closeness(coarse, direction(t))};
+    scores[k] = {t, closeness(coarse, direction(t))};
   }
-  std::stable_sort(turns.begin(), turns.end(),
-                   [](const Turn& a, const Turn& b) { return a.closeness > b.closeness; });
+  std::stable_sort(scores.begin(), scores.end(),
+                   [](const AngleScore& a, const AngleScore& b) { return a.closeness > b.closeness; });
   const Sample fine(points, supports, frame, ground, outline[0], kFinePoints);
-  Turn best{0, -1};
+  AngleScore best{0, -1};
   for (std::size_t k = 0; k < kStarts; ++k) {
-    const Turn turn = refined(turns[k], closeness, fine);
-    if (turn.closeness > best.closeness) best = turn;
+    const AngleScore score = refined(scores[k], closeness, fine);
+    if (score.closeness > best.closeness) best = score;
   }
   return ground.axes_along(direction(best.t));
 }

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Most points are inside the polygon of the 26 extremal ones, and SIMD says which (Akl, Toussaint 1978); the
-// others go through the monotone chain.
+// A SIMD filter drops the points inside the polygon of the 26 extremal points (Akl, Toussaint 1978): usually
+// most points. The monotone chain processes the others.
 
 #include "box/outline.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "box/flat_box.h"
 #include "box/obb_axes.h"
+#include "box/rectangle.h"
 #include "map_chunks.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "same_points.h"
@@ -19,11 +19,12 @@
 namespace pcl_bv {
 namespace {
 
-// The walls over the polygon's edges. Floats may be off by 128 units of the extent, and by what underflows:
-// points nearer to a wall count as outside. Points that rounding puts on the wrong side all the same cost
-// area, not enclosure.
-HalfSpaces walls(const PointView& points, const FewPoints& few, const LocalFrame& frame,
-                 const Ground& ground) {
+// The vertical half-spaces through the polygon's edges. Their margin covers rounding of up to 128 units of
+// the extent (2^-17 for floats, 2^-46 for doubles) and underflow: points this near to a half-space's plane
+// are treated as outside. If rounding drops an outside point nevertheless, the box may get larger, but it
+// still encloses this point.
+HalfSpaces outline_half_spaces(const PointView& points, const FewPoints& few, const LocalFrame& frame,
+                               const Ground& ground) {
   SmallVector<Eigen::Vector2d, 32> corners;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : few) {
@@ -37,14 +38,15 @@ HalfSpaces walls(const PointView& points, const FewPoints& few, const LocalFrame
   Eigen::Vector3d center = frame.global(middle);
   if (is_float) center = center.cast<float>().cast<double>();
   result.center = {center.x(), center.y(), center.z()};
-  const double doubt = frame.extent() * (is_float ? 0x1p-17 : 0x1p-46) + (is_float ? 0x1p-140 : 0x1p-1000);
+  const double error_bound =
+      frame.extent() * (is_float ? 0x1p-17 : 0x1p-46) + (is_float ? 0x1p-140 : 0x1p-1000);
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d& a = corners[i];
     const Eigen::Vector2d& b = corners[i + 1 < count ? i + 1 : 0];
     const Eigen::Vector2d outward = Eigen::Vector2d(b.y() - a.y(), a.x() - b.x()).normalized();
     const Eigen::Vector3d n = outward.x() * ground.east + outward.y() * ground.north;
-    const Eigen::Vector3d on_wall = frame.global(a.x() * ground.east + a.y() * ground.north);
-    const double limit = n.dot(on_wall - center) - doubt;
+    const Eigen::Vector3d on_plane = frame.global(a.x() * ground.east + a.y() * ground.north);
+    const double limit = n.dot(on_plane - center) - error_bound;
     if (!(limit > 0)) return {};  // so thin that all points are near the outline
     result.planes[result.count++] = {n.x(), n.y(), n.z(), is_float ? static_cast<float>(limit) : limit};
   }
@@ -89,7 +91,8 @@ Eigen::Matrix3d Ground::axes_along(const Eigen::Vector2d& side) const {
 
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution) {
-  const HalfSpaces inside = walls(points, few_points(points, supports, frame), frame, ground);
+  const HalfSpaces inside =
+      outline_half_spaces(points, support_or_all_points(points, supports, frame), frame, ground);
   Outline outline;
   std::size_t most = std::size_t{1} << 16;
   const auto reduce = [&] { outline.resize(to_convex_chain(outline.data(), outline.size())); };

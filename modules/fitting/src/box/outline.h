@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The convex outline of a cloud seen from above.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,24 +15,25 @@
 
 namespace pcl_bv {
 
-/// The plane seen from above, with axes of its own: along x and y if up is z.
+/// The plane perpendicular to `up`, with the axes `east` and `north`: x and y if up is z.
 struct Ground {
   explicit Ground(const Eigen::Vector3d& unit_up);
 
+  /// Returns the coordinates of a point seen from above.
   Eigen::Vector2d flat(const Eigen::Vector3d& p) const { return {east.dot(p), north.dot(p)}; }
 
-  /// Axes of which the first is up and the second along `side`.
+  /// Returns orthonormal axes: the first is up, the second is along `side`.
   Eigen::Matrix3d axes_along(const Eigen::Vector2d& side) const;
 
   Eigen::Vector3d up, east, north;
 };
 
-/// Corners of a convex polygon, counter-clockwise; on the stack for clusters as a sweep has them by the
-/// hundred.
+/// Corners of a convex polygon, counter-clockwise. On the stack for small clusters, of which a sweep has
+/// hundreds.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
-/// The convex outline from above, in local coordinates, up to rounding; a corner at least. `supports` along
-/// dop26, with points. The same bits for every execution.
+/// Returns the convex outline of the points seen from above, in local coordinates, up to rounding. It has one
+/// corner or more. `supports` must be along dop26, with points. The same bits for every execution.
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution);
 

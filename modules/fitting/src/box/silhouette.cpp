@@ -8,16 +8,16 @@
 #include <tuple>
 #include <utility>
 
-#include "box/flat_box.h"
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {
 
-// An edge as one of its two facets has it.
+// An edge as a side of one of its two facets.
 struct Side {
   std::int32_t low, high;
-  bool falls;  // from the higher number to the lower
+  bool falls;  // runs from the higher vertex index to the lower
   std::int32_t facet;
 
   auto key() const { return std::tie(low, high, falls); }
@@ -36,9 +36,9 @@ std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
   return sides;
 }
 
-// Whether b is right of the line from a to c by more than rounding, of a hull with an extent of 1 to 2. The
-// calipers stop at corners that are not: facets and edges along the view make several corners in a line, or
-// in one place.
+// Whether b is right of the line from a to c by more than rounding, for a hull with an extent from 1 to 2.
+// Other corners are dropped, because the calipers would stop at them: where facets or edges are parallel to
+// the view, several corners are in a line or at the same position.
 bool sticks_out(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   constexpr double kRounding = 1e-13;
   const Eigen::Vector2d along = c - a, to = b - a;
@@ -64,36 +64,37 @@ Silhouette::Silhouette(std::vector<Eigen::Vector3d> vertices, const std::vector<
     edges_.push_back({sides[i].low, sides[i].high, sides[i].facet, sides[i + 1].facet});
 }
 
-void Silhouette::find_rim(const Eigen::Vector3d& towards, View& view) const {
+void Silhouette::find_rim(const Eigen::Vector3d& towards, Projection& projection) const {
   const double x = towards.x(), y = towards.y(), z = towards.z();
   const double *nx = normals_[0].data(), *ny = normals_[1].data(), *nz = normals_[2].data();
-  view.facing.resize(normals_[0].size());
-  double* const facing = view.facing.data();
-  for (std::size_t t = 0; t < view.facing.size(); ++t)
+  projection.facing.resize(normals_[0].size());
+  double* const facing = projection.facing.data();
+  for (std::size_t t = 0; t < projection.facing.size(); ++t)
     facing[t] = (nx[t] * x + ny[t] * y) + nz[t] * z;
-  view.rim.resize(edges_.size());
+  projection.rim.resize(edges_.size());
   std::size_t count = 0;
-  for (const Edge& edge : edges_) {  // without branches, which could not be foretold
+  for (const Edge& edge : edges_) {  // without branches, which would be unpredictable
     const bool left = facing[edge.left] > 0, right = facing[edge.right] > 0;
     const std::int32_t turned = (edge.from ^ edge.to) & (static_cast<std::int32_t>(left) - 1);
-    view.rim[count] = {edge.from ^ turned, edge.to ^ turned};
+    projection.rim[count] = {edge.from ^ turned, edge.to ^ turned};
     count += left != right;
   }
-  view.rim.resize(count);
-  view.next.resize(vertices_.size());
-  for (const auto& [from, to] : view.rim)
-    view.next[static_cast<std::size_t>(from)] = to;
+  projection.rim.resize(count);
+  projection.next.resize(vertices_.size());
+  for (const auto& [from, to] : projection.rim)
+    projection.next[static_cast<std::size_t>(from)] = to;
 }
 
-bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, View& view) const {
-  std::vector<Eigen::Vector2d>& corners = view.corners;
+bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                            Projection& projection) const {
+  std::vector<Eigen::Vector2d>& corners = projection.corners;
   corners.clear();
-  if (view.rim.empty()) return false;
+  if (projection.rim.empty()) return false;
   const auto drop_flat_before = [&](const Eigen::Vector2d& next) {
     while (corners.size() >= 2 && !sticks_out(corners[corners.size() - 2], corners.back(), next))
       corners.pop_back();
   };
-  const std::int32_t first = view.rim.front().from;
+  const std::int32_t first = projection.rim.front().from;
   std::int32_t at = first;
   std::size_t steps = 0;
   do {
@@ -101,22 +102,23 @@ bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, 
     const Eigen::Vector2d corner(dot3(u, p), dot3(v, p));
     drop_flat_before(corner);
     corners.push_back(corner);
-    at = view.next[static_cast<std::size_t>(at)];
-  } while (++steps < view.rim.size() && at != first);
+    at = projection.next[static_cast<std::size_t>(at)];
+  } while (++steps < projection.rim.size() && at != first);
   drop_flat_before(corners.front());
-  return at == first && steps == view.rim.size() && corners.size() > 2;
+  return at == first && steps == projection.rim.size() && corners.size() > 2;
 }
 
-const std::vector<Eigen::Vector2d>& Silhouette::look(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
-                                                     View& view) const {
-  find_rim(u.cross(v), view);
-  if (follow_rim(u, v, view)) return view.corners;
-  // Facets so thin that rounding turns them over make more rims than one.
-  view.corners.clear();
+const std::vector<Eigen::Vector2d>& Silhouette::project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                                                        Projection& projection) const {
+  find_rim(u.cross(v), projection);
+  if (follow_rim(u, v, projection)) return projection.corners;
+  // Rounding can flip the orientation of thin facets, which makes more than one closed chain of edges. Then
+  // the corners are found among all vertices.
+  projection.corners.clear();
   for (const Eigen::Vector3d& p : vertices_)
-    view.corners.emplace_back(dot3(u, p), dot3(v, p));
-  view.corners.resize(to_convex_chain(view.corners.data(), view.corners.size()));
-  return view.corners;
+    projection.corners.emplace_back(dot3(u, p), dot3(v, p));
+  projection.corners.resize(to_convex_chain(projection.corners.data(), projection.corners.size()));
+  return projection.corners;
 }
 
 }  // namespace pcl_bv

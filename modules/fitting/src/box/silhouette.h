@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The outline of a convex hull along any direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,50 +14,51 @@
 
 namespace pcl_bv {
 
-/// The rim of a solid hull, as it is seen from far away: of 28 vertices, what a car's hull has, some 12.
+/// Computes the silhouettes of a solid hull under parallel projection. If the hull has 28 vertices, like that
+/// of a car, a silhouette has some 12.
 class Silhouette {
  public:
   struct Step {
     std::int32_t from, to;  ///< Vertices.
   };
 
-  /// The room for what is seen.
-  struct View {
-    std::vector<double> facing;      ///< Facets: more than 0 if seen.
-    std::vector<Step> rim;           ///< In the order of the edges.
-    std::vector<std::int32_t> next;  ///< The vertex after a vertex of the rim.
-    std::vector<Eigen::Vector2d> corners;
+  /// Result of project(), with its working memory.
+  struct Projection {
+    std::vector<double> facing;            ///< For each facet: positive if it faces the viewer.
+    std::vector<Step> rim;                 ///< Edges of the silhouette, in the order of edges().
+    std::vector<std::int32_t> next;        ///< For each vertex of the silhouette: the vertex after it.
+    std::vector<Eigen::Vector2d> corners;  ///< Corners of the silhouette: the result.
   };
 
-  /// As a LocalHull of rank 3 has them.
+  /// Vertices and triangles as of a LocalHull of rank 3.
   Silhouette(std::vector<Eigen::Vector3d> vertices, const std::vector<Triangle>& triangles);
 
   struct Edge {
     std::int32_t from, to;
-    std::int32_t left, right;  ///< Facets, seen from outside.
+    std::int32_t left, right;  ///< Facets on both sides, seen from outside.
   };
 
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   const std::vector<Edge>& edges() const { return edges_; }
   std::size_t facets() const { return normals_[0].size(); }
 
-  /// Outward, twice as long as the facet's area.
+  /// Returns the outward normal of a facet; its length is twice the facet's area.
   Eigen::Vector3d normal(std::size_t facet) const {
     return {normals_[0][facet], normals_[1][facet], normals_[2][facet]};
   }
 
-  /// Its corners seen along u x v as (u, v), counter-clockwise, in view.corners: a polygon that is convex up
-  /// to rounding. The edges between a facet that is seen and one that is not make it, so that there is
-  /// nothing to sort: O(vertices).
-  const std::vector<Eigen::Vector2d>& look(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
-                                           View& view) const;
+  /// Returns projection.corners: the corners of the silhouette along u x v, counter-clockwise, in the
+  /// coordinates (u, v). The polygon is convex up to rounding. Its edges are the edges between a facet that
+  /// faces the viewer and a facet that does not, so nothing needs to be sorted: O(vertices).
+  const std::vector<Eigen::Vector2d>& project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                                              Projection& projection) const;
 
  private:
-  void find_rim(const Eigen::Vector3d& towards, View& view) const;
-  bool follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, View& view) const;
+  void find_rim(const Eigen::Vector3d& towards, Projection& projection) const;
+  bool follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, Projection& projection) const;
 
   std::vector<Eigen::Vector3d> vertices_;
-  std::array<std::vector<double>, 3> normals_;  // coordinates of the facets'
+  std::array<std::vector<double>, 3> normals_;  // x, y and z of the facets' normals
   std::vector<Edge> edges_;
 };
 

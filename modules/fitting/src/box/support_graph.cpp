@@ -41,22 +41,22 @@ std::int32_t SupportGraph::climb(std::int32_t from, const Eigen::Vector3d& direc
     const auto i = static_cast<std::size_t>(at);
     for (std::int32_t k = first_[i]; k < first_[i + 1]; ++k) {
       const std::int32_t next = neighbours_[static_cast<std::size_t>(k)];
-      const double reached = along(next);
-      if (!(reached > most)) continue;
-      most = reached;
+      const double projection = along(next);
+      if (!(projection > most)) continue;
+      most = projection;
       from = next;
     }
     if (from == at) return at;
   }
 }
 
-SupportGraph::LowHigh SupportGraph::near_ends(const Eigen::Vector3d& direction) {
+SupportGraph::LowHigh SupportGraph::approximate_supports(const Eigen::Vector3d& direction) {
   const double x = std::abs(direction[0]), y = std::abs(direction[1]), z = std::abs(direction[2]);
   const int axis = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
   const int second = (axis + 1) % 3, third = (axis + 2) % 3;
   const double major = direction[axis];
   if (major == 0) return {0, 0};
-  const double half = 0.5 * kCells, scale = half / major;  // opposite directions have one cell
+  const double half = 0.5 * kCells, scale = half / major;  // opposite directions share a cell
   const int u = std::min(kCells - 1, static_cast<int>(direction[second] * scale + half));
   const int v = std::min(kCells - 1, static_cast<int>(direction[third] * scale + half));
   LowHigh& found = near_[static_cast<std::size_t>((axis * kCells + u) * kCells + v)];
@@ -70,17 +70,17 @@ SupportGraph::LowHigh SupportGraph::near_ends(const Eigen::Vector3d& direction) 
   return major > 0 ? found : LowHigh{found.high, found.low};
 }
 
-std::array<std::int32_t, 6> SupportGraph::all_ends(const Eigen::Matrix3d& axes) const {
-  std::array<std::int32_t, 6> ends{};
+std::array<std::int32_t, 6> SupportGraph::exact_supports(const Eigen::Matrix3d& axes) const {
+  std::array<std::int32_t, 6> supports{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto before = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       return dot3(axes.col(static_cast<int>(i)), a) < dot3(axes.col(static_cast<int>(i)), b);
     };
     const auto [low, high] = std::minmax_element(vertices_.begin(), vertices_.end(), before);
-    ends[2 * i] = static_cast<std::int32_t>(low - vertices_.begin());
-    ends[2 * i + 1] = static_cast<std::int32_t>(high - vertices_.begin());
+    supports[2 * i] = static_cast<std::int32_t>(low - vertices_.begin());
+    supports[2 * i + 1] = static_cast<std::int32_t>(high - vertices_.begin());
   }
-  return ends;
+  return supports;
 }
 
 }  // namespace pcl_bv

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Support vertices of a convex hull along any direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,39 +13,45 @@
 
 namespace pcl_bv {
 
-/// The vertices of a hull and the edges between them, to find which vertex is farthest along a direction.
+/// The vertices and edges of a hull as a graph, in which the vertex with the maximum projection along a
+/// direction is found by climbing.
 class SupportGraph {
  public:
   explicit SupportGraph(const Silhouette& shape);
 
+  /// The vertices with the minimum and the maximum projection along a direction.
   struct LowHigh {
     std::int32_t low, high;
   };
 
-  /// The vertices farthest back and farthest along the middle of the direction's cell, one of 384 on the
-  /// faces of a cube, found when it is first wanted: nearly the farthest. Any two for a zero vector.
-  LowHigh near_ends(const Eigen::Vector3d& direction);
+  /// Returns the vertices with the minimum and the maximum projection along a direction near the given one:
+  /// the middle of its cell, one of 384 cells on the faces of a cube. They are computed when a cell is first
+  /// used. Any two vertices for a zero vector.
+  LowHigh approximate_supports(const Eigen::Vector3d& direction);
 
-  /// The vertices farthest back and farthest along the direction, as climb() finds them.
-  LowHigh ends(const Eigen::Vector3d& direction) {
-    const auto [low, high] = near_ends(direction);
+  /// Returns the vertices with the minimum and the maximum projection along the direction, as climb() finds
+  /// them.
+  LowHigh support_vertices(const Eigen::Vector3d& direction) {
+    const auto [low, high] = approximate_supports(direction);
     return {climb(low, -direction), climb(high, direction)};
   }
 
-  /// The end of a climb from a vertex along edges that go up: the vertex farthest along the direction, unless
-  /// rounding hides the way on, as it does among vertices in one line.
+  /// Moves from vertex `from` along edges while the projection grows, and returns the last vertex. This is
+  /// the vertex with the maximum projection, unless rounding ends the climb early, as it can among vertices
+  /// in one line.
   std::int32_t climb(std::int32_t from, const Eigen::Vector3d& direction) const;
 
-  /// The vertices farthest back and farthest along each column, by a pass over all.
-  std::array<std::int32_t, 6> all_ends(const Eigen::Matrix3d& axes) const;
+  /// Returns the vertices with the minimum and the maximum projection along each column, by a pass over all
+  /// vertices.
+  std::array<std::int32_t, 6> exact_supports(const Eigen::Matrix3d& axes) const;
 
  private:
-  static constexpr int kCells = 8;  // along each side of the cube
+  static constexpr int kCells = 8;  // cells along each side of a face of the cube
   static constexpr std::int32_t kNone = -1;
 
   const std::vector<Eigen::Vector3d>& vertices_;
-  std::vector<std::int32_t> first_, neighbours_;   // those of vertex i begin at first_[i]
-  std::array<LowHigh, 3 * kCells * kCells> near_;  // opposite cells share theirs
+  std::vector<std::int32_t> first_, neighbours_;   // the neighbours of vertex i begin at position first_[i]
+  std::array<LowHigh, 3 * kCells * kCells> near_;  // of each cell; opposite cells share an entry
 };
 
 }  // namespace pcl_bv

@@ -11,23 +11,23 @@
 namespace pcl_bv {
 namespace {
 
-// Zeroes a(p, q).
+// Applies to `a` and `v` the rotation that makes a(p, q) zero.
 void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
   if (a(p, q) == 0) return;
   const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
   const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
   const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-  const auto turn = [&](double& x, double& y) {
+  const auto rotate_pair = [&](double& x, double& y) {
     const double old = x;
     x = c * old - s * y;
     y = s * old + c * y;
   };
   for (int k = 0; k < 3; ++k)
-    turn(a(k, p), a(k, q));
+    rotate_pair(a(k, p), a(k, q));
   for (int k = 0; k < 3; ++k)
-    turn(a(p, k), a(q, k));
+    rotate_pair(a(p, k), a(q, k));
   for (int k = 0; k < 3; ++k)
-    turn(v(k, p), v(k, q));
+    rotate_pair(v(k, p), v(k, q));
 }
 
 }  // namespace

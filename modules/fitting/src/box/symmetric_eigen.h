@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Eigenvalues and eigenvectors of a symmetric 3 x 3 matrix.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,11 +9,12 @@
 namespace pcl_bv {
 
 struct SymmetricEigen {
-  Eigen::Vector3d values;   ///< Descending.
-  Eigen::Matrix3d vectors;  ///< Columns, orthonormal to some 1e-15, right-handed.
+  Eigen::Vector3d values;   ///< Eigenvalues, descending.
+  Eigen::Matrix3d vectors;  ///< Eigenvectors as columns, orthonormal to some 1e-15, right-handed.
 };
 
-/// Jacobi's rotations: only sums, products, quotients and roots, so the bits are those of every IEEE machine.
+/// Computes eigenvalues and eigenvectors by Jacobi rotations. Uses only sums, products, quotients and square
+/// roots, so the bits are the same on every IEEE machine.
 SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix);
 
 }  // namespace pcl_bv

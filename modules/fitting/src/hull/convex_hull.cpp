@@ -17,12 +17,13 @@ namespace {
 bool in_line(const std::vector<Coordinates>& points, std::size_t a, std::size_t b, std::size_t c) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto flat = [&](std::size_t i) { return Eigen::Vector2d(points[i][k], points[i][(k + 1) % 3]); };
-    if (turn(flat(a), flat(b), flat(c)) != 0) return false;
+    if (orientation(flat(a), flat(b), flat(c)) != 0) return false;
   }
   return true;
 }
 
-// The first point with the greatest measure; if that one is not good, the first one that is.
+// Appends the first point with the largest measure; if that point is not good, the first good point. Returns
+// false if no point is good.
 template <typename Measure, typename Good>
 bool find(const std::vector<Coordinates>& points, const Measure& measure, const Good& good,
           std::vector<std::size_t>& corners) {
@@ -41,7 +42,7 @@ bool find(const std::vector<Coordinates>& points, const Measure& measure, const 
   return true;
 }
 
-// Positions of points that span what all points span: four unless they are in a plane.
+// Positions of points that span as many dimensions as all points do: four points unless all are in a plane.
 std::vector<std::size_t> spanning(const std::vector<Coordinates>& points) {
   std::vector<std::size_t> corners{0};
   const Eigen::Vector3d a = vector(points[0]);
@@ -61,10 +62,10 @@ std::vector<std::size_t> spanning(const std::vector<Coordinates>& points) {
   return corners;
 }
 
-// Positions of the corners that are in three planes or more: the others are inside a face or an edge.
+// Positions of the corners that are in three planes or more. The other corners are inside a face or an edge.
 std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
                                          const std::vector<std::size_t>& faces) {
-  std::vector<std::pair<std::size_t, std::size_t>> planes;  // of each corner
+  std::vector<std::pair<std::size_t, std::size_t>> planes;  // (corner, face)
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::int32_t corner : triangles[t])
       planes.emplace_back(static_cast<std::size_t>(corner), faces[t]);
@@ -80,7 +81,8 @@ std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
   return extreme;
 }
 
-// In a plane, or less. Along the axis that the plane is most across, which leaves every order as it is.
+// The extreme points of points in a plane, on a line or at one position. Drops a coordinate without which the
+// points still span as many dimensions; this does not change which points are extreme.
 std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points,
                                           const std::vector<std::size_t>& corners) {
   if (corners.size() < 2) return corners;
@@ -88,7 +90,7 @@ std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points
   std::size_t dropped = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto flat = [&](std::size_t i) { return Eigen::Vector2d(at(i)[(k + 1) % 3], at(i)[(k + 2) % 3]); };
-    const bool spans = corners.size() < 3 ? flat(0) != flat(1) : turn(flat(0), flat(1), flat(2)) != 0;
+    const bool spans = corners.size() < 3 ? flat(0) != flat(1) : orientation(flat(0), flat(1), flat(2)) != 0;
     if (spans) dropped = k;
   }
   std::vector<Eigen::Vector2d> flat;
@@ -125,7 +127,8 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   std::vector<std::size_t> distinct = faces;
   std::sort(distinct.begin(), distinct.end());
   const bool cut = std::adjacent_find(distinct.begin(), distinct.end()) != distinct.end();
-  // How faces are cut depends on what was added before; of the vertices alone it does not.
+  // How faces are divided into triangles depends on the points added before. From the vertices alone it is
+  // unique.
   if (cut && hull.vertices.size() < points.size()) {
     std::vector<Coordinates> extreme;
     for (const std::size_t i : hull.vertices)

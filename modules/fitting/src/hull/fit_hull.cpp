@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "hull/hull_fit.h"
-#include "hull/reach_tree.h"
+#include "hull/support_tree.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -19,7 +19,7 @@ namespace {
 
 using Normals = std::vector<Eigen::Vector3d>;
 
-// Nothing for vectors that have no direction.
+// Appends v / |v|; nothing for a zero vector.
 void add_unit(const Eigen::Vector3d& v, Normals& normals) {
   const double length = norm3(v);
   if (length > 0) normals.push_back((v / length).array() + 0.0);
@@ -30,9 +30,9 @@ void add_both(const Eigen::Vector3d& v, Normals& normals) {
   add_unit(-v, normals);
 }
 
-// Of the faces; of a flat hull of both sides along each flat direction, then of the edges; last of the box.
-// Without the box, faces that meet at a small angle would, by their rounding, let the body reach far beyond its
-// points.
+// The normals of the planes: of the faces; for a flat hull of both sides along each flat direction, then of
+// the edges; last of the axis-aligned box. Without the box, the rounding of faces that meet at a small angle
+// would let the body extend far beyond its points.
 Normals normals_of(const LocalHull& hull) {
   Normals normals;
   const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };
@@ -51,7 +51,7 @@ Normals normals_of(const LocalHull& hull) {
   return normals;
 }
 
-// Equal ones once, in the order of their first appearance.
+// Removes repeated normals; the others keep the order of their first appearance.
 void drop_repeated(Normals& normals) {
   std::vector<std::size_t> order(normals.size());
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -69,12 +69,12 @@ void drop_repeated(Normals& normals) {
   normals = std::move(kept);
 }
 
-// By the hundred: some 10 us each where a surface is smooth.
+// Calls measure(plane), 100 planes at a time: a plane takes some 10 us where a surface is smooth.
 template <typename Measure>
 void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
   constexpr std::size_t kTogether = 100;
   const ParallelPolicy policy = worthwhile(execution, Work::hull_plane, planes);
-  for_each_run(policy, planes, kTogether, [&](std::size_t begin, std::size_t end) {
+  for_each_range(policy, planes, kTogether, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       measure(i);
@@ -88,9 +88,9 @@ EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& 
   return fit_on_hull(points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports&) {
     Normals normals = normals_of(local);
     drop_repeated(normals);
-    const ReachTree tree(local.candidates, normals.size());
+    const SupportTree tree(local.candidates, normals.size());
     std::vector<HullPlane> planes(normals.size());
-    const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
+    const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.max_projection_up(normals[i])}; };
     for_each_plane(execution, normals.size(), measure);
     std::vector<Eigen::Vector3d> vertices;
     for (const HullPoint& v : local.vertices)

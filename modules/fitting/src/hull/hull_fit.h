@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The common part of the fits that measure the convex hull.
 #pragma once
 
 #include "hull/local_hull.h"
@@ -9,7 +10,8 @@
 
 namespace pcl_bv {
 
-/// Calls fit(hull, frame, supports) if there is a valid point.
+/// Finds the supports and the convex hull, and calls fit(hull, frame, supports). Without a valid point, fit()
+/// is not called. Returns the status, the rank and the counts of the points.
 template <typename Fit>
 EstimationResult fit_on_hull(const PointView& points, const Execution& execution, const Fit& fit) {
   const FloatEnvironment environment;

@@ -32,18 +32,18 @@ Corners corners_of(const Supports& supports, const LocalFrame& frame, std::vecto
   return corners;
 }
 
-// What half_spaces.h computes with: numbers of the points' own type.
+// The floating-point type in which half_spaces.h computes: that of the points.
 struct Scalar {
   explicit Scalar(ScalarType type) : is_float(type == ScalarType::float32) {}
 
   bool is_float;
-  double unit() const { return is_float ? 0x1p-24 : kU; }
-  double least() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // more than products underflow by
+  double unit() const { return is_float ? 0x1p-24 : kUnitRoundoff; }
+  double underflow_bound() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // products underflow by less
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
   double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }
 
-  // Where squares of lengths of a cloud neither over- nor underflow.
+  // Whether squared lengths in a cloud of this extent neither overflow nor underflow.
   bool squares(double extent) const {
     return is_float ? extent > 1e-15 && extent < 1e18 : extent > 1e-140 && extent < 1e140;
   }
@@ -57,10 +57,12 @@ Coordinates middle(const Corners& corners, const LocalFrame& frame, const Scalar
   return {scalar.nearest(c.x()), scalar.nearest(c.y()), scalar.nearest(c.z())};
 }
 
-// Local coordinates of 2 at most are off by 4 U (U = 2^-53), edges by 12 U, the components of their product m
-// by 112 U, and the rounded unit normal n by 112 U / |m| + 2 u, with u of the scalar type. For a point p of
-// the cloud, whose widest extent is D, n . (p - a) is then off by 3 D times that, n . (p - c) as the kernel
-// rounds it by 16 u D, n . (a - c) by 24 U D: less than D (512 U / |m| + 64 u) together.
+// The half-space of a triangle. Its limit is lowered by the error bound of everything that is rounded, with
+// U = 2^-53 and u the rounding unit of the scalar type. Local coordinates, of at most 2, are off by 4 U;
+// edges by 12 U; the components of their cross product m by 112 U; the rounded unit normal n by
+// 112 U / |m| + 2 u. For a point p of the cloud, with D the largest extent of the cloud, this puts
+// n . (p - a) off by 3 D times as much. n . (p - c), as the kernel rounds it, is off by 16 u D, and
+// n . (a - c) by 24 U D. Together this is less than D (512 U / |m| + 64 u).
 HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinates& center, double extent,
                      const Scalar& scalar) {
   const auto at = [&](std::size_t i) { return corners.local[static_cast<std::size_t>(t[i])]; };
@@ -69,9 +71,10 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
   HalfSpace h{scalar.nearest(m.x() / length), scalar.nearest(m.y() / length), scalar.nearest(m.z() / length),
               0};
   const Coordinates& a = corners.points[static_cast<std::size_t>(t[0])];
-  const double reach = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
-  const double doubt = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.least();
-  h.limit = scalar.down(reach - doubt);  // NaN if the triangle has no area: then nothing is inside
+  const double projection = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
+  const double error_bound = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.underflow_bound();
+  // NaN if the triangle has no area: then no point is inside.
+  h.limit = scalar.down(projection - error_bound);
   return h;
 }
 
@@ -87,11 +90,11 @@ HalfSpaces inner_polytope(const PointView& points, const Supports& supports, con
   double ball = kInfinity;
   for (const Triangle& t : triangles) {
     const HalfSpace h = half_space(corners, t, result.center, frame.extent(), scalar);
-    if (!(h.limit > 0)) return {};  // too flat for the centre to be inside: it would pay little
+    if (!(h.limit > 0)) return {};  // too flat to contain the centre: the filter would drop little
     ball = std::min(ball, h.limit);
     result.planes[result.count++] = h;
   }
-  // In the ball n . (p - c) is below each limit by a 2^-9th, as kernels round it, too.
+  // In the ball, n . (p - c) is below each limit by 2^-9 of the limit, also as the kernels round it.
   if (scalar.squares(frame.extent())) result.squared_ball = scalar.down(ball * ball * (1 - 0x1p-8));
   return result;
 }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The polytope of a cloud's extremal points, inside which no point can matter to the hull (Akl, Toussaint
-// 1978).
+// The polytope of a cloud's extremal points. Points inside it do not affect the hull (Akl, Toussaint 1978).
 #pragma once
 
 #include "local_frame.h"
@@ -11,9 +10,9 @@
 
 namespace pcl_bv {
 
-/// Half-spaces such that every point of the cloud that is inside (as list_outside() decides) is strictly
-/// inside the convex hull of the extremal points, by exact arithmetic. Those points themselves are not
-/// inside. Count 0 where the points do not span a solid.
+/// Returns half-spaces such that every point of the cloud inside all of them (as list_outside() decides) is
+/// strictly inside the convex hull of the extremal points, by exact arithmetic. The extremal points
+/// themselves are not inside. The count of half-spaces is 0 if the extremal points do not span a solid.
 HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The convex hull as other fits use it: few points instead of many, in coordinates of about 1.
+// The convex hull as other fits use it: a few points instead of all, in local coordinates of about 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,27 +20,30 @@
 
 namespace pcl_bv {
 
-/// A point of the cloud, as it is stored and in local coordinates.
+/// A point of the cloud, as stored and in local coordinates.
 struct HullPoint {
   Coordinates point;
   Eigen::Vector3d local;
-  std::size_t index;  ///< The cloud's number of the point.
+  std::size_t index;  ///< Index of the point in the cloud.
 };
 
-/// The span is that of the candidates, its rank that of the points.
+/// The convex hull of a cloud. The inherited Span is that of the candidates; only `rank` is that of all
+/// points.
 struct LocalHull : Span {
-  /// Rank 3: ascending by position in the view; 2: the corners of a polygon, counter-clockwise seen from
-  /// where axes.col(2) points; 1: the two ends; 0: one point.
+  /// Rank 3: in ascending order of their positions in the view. Rank 2: the corners of a polygon,
+  /// counter-clockwise seen from the side to which axes.col(2) points. Rank 1: the two ends. Rank 0: one
+  /// point.
   std::vector<HullPoint> vertices;
 
-  /// As ConvexHull has them. Rank 3 only.
+  /// As ConvexHull::triangles. Empty unless the rank is 3.
   std::vector<Triangle> triangles;
 
-  /// The extreme points, by exact arithmetic. Every valid point of the cloud is in the hull of these: a
-  /// convex set that holds them holds the cloud, and a convex function is greatest on one of them. Ascending
-  /// by position in the view.
+  /// The extreme points by exact arithmetic, in ascending order of their positions in the view. Every valid
+  /// point of the cloud is in their convex hull. So a convex set that contains them contains the cloud, and a
+  /// convex function is largest at one of them.
   std::vector<HullPoint> candidates;
 
+  /// Returns the vertices in local coordinates.
   std::vector<Eigen::Vector3d> local_vertices() const {
     std::vector<Eigen::Vector3d> local;
     for (const HullPoint& vertex : vertices)
@@ -48,22 +51,22 @@ struct LocalHull : Span {
     return local;
   }
 
-  /// A point along the axes, in units of what the candidates reach along each: coordinates of about 1 in
-  /// which no cloud is thin.
+  /// Returns the coordinates of a point along the axes, each divided by the entry of `distances` for that
+  /// axis. They are about 1, and no cloud is thin in them.
   Eigen::Vector3d spread(const Eigen::Vector3d& local) const {
     const Eigen::Vector3d q = local - candidates.front().local;
     return Eigen::Vector3d(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q))
-        .cwiseQuotient(reach);
+        .cwiseQuotient(distances);
   }
 };
 
-/// For a cloud with at least one valid point; `supports` are those along dop26, with points. The same bits
-/// for every execution. Needs a FloatEnvironment. O(n) for the points inside the polytope of the extremal
-/// ones (Akl, Toussaint 1978), O(m log m) for the m others.
+/// Computes the hull of a cloud with at least one valid point. `supports` must be along dop26, with points.
+/// The same bits for every execution. O(n) for the points inside the polytope of the extremal points (Akl,
+/// Toussaint 1978), O(m log m) for the m others. Needs a FloatEnvironment.
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const Execution& execution);
 
-/// The same, or what the execution's supports have of it.
+/// Returns the hull in Execution::supports if there is one; otherwise computes it with local_hull().
 std::shared_ptr<const LocalHull> shared_hull(const PointView& points, const Supports& supports,
                                              const LocalFrame& frame, const Execution& execution);
 

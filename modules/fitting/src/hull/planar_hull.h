@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The exact convex hull of points in the plane.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +10,14 @@
 
 namespace pcl_bv {
 
-/// Positions of the corners of the convex hull, counter-clockwise, from the one with the smallest (x, y) on.
-/// No three of them are collinear and no two equal; of equal points the one with the smallest position.
-/// Points on a line: its two ends; equal points: one. Decided in exact arithmetic; coordinates finite, up to
-/// 1e100. O(n log n).
-///
-/// Andrew 1979 (monotone chain).
+/// Returns the positions of the corners of the convex hull, counter-clockwise, beginning with the corner that
+/// has the smallest (x, y). No three corners are collinear and no two are equal; of equal points the first is
+/// a corner. Points on a line give the two ends, equal points one. Exact arithmetic; coordinates must be
+/// finite and of up to 1e100 in magnitude. O(n log n).
 std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points);
 
-/// -1, 0 or 1: the sign of (b - a) x (c - a), exactly; 1 if c is to the left of a -> b.
-int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+/// Returns the sign of (b - a) x (c - a), exactly: 1 if c is to the left of a -> b, -1 if to the right, 0 if
+/// on the line.
+int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
 }  // namespace pcl_bv

@@ -12,9 +12,9 @@
 namespace pcl_bv {
 
 Quickhull::Quickhull(const std::vector<Coordinates>& points, const std::array<std::int32_t, 4>& corners)
-    : points_(points), beginning_(points.size()) {
+    : points_(points), facet_from_(points.size()) {
   std::array<std::int32_t, 4> c = corners;
-  // The fourth is below the first three.
+  // The fourth corner must be below the plane of the first three.
   if (side_of_plane(at(c[0]), at(c[1]), at(c[2]), at(c[3])) > 0) std::swap(c[1], c[2]);
   facets_ = {{{c[0], c[1], c[2]}, {1, 2, 3}, {}},
              {{c[1], c[0], c[3]}, {0, 3, 2}, {}},
@@ -22,7 +22,7 @@ Quickhull::Quickhull(const std::vector<Coordinates>& points, const std::array<st
              {{c[0], c[2], c[3]}, {0, 2, 1}, {}}};
   std::vector<std::int32_t> all(points_.size());
   std::iota(all.begin(), all.end(), 0);
-  hand_out(all, 0);
+  assign_points(all, 0);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     if (!facets_[f].removed && !facets_[f].above.empty()) add_farthest(static_cast<std::int32_t>(f));
   }
@@ -36,7 +36,7 @@ std::vector<Triangle> Quickhull::triangles() const {
   return found;
 }
 
-// Facets in one plane are next to one another.
+// Facets in one plane are connected: a search over neighbours finds them.
 std::vector<std::size_t> Quickhull::faces() const {
   std::vector<std::size_t> face(facets_.size());
   std::iota(face.begin(), face.end(), std::size_t{0});
@@ -46,8 +46,8 @@ std::vector<std::size_t> Quickhull::faces() const {
     while (!stack.empty()) {
       const Facet& facet = facets_[stack.back()];
       stack.pop_back();
-      for (const std::int32_t beside : facet.beside) {
-        const auto g = static_cast<std::size_t>(beside);
+      for (const std::int32_t neighbour : facet.neighbours) {
+        const auto g = static_cast<std::size_t>(neighbour);
         if (face[g] == f || !in_plane(facet, facets_[g])) continue;
         face[g] = f;
         stack.push_back(g);
@@ -72,8 +72,9 @@ bool Quickhull::in_plane(const Facet& facet, const Facet& other) const {
   });
 }
 
-// Each point to the first facet from `first` on that it sees; those that see none are inside.
-void Quickhull::hand_out(const std::vector<std::int32_t>& points, std::size_t first) {
+// Assigns each point to the first facet that it sees, from facet number `first` on. Points that see none are
+// inside.
+void Quickhull::assign_points(const std::vector<std::int32_t>& points, std::size_t first) {
   for (const std::int32_t point : points) {
     const auto seen = std::find_if(facets_.begin() + static_cast<std::ptrdiff_t>(first), facets_.end(),
                                    [&](const Facet& facet) { return sees(point, facet); });
@@ -81,7 +82,8 @@ void Quickhull::hand_out(const std::vector<std::int32_t>& points, std::size_t fi
   }
 }
 
-// Of equally far ones the first, which of equal points is the one that counts.
+// The point farthest above the facet. Of equally far points the first, because of equal points the first is a
+// vertex.
 std::int32_t Quickhull::farthest(const Facet& facet) const {
   const Eigen::Vector3d a = vector(at(facet.corners[0]));
   const Eigen::Vector3d normal = (vector(at(facet.corners[1])) - a).cross(vector(at(facet.corners[2])) - a);
@@ -98,10 +100,11 @@ std::int32_t Quickhull::farthest(const Facet& facet) const {
   return best;
 }
 
-// Removes the facets that the point sees, from one of them on, and gives the way around them.
+// Removes the facets that the point sees, beginning with one of them. Returns the edges around these facets,
+// the horizon; appends the points above them to `waiting`.
 std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int32_t start,
                                                     std::vector<std::int32_t>& waiting) {
-  std::vector<Edge> around;
+  std::vector<Edge> horizon_edges;
   std::vector<std::int32_t> stack{start};
   facet(start).removed = true;
   while (!stack.empty()) {
@@ -110,40 +113,40 @@ std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int
     waiting.insert(waiting.end(), seen.above.begin(), seen.above.end());
     std::vector<std::int32_t>().swap(seen.above);
     for (std::size_t k = 0; k < 3; ++k) {
-      Facet& other = facet(seen.beside[k]);
+      Facet& other = facet(seen.neighbours[k]);
       if (other.removed) continue;
       if (other.visited != point && sees(point, other)) {
         other.removed = true;
-        stack.push_back(seen.beside[k]);
+        stack.push_back(seen.neighbours[k]);
         continue;
       }
-      other.visited = point;  // asked once
-      around.push_back({seen.corners[k], seen.corners[(k + 1) % 3], seen.beside[k]});
+      other.visited = point;  // so that sees() is called once
+      horizon_edges.push_back({seen.corners[k], seen.corners[(k + 1) % 3], seen.neighbours[k]});
     }
   }
-  return around;
+  return horizon_edges;
 }
 
 void Quickhull::add_farthest(std::int32_t start) {
   const std::int32_t point = farthest(facet(start));
   std::vector<std::int32_t> waiting;
-  const std::vector<Edge> around = remove_seen(point, start, waiting);
+  const std::vector<Edge> horizon_edges = remove_seen(point, start, waiting);
   const std::size_t first = facets_.size();
-  for (std::size_t i = 0; i < around.size(); ++i)
-    beginning_[static_cast<std::size_t>(around[i].from)] = static_cast<std::int32_t>(first + i);
-  for (const Edge& edge : around) {
+  for (std::size_t i = 0; i < horizon_edges.size(); ++i)
+    facet_from_[static_cast<std::size_t>(horizon_edges[i].from)] = static_cast<std::int32_t>(first + i);
+  for (const Edge& edge : horizon_edges) {
     const auto number = static_cast<std::int32_t>(facets_.size());
     facets_.push_back({{edge.from, edge.to, point}, {edge.kept, -1, -1}, {}});
     Facet& kept = facet(edge.kept);
     for (std::size_t k = 0; k < 3; ++k)
-      if (kept.corners[k] == edge.to) kept.beside[k] = number;
+      if (kept.corners[k] == edge.to) kept.neighbours[k] = number;
   }
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const std::int32_t next = beginning_[static_cast<std::size_t>(around[i].to)];
-    facets_[first + i].beside[1] = next;
-    facet(next).beside[2] = static_cast<std::int32_t>(first + i);
+  for (std::size_t i = 0; i < horizon_edges.size(); ++i) {
+    const std::int32_t next = facet_from_[static_cast<std::size_t>(horizon_edges[i].to)];
+    facets_[first + i].neighbours[1] = next;
+    facet(next).neighbours[2] = static_cast<std::int32_t>(first + i);
   }
-  hand_out(waiting, first);
+  assign_points(waiting, first);
 }
 
 }  // namespace pcl_bv

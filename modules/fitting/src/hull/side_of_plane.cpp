@@ -24,16 +24,18 @@ bool is_exact(const Coordinates& b, const Coordinates& a, const Coordinates& dif
          is_exact_difference(b.z, a.z, difference.z);
 }
 
-// Adds a b c to the sum; false if products are so small that their errors may be no doubles.
+// Adds the product a b c to the sum. Returns false if the errors of products are so small that they may not
+// be doubles.
 bool add_triple(double a, double b, double c, Expansion& sum) {
   const double product = a * b;
   if (product == 0) return a == 0 || b == 0;
   if (std::abs(product) < 0x1p-900) return false;
   sum.add_product(product, c).add_product(std::fma(a, b, -product), c);
-  return sum.certain();
+  return sum.is_lossless();
 }
 
-// The least power of two and the number of bits above it that all coordinates, which are not all 0, need.
+// The exponents of the lowest and the highest bit that the coordinates have together. One coordinate must not
+// be 0.
 struct Bits {
   int lowest = std::numeric_limits<int>::max(), highest = std::numeric_limits<int>::min();
 
@@ -71,7 +73,7 @@ int by_integers(const Coordinates& a, const Coordinates& b, const Coordinates& c
     for (std::size_t k = 0; k < 3; ++k)
       bits.add((*q)[k]);
   }
-  // Differences of integers of up to 160 bits: products of three of them have less than 490.
+  // The integers have up to 160 bits: sums of products of three of their differences have less than 490.
   if (bits.highest - bits.lowest < 160) return by_integers<boost::multiprecision::int512_t>(a, b, c, p, bits);
   return by_integers<boost::multiprecision::cpp_int>(a, b, c, p, bits);
 }
@@ -85,11 +87,12 @@ int side_of_plane(const Coordinates& a, const Coordinates& b, const Coordinates&
   double terms = 0;
   for (std::size_t k = 0; k < 3; ++k)
     terms += (std::abs(left[k]) + std::abs(right[k])) * std::abs(w[k]);
-  // Shewchuk's bound, (7 + 56 u) u of the terms; and what underflow may cost, times differences of 2e100.
+  // Shewchuk's bound, (7 + 56 u) u of the terms with u = 2^-53, and what underflow may cost, times
+  // differences of up to 2e100.
   if (std::abs(volume) > 0x1p-50 * terms + 1e-200) return volume > 0 ? 1 : -1;
   if (p == a || p == b || p == c) return 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;  // walls and floors
+    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;  // all in a plane across an axis: walls and floors
   }
   if (is_exact(b, a, u) && is_exact(c, a, v) && is_exact(p, a, w)) {
     Expansion sum;

@@ -10,13 +10,13 @@ namespace pcl_bv {
 namespace {
 
 template <typename T>
-PointView view_of(const NumberedPoints& points, std::vector<T>& held) {
-  held.reserve(3 * points.size());
+PointView view_of(const NumberedPoints& points, std::vector<T>& packed) {
+  packed.reserve(3 * points.size());
   for (const NumberedPoint& p : points) {
     for (std::size_t k = 0; k < 3; ++k)
-      held.push_back(static_cast<T>(p.point[k]));
+      packed.push_back(static_cast<T>(p.point[k]));
   }
-  return PointView::of(held.data(), 3 * sizeof(T), points.size());
+  return PointView::of(packed.data(), 3 * sizeof(T), points.size());
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b) {
   return both;
 }
 
-HeldPoints::HeldPoints(const NumberedPoints& points, ScalarType scalar)
+PackedPoints::PackedPoints(const NumberedPoints& points, ScalarType scalar)
     : view_(scalar == ScalarType::float32 ? view_of(points, floats_) : view_of(points, doubles_)) {}
 
 }  // namespace pcl_bv

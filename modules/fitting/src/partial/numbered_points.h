@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Points with their numbers in the whole cloud.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 
@@ -24,21 +25,21 @@ inline bool same_number(const NumberedPoint& a, const NumberedPoint& b) {
   return a.number == b.number;
 }
 
-/// Ascending by number.
+/// In ascending order of the numbers.
 using NumberedPoints = std::vector<NumberedPoint>;
 
-/// Throws std::invalid_argument, saying that a point is in two parts, unless they are disjoint.
+/// Throws std::invalid_argument (a point is in two parts) unless `disjoint`.
 void require_disjoint(bool disjoint);
 
-/// Throws as require_disjoint() for a number that is in both.
+/// Returns the points of both. Throws as require_disjoint() does if a number is in both.
 NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b);
 
-/// The points one after another, as kernels read them.
-class HeldPoints {
+/// Stores points without gaps as floats or doubles, for the kernels.
+class PackedPoints {
  public:
-  HeldPoints(const NumberedPoints& points, ScalarType scalar);
-  HeldPoints(const HeldPoints&) = delete;
-  HeldPoints& operator=(const HeldPoints&) = delete;
+  PackedPoints(const NumberedPoints& points, ScalarType scalar);
+  PackedPoints(const PackedPoints&) = delete;
+  PackedPoints& operator=(const PackedPoints&) = delete;
 
   const PointView& view() const { return view_; }
 

@@ -19,8 +19,8 @@ namespace pcl_bv {
 
 namespace {
 
-// What of these points is needed where more are than can be kept, but for their moments: number(i) is that of
-// the i-th in the whole cloud.
+// Sets counts, support points and extreme points, but no moments, in the state of points that are not all
+// stored. number(i) is the number of the i-th point in the whole cloud.
 template <typename Number>
 void add_extremes(const PointView& points, const Execution& execution, const Number& number,
                   PartialState& state) {
@@ -29,11 +29,11 @@ void add_extremes(const PointView& points, const Execution& execution, const Num
   state.dropped = supports.dropped;
   if (supports.used == 0) return;
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    state.ends[2 * k] = supports.along[k].low_point;
-    state.ends[2 * k + 1] = supports.along[k].high_point;
+    state.support_points[2 * k] = supports.along[k].low_point;
+    state.support_points[2 * k + 1] = supports.along[k].high_point;
   }
-  for (SupportPoint& end : state.ends)
-    end.index = number(end.index);
+  for (SupportPoint& p : state.support_points)
+    p.index = number(p.index);
   for (const HullPoint& p : local_hull(points, supports, LocalFrame(supports), execution).candidates)
     state.extreme.push_back({number(p.index), p.point});
 }
@@ -57,7 +57,7 @@ MomentTree block_moments_of(const PointView& points, std::size_t first_block, co
   return blocks;
 }
 
-// Of more points than can be kept.
+// The state of more than kMaxStored points.
 PartialState state_of(const PointView& points, std::size_t first, const Execution& execution) {
   PartialState state;
   state.scalar = points.scalar;
@@ -72,12 +72,12 @@ PartialState state_of(const PointView& points, std::size_t first, const Executio
   return state;
 }
 
-// The same points as those of more than can be kept.
+// The state of the same points in the form of more than kMaxStored points.
 PartialState reduced(PartialState state) {
-  if (!state.all_kept() || state.loose.empty()) return state;
-  const HeldPoints held(state.loose, state.scalar);
+  if (!state.stores_all() || state.loose.empty()) return state;
+  const PackedPoints packed(state.loose, state.scalar);
   add_extremes(
-      held.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
+      packed.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
   return state;
 }
 
@@ -94,7 +94,7 @@ void for_each_block(const NumberedPoints& loose, const Visit& visit) {
 }
 
 Moments moments_of_block(const NumberedPoints& points, ScalarType scalar) {
-  return block_moments(Isa::automatic, HeldPoints(points, scalar).view());
+  return block_moments(Isa::automatic, PackedPoints(points, scalar).view());
 }
 
 using MomentNodes = std::vector<MomentNode>;
@@ -108,7 +108,8 @@ MomentTree tree_of(MomentNodes nodes) {
   return tree;
 }
 
-// Lets blocks that have become whole leave the loose points.
+// Moves the blocks that have become complete from the loose points to the tree, which is built of these and
+// `nodes`.
 void sum_whole_blocks(PartialState& state, MomentNodes nodes) {
   NumberedPoints loose;
   for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
@@ -127,13 +128,13 @@ PartialState merged(const PartialState& one, const PartialState& other) {
   PartialState both;
   both.scalar = one.scalar;
   both.loose = merged(one.loose, other.loose);
-  if (one.size() + other.size() > Partial::kAllKept) {
+  if (one.size() + other.size() > Partial::kMaxStored) {
     const PartialState a = reduced(one), b = reduced(other);
     both.used = a.used + b.used;
     both.dropped = a.dropped + b.dropped;
-    for (std::size_t end = 0; end < both.ends.size(); ++end) {
-      both.ends[end] = a.ends[end];
-      keep_farther(directions.end_direction(end), b.ends[end], both.ends[end]);
+    for (std::size_t i = 0; i < both.support_points.size(); ++i) {
+      both.support_points[i] = a.support_points[i];
+      keep_larger_projection(directions.support_direction(i), b.support_points[i], both.support_points[i]);
     }
     both.extreme = merged(a.extreme, b.extreme);
     keep_extreme(both.extreme);
@@ -145,11 +146,12 @@ PartialState merged(const PartialState& one, const PartialState& other) {
   return both;
 }
 
-// The extreme points and the ends, which of a flat side may be any point of it.
-NumberedPoints standing_for_all(const PartialState& state) {
+// The points that represent the cloud: the extreme points and the support points. On a flat side, a support
+// point may be any point of the side, so it need not be an extreme point.
+NumberedPoints representative_points(const PartialState& state) {
   NumberedPoints points = state.extreme;
-  for (const SupportPoint& end : state.ends) {
-    if (end.found) points.push_back({end.index, end.point});
+  for (const SupportPoint& p : state.support_points) {
+    if (p.found) points.push_back({p.index, p.point});
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end(), same_number), points.end());
@@ -164,7 +166,7 @@ std::shared_ptr<const Moments> moments_of_all(const PartialState& state) {
   return std::make_shared<Moments>(tree_of(std::move(nodes)).total());
 }
 
-// Of the cloud, as those of points that stand for it.
+// The supports of the whole cloud, with indices into `points`, which represent it.
 Supports supports_of(const PartialState& state, const NumberedPoints& points, const PointView& view,
                      const Execution& execution) {
   Supports supports;
@@ -174,15 +176,15 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
   supports.dropped = state.dropped;
   supports.points = view;
   supports.moments = moments_of_all(state);
-  const auto position = [&](const SupportPoint& end) {
-    const auto found = std::lower_bound(points.begin(), points.end(), NumberedPoint{end.index, {}});
+  const auto position = [&](const SupportPoint& p) {
+    const auto found = std::lower_bound(points.begin(), points.end(), NumberedPoint{p.index, {}});
     return static_cast<std::size_t>(found - points.begin());
   };
   for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
-    supports.along[k] =
-        support_between(SupportDirections::of(supports.set), k, state.ends[2 * k], state.ends[2 * k + 1]);
-    supports.along[k].low_point.index = position(state.ends[2 * k]);
-    supports.along[k].high_point.index = position(state.ends[2 * k + 1]);
+    supports.along[k] = support_between(SupportDirections::of(supports.set), k, state.support_points[2 * k],
+                                        state.support_points[2 * k + 1]);
+    supports.along[k].low_point.index = position(state.support_points[2 * k]);
+    supports.along[k].high_point.index = position(state.support_points[2 * k + 1]);
   }
   supports.rank = point_rank(view, supports, execution);
   return supports;
@@ -192,11 +194,11 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
 
 Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_supports(points, execution);
+  require_matching_supports(points, execution);
   if (points.indices != nullptr) throw std::invalid_argument("Partial: the view has an index list");
   PartialState state;
   state.scalar = points.scalar;
-  if (points.count > kAllKept) {
+  if (points.count > kMaxStored) {
     state = state_of(points, first, execution);
   } else {
     add_loose(points, first, state.loose);
@@ -208,46 +210,46 @@ void Partial::merge(const Partial& other) {
   const FloatEnvironment environment;
   if (other.size() == 0) return;
   if (size() > 0 && state_->scalar != other.state_->scalar)
-    throw std::invalid_argument("Partial::merge: one has floats, the other doubles");
+    throw std::invalid_argument("Partial::merge: cannot merge float and double points");
   state_ = size() == 0 ? other.state_ : std::make_shared<PartialState>(merged(*state_, *other.state_));
 }
 
-bool Partial::serves(const Method& method) {
+bool Partial::can_fit(const Method& method) {
   return !method.needs_all_points;
 }
 
 EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Execution& execution,
                               const MethodOptions& options) const {
   const FloatEnvironment environment;
-  if (!serves(method)) refuse_partial(method.name);
+  if (!can_fit(method)) refuse_partial(method.name);
   if (execution.supports != nullptr)
-    throw std::invalid_argument("Execution::supports are those of other points");
-  if (state_->all_kept()) {
-    const HeldPoints all(state_->loose, state_->scalar);
+    throw std::invalid_argument("Execution::supports were found for other points");
+  if (state_->stores_all()) {
+    const PackedPoints all(state_->loose, state_->scalar);
     return method.fit(all.view(), volume, execution, options);
   }
-  const NumberedPoints points = standing_for_all(*state_);
-  const HeldPoints held(points, state_->scalar);
-  const Supports supports = supports_of(*state_, points, held.view(), execution);
+  const NumberedPoints points = representative_points(*state_);
+  const PackedPoints packed(points, state_->scalar);
+  const Supports supports = supports_of(*state_, points, packed.view(), execution);
   Execution informed = execution;
   informed.supports = &supports;
-  return method.fit(held.view(), volume, informed, options);
+  return method.fit(packed.view(), volume, informed, options);
 }
 
 EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
-                                              const FarthestPoints& farthest,
+                                              const FarthestQuery& farthest,
                                               const Execution& execution) const {
   const FloatEnvironment environment;
-  if (state_->all_kept()) {
-    const HeldPoints all(state_->loose, state_->scalar);
+  if (state_->stores_all()) {
+    const PackedPoints all(state_->loose, state_->scalar);
     return pcl_bv::fit_smallest_sphere(all.view(), sphere, certificate, execution);
   }
-  const NumberedPoints points = standing_for_all(*state_);
-  const HeldPoints held(points, state_->scalar);
-  Supports supports = supports_of(*state_, points, held.view(), execution);
-  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // by the numbers of the cloud
-    supports.along[k].low_point.index = state_->ends[2 * k].index;
-    supports.along[k].high_point.index = state_->ends[2 * k + 1].index;
+  const NumberedPoints points = representative_points(*state_);
+  const PackedPoints packed(points, state_->scalar);
+  Supports supports = supports_of(*state_, points, packed.view(), execution);
+  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // with indices in the whole cloud
+    supports.along[k].low_point.index = state_->support_points[2 * k].index;
+    supports.along[k].high_point.index = state_->support_points[2 * k + 1].index;
   }
   sphere = smallest_sphere(supports, farthest, certificate);
   return result_of(supports);

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All numbers are little-endian, as they lie in memory on every machine that pcl_bv runs on:
-//   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64  the 26 ends
-//   loose points, extreme points, nodes of moments: u64 how many, then each
-//   CRC-32 of all before: u32
+// The bytes of a Partial. All numbers are little-endian, as in memory on every machine that pcl_bv supports:
+//   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64  26 support points
+//   loose points, extreme points, nodes of moments: for each list u64 count, then the elements
+//   CRC-32 of all bytes before: u32
 
-// Also what a Partial is without its points' kernels, so that the fuzzer of its bytes needs none.
+// This file also holds the members of Partial that need no kernels, so that the fuzzer of the bytes needs
+// none.
 
 #include <algorithm>
 #include <boost/crc.hpp>
@@ -42,7 +43,7 @@ void require(bool good, const char* what) {
   if (!good) throw std::invalid_argument(std::string("partial results: ") + what);
 }
 
-std::uint32_t check_sum(const std::byte* bytes, std::size_t size) {
+std::uint32_t checksum(const std::byte* bytes, std::size_t size) {
   boost::crc_32_type sum;
   sum.process_bytes(bytes, size);
   return sum.checksum();
@@ -58,7 +59,7 @@ class Writer {
   }
 
   std::vector<std::byte> finish() {
-    (*this)(check_sum(bytes_.data(), bytes_.size()));
+    (*this)(checksum(bytes_.data(), bytes_.size()));
     return std::move(bytes_);
   }
 
@@ -73,7 +74,7 @@ class Reader {
   template <typename T>
   void operator()(T& value) {
     static_assert(std::is_arithmetic_v<T>);
-    require(left_ >= sizeof value, "they end early");
+    require(left_ >= sizeof value, "truncated");
     std::memcpy(&value, next_, sizeof value);
     next_ += sizeof value;
     left_ -= sizeof value;
@@ -86,7 +87,7 @@ class Reader {
   std::size_t left_;
 };
 
-// One description for both ways: Io is Writer or Reader, the rest const for a Writer.
+// One description for both directions: Io is Writer or Reader. For a Writer the other arguments are const.
 
 template <typename Io, typename Point>
 void transfer_point(Io& io, Point& p) {
@@ -112,9 +113,9 @@ template <typename Io, typename State>
 void transfer_head(Io& io, State& state) {
   io(state.used);
   io(state.dropped);
-  for (auto& end : state.ends) {
-    io(end.index);
-    transfer_point(io, end.point);
+  for (auto& p : state.support_points) {
+    io(p.index);
+    transfer_point(io, p.point);
   }
 }
 
@@ -130,11 +131,11 @@ void write(const NumberedPoints& points, Writer& out) {
     transfer_numbered(out, p);
 }
 
-// How many elements of at least that size follow.
+// Reads the number of elements that follow. Each has at least `element` bytes.
 std::size_t read_count(Reader& in, std::size_t element) {
   std::size_t count = 0;
   in(count);
-  require(count <= in.left() / element, "they end early");
+  require(count <= in.left() / element, "truncated");
   return count;
 }
 
@@ -143,12 +144,12 @@ NumberedPoints read_points(Reader& in) {
   for (NumberedPoint& p : points) {
     transfer_numbered(in, p);
     const bool ascending = &p == points.data() || (&p)[-1] < p;
-    require(ascending, "points are not in order");
+    require(ascending, "point numbers are not ascending");
   }
   return points;
 }
 
-// So many have points with numbers.
+// The largest number of blocks for which every point has a number.
 constexpr std::size_t kMostBlocks = std::numeric_limits<std::size_t>::max() / kBlockPoints;
 
 MomentTree read_tree(Reader& in) {
@@ -159,9 +160,10 @@ MomentTree read_tree(Reader& in) {
     const bool aligned = node.blocks > 0 && node.blocks <= kMostBlocks &&
                          node.first <= kMostBlocks - node.blocks && (node.blocks & (node.blocks - 1)) == 0 &&
                          node.first % node.blocks == 0;
-    require(aligned, "a sum is not of blocks that belong together");
+    require(aligned, "a moment node has misaligned blocks");
     const int exponent = node.moments.exponent;
-    require(exponent == 0 || exponent == 500 || exponent == 1000, "a sum is in no known unit");
+    require(exponent == 0 || exponent == 500 || exponent == 1000,
+            "a moment node has an unknown exponent (allowed: 0, 500, 1000)");
     tree.append(node);
   }
   return tree;
@@ -174,17 +176,16 @@ PartialState read_state(Reader& in, ScalarType scalar) {
   state.loose = read_points(in);
   state.extreme = read_points(in);
   state.blocks = read_tree(in);
-  require(in.left() == 0, "bytes follow them");
-  require(state.used <= std::numeric_limits<std::size_t>::max() - state.dropped,
-          "their numbers of points contradict each other");
-  require(state.all_kept() ? state.loose.size() <= Partial::kAllKept : state.size() > Partial::kAllKept,
-          "their numbers of points contradict each other");
-  require((state.used > 0) != state.extreme.empty(), "their numbers of points contradict each other");
+  require(in.left() == 0, "unexpected bytes at the end");
+  require(state.used <= std::numeric_limits<std::size_t>::max() - state.dropped, "inconsistent point counts");
+  require(state.stores_all() ? state.loose.size() <= Partial::kMaxStored : state.size() > Partial::kMaxStored,
+          "inconsistent point counts");
+  require((state.used > 0) != state.extreme.empty(), "inconsistent point counts");
   for (const NumberedPoint& p : state.extreme)
     require(is_valid(p.point), "an extreme point is not finite");
-  for (SupportPoint& end : state.ends) {
-    end.found = state.used > 0;
-    require(is_valid(end.point), "an extreme point is not finite");
+  for (SupportPoint& p : state.support_points) {
+    p.found = state.used > 0;
+    require(is_valid(p.point), "an extreme point is not finite");
   }
   require_apart(state);
   return state;
@@ -216,15 +217,15 @@ std::vector<std::byte> Partial::to_bytes() const {
 Partial Partial::from_bytes(const std::byte* bytes, std::size_t size) {
   constexpr std::size_t sum_size = sizeof(std::uint32_t);
   require(size >= sizeof kMagic + sum_size && std::memcmp(bytes, kMagic, sizeof kMagic) == 0,
-          "they do not begin with PCLBVPRT");
+          "the header PCLBVPRT is missing");
   std::uint32_t sum = 0, version = 0, scalar = 0;
   std::memcpy(&sum, bytes + size - sum_size, sum_size);
   Reader in(bytes + sizeof kMagic, size - sizeof kMagic - sum_size);
   in(version);
-  require(version == kVersion, "this version of pcl_bv reads version 1");
-  require(sum == check_sum(bytes, size - sum_size), "their check sum is wrong");
+  require(version == kVersion, "unsupported version (allowed: 1)");
+  require(sum == checksum(bytes, size - sum_size), "wrong checksum");
   in(scalar);
-  require(scalar == 4 || scalar == 8, "their points are neither floats nor doubles");
+  require(scalar == 4 || scalar == 8, "unknown scalar size (allowed: 4 or 8 bytes)");
   Partial partial;
   const ScalarType type = scalar == 4 ? ScalarType::float32 : ScalarType::float64;
   partial.state_ = std::make_shared<PartialState>(read_state(in, type));

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The data of a Partial.
 #pragma once
 
 #include <array>
@@ -9,37 +10,38 @@
 #include "moment_tree.h"
 #include "partial/numbered_points.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 
-/// What a Partial holds. The same points give the same state, whatever way they came.
+/// The data of a Partial. The same points give the same state, in whatever parts and order they came.
 struct PartialState {
   ScalarType scalar = ScalarType::float32;
 
-  /// All points, if there are at most Partial::kAllKept; else those of the cloud's blocks that are not here
-  /// whole.
+  /// All points, if there are at most Partial::kMaxStored. Otherwise the points of those blocks of the cloud
+  /// that are not complete here.
   NumberedPoints loose;
 
-  // Of more than Partial::kAllKept points:
+  // Only if there are more than Partial::kMaxStored points:
   std::size_t used = 0;
   std::size_t dropped = 0;
-  std::array<SupportPoint, 2 * kMaxDirections>
-      ends{};              ///< As SupportDirections has them; numbers of the cloud.
-  NumberedPoints extreme;  ///< Those of all points, loose or not.
-  MomentTree blocks;       ///< Of whole blocks.
+  /// Ordered as in SupportDirections; the indices are those in the whole cloud.
+  std::array<SupportPoint, 2 * kMaxDirections> support_points{};
+  NumberedPoints extreme;  ///< The extreme points of all points, loose or not.
+  MomentTree blocks;       ///< The moments of complete blocks.
 
-  bool all_kept() const { return used + dropped == 0; }
-  std::size_t size() const { return all_kept() ? loose.size() : used + dropped; }
+  bool stores_all() const { return used + dropped == 0; }
+  std::size_t size() const { return stores_all() ? loose.size() : used + dropped; }
 };
 
 inline std::size_t block_of_number(std::size_t number) {
   return number / kBlockPoints;
 }
 
-/// Throws std::invalid_argument if a point is in two blocks, or in one and loose.
+/// Throws std::invalid_argument if two nodes of `blocks` share a block, or if a loose point is in a node's
+/// block.
 void require_apart(const PartialState& state);
 
 }  // namespace pcl_bv

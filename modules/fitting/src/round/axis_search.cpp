@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compass search in the plane that touches the sphere of directions.
+// Compass search in the tangent plane of the sphere of directions.
 
 #include "round/axis_search.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "across.h"
+#include "orthogonal_basis.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "scattered.h"
+#include "spread_directions.h"
 
 namespace pcl_bv {
 namespace {
@@ -23,25 +23,26 @@ struct Rated {
 
 std::vector<Eigen::Vector3d> hemisphere() {
   std::vector<Eigen::Vector3d> axes;
-  for (const Direction& d : scattered_directions())
+  for (const Direction& d : spread_directions())
     axes.push_back(unit3(Eigen::Vector3d(d[0], d[1], d[2])));
   return axes;
 }
 
-// Moves to the best of eight neighbours while one is better, then halves the step and turns the pattern by
-// what 3/5, 4/5 make, so that ridges along it do not hold for long.
+// Moves to the best of eight neighbours while one is better. Otherwise halves the step and rotates the
+// pattern by the angle with the cosine 3/5 and the sine 4/5, so that a ridge along the pattern does not stop
+// the search for long.
 void improve(Rated& best, double step, double last_step,
              const std::function<double(const Eigen::Vector3d&)>& size) {
   constexpr int kMostMoves = 400;
   double c = 1, s = 0;
   for (int moves = 0; step > last_step && moves < kMostMoves;) {
-    const Across across(best.axis);
+    const PlaneBasis plane(best.axis);
     Rated found = best;
     for (int k = 0; k < 8; ++k) {
       static constexpr double x[] = {1, -1, 0, 0, 0.7, -0.7, 0.7, -0.7},
                               y[] = {0, 0, 1, -1, 0.7, -0.7, -0.7, 0.7};
       const double right = step * (c * x[k] - s * y[k]), up = step * (s * x[k] + c * y[k]);
-      const Eigen::Vector3d axis = unit3(best.axis + (right * across.u + up * across.v));
+      const Eigen::Vector3d axis = unit3(best.axis + (right * plane.u + up * plane.v));
       const double rated = size(axis);
       if (rated < found.size) found = {rated, axis};
     }
@@ -59,24 +60,24 @@ void improve(Rated& best, double step, double last_step,
 
 }  // namespace
 
-void Profile::look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
-  const Across across(axis);
+void Profile::project(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
+  const PlaneBasis plane(axis);
   flat_.clear();
-  along.clear();
+  projections.clear();
   low = high = dot3(axis, points.front());
   for (const Eigen::Vector3d& p : points) {
-    flat_.emplace_back(dot3(across.u, p), dot3(across.v, p), 0.0);
-    along.push_back(dot3(axis, p));
-    low = std::min(low, along.back());
-    high = std::max(high, along.back());
+    flat_.emplace_back(dot3(plane.u, p), dot3(plane.v, p), 0.0);
+    projections.push_back(dot3(axis, p));
+    low = std::min(low, projections.back());
+    high = std::max(high, projections.back());
   }
   const SmallBall circle = smallest_ball(flat_.data(), flat_.size());
   middle_ = circle.center;
-  foot = circle.center.x() * across.u + circle.center.y() * across.v;
+  foot = circle.center.x() * plane.u + circle.center.y() * plane.v;
   squared_radius = circle.squared_radius;
 }
 
-void Profile::measure() {
+void Profile::measure_distances() {
   squared.clear();
   for (const Eigen::Vector3d& f : flat_) {
     const double x = f.x() - middle_.x(), y = f.y() - middle_.y();
@@ -84,10 +85,10 @@ void Profile::measure() {
   }
 }
 
-std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {
+std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull) {
   constexpr std::size_t kMany = 1000;
   const std::vector<Eigen::Vector3d> all = hull.local_vertices();
-  return all.size() > kMany ? farthest_along(hemisphere(), all) : all;
+  return all.size() > kMany ? support_points_along(hemisphere(), all) : all;
 }
 
 Eigen::Vector3d search_axis(const LocalHull& hull,

@@ -15,29 +15,30 @@ namespace pcl_bv {
 namespace {
 
 struct Candidate {
-  double low = 0, high = 0;  // the ends along the axis
+  double low = 0, high = 0;  // the ends of the segment, along the axis
   double radius = 0;
-  double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // over pi
+  double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // divided by pi
 };
 
-// The shortest one of this radius: each cap's centre is as far in as the points leave it.
+// The shortest capsule of this radius: each cap's centre is as far inward as the points allow. At a point's
+// distance from the axis, a cap extends by `cap_length` beyond its centre.
 Candidate shortest(const Profile& profile, double squared_radius) {
-  double low = profile.along.front(), high = low;
+  double low = profile.projections.front(), high = low;
   bool first = true;
-  for (std::size_t i = 0; i < profile.along.size(); ++i) {
-    const double reach = std::sqrt(std::max(0.0, squared_radius - profile.squared[i]));
-    low = first ? profile.along[i] + reach : std::min(low, profile.along[i] + reach);
-    high = first ? profile.along[i] - reach : std::max(high, profile.along[i] - reach);
+  for (std::size_t i = 0; i < profile.projections.size(); ++i) {
+    const double cap_length = std::sqrt(std::max(0.0, squared_radius - profile.squared[i]));
+    low = first ? profile.projections[i] + cap_length : std::min(low, profile.projections[i] + cap_length);
+    high = first ? profile.projections[i] - cap_length : std::max(high, profile.projections[i] - cap_length);
     first = false;
   }
   if (low > high) low = high = low + (high - low) / 2;
   return {low, high, std::sqrt(squared_radius)};
 }
 
-// Wider ones can be so much shorter that they are smaller.
+// Tries larger radii: a wider capsule can be so much shorter that its volume is smaller.
 Candidate widened(const Profile& profile) {
   Candidate best = shortest(profile, profile.squared_radius);
-  constexpr int kHalvings = 18;  // down to 2e-6 of the radius
+  constexpr int kHalvings = 18;  // steps down to 2e-6 of the radius
   double width = 1, step = 0.25;
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
     for (const double next : {width * (1 + step), std::max(1.0, width / (1 + step))}) {
@@ -50,7 +51,9 @@ Candidate widened(const Profile& profile) {
   return best;
 }
 
-// Everything within 20 U |q|_1 + 20 U |ends apart|: feet, differences and lengths together.
+// The capsule with these ends around all points. With q = p - a and e = b - a, the computed distance from the
+// segment is off by less than 20 U (|q|_1 + |e|_1), U = 2^-53: the foot, the differences and the lengths
+// together.
 Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
   const Eigen::Vector3d e = (b - a) * frame.scale();
@@ -58,9 +61,9 @@ Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const E
   const Eigen::Vector3d axis = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
   double radius = 0;
   for (const HullPoint& candidate : hull.candidates) {
-    const Eigen::Vector3d q = frame.seen_from(a, candidate.point);
+    const Eigen::Vector3d q = frame.relative_to(a, candidate.point);
     const double foot = std::clamp(dot3(q, axis), 0.0, length);
-    radius = std::max(radius, norm3(q - foot * axis) + 32 * kU * (taxicab3(q) + taxicab3(e)));
+    radius = std::max(radius, norm3(q - foot * axis) + 32 * kUnitRoundoff * (taxicab3(q) + taxicab3(e)));
   }
   return {a, b, frame.length_up(radius)};
 }
@@ -69,16 +72,16 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
   Profile profile;
   Eigen::Vector3d axis = hull.axes.col(0);
   if (hull.rank >= 2) {
-    const std::vector<Eigen::Vector3d> essential = essential_vertices(hull);
+    const std::vector<Eigen::Vector3d> searched = search_vertices(hull);
     axis = search_axis(hull, [&](const Eigen::Vector3d& tried) {
-      profile.look(tried, essential);
-      profile.measure();
+      profile.project(tried, searched);
+      profile.measure_distances();
       return shortest(profile, profile.squared_radius).volume();
     });
   }
   const std::vector<Eigen::Vector3d> vertices = hull.local_vertices();
-  profile.look(axis, vertices);
-  profile.measure();
+  profile.project(axis, vertices);
+  profile.measure_distances();
   const Candidate best = widened(profile);
   const SmallBall ball = smallest_ball(vertices.data(), vertices.size());
   if (ball.squared_radius * std::sqrt(ball.squared_radius) * 4 / 3 <= best.volume()) {

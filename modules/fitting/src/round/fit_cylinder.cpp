@@ -14,24 +14,24 @@ namespace pcl_bv {
 namespace {
 
 Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector3d>& vertices) {
-  if (hull.rank == 2) return hull.axes.col(2);  // a disc
+  if (hull.rank == 2) return hull.axes.col(2);  // points in a plane: a disc
   if (hull.rank < 2) return hull.axes.col(0);
   Profile profile;
   return search_axis(hull, [&](const Eigen::Vector3d& axis) {
-    profile.look(axis, vertices);
+    profile.project(axis, vertices);
     return profile.squared_radius * (profile.high - profile.low);
   });
 }
 
-// With q off by U = 2^-53 of itself, q . axis is off by 5 U |q|_1, |q x axis| by 15 U |q|_1, and 1 / |axis|
-// by 4 U.
+// The cylinder with this centre and axis around all points. With q off by U = 2^-53 of itself, q . axis is
+// off by 5 U |q|_1, |q x axis| by 15 U |q|_1, and 1 / |axis| by 4 U.
 Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center,
                            const Eigen::Vector3d& axis) {
   double radius = 0, half_height = 0;
   for (const HullPoint& candidate : hull.candidates) {
-    const Eigen::Vector3d q = frame.seen_from(center, candidate.point);
-    half_height = std::max(half_height, std::abs(dot3(q, axis)) + 16 * kU * taxicab3(q));
-    radius = std::max(radius, norm3(cross3(q, axis)) + 24 * kU * taxicab3(q));
+    const Eigen::Vector3d q = frame.relative_to(center, candidate.point);
+    half_height = std::max(half_height, std::abs(dot3(q, axis)) + 16 * kUnitRoundoff * taxicab3(q));
+    radius = std::max(radius, norm3(cross3(q, axis)) + 24 * kUnitRoundoff * taxicab3(q));
   }
   return {center, axis, frame.length_up(radius), frame.length_up(half_height)};
 }
@@ -41,10 +41,10 @@ Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const
 EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const Execution& execution) {
   cylinder = Cylinder();
   return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
-    const std::vector<Eigen::Vector3d> vertices = essential_vertices(hull);
+    const std::vector<Eigen::Vector3d> vertices = search_vertices(hull);
     const Eigen::Vector3d axis = find_axis(hull, vertices);
     Profile profile;
-    profile.look(axis, hull.local_vertices());
+    profile.project(axis, hull.local_vertices());
     const Eigen::Vector3d middle = profile.foot + (profile.low + profile.high) / 2 * axis;
     cylinder = measured_cylinder(hull, frame, frame.global(middle), axis);
   });

@@ -15,15 +15,16 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // of kappa; the volume exceeds the bound by twice that
+constexpr double kTolerance = 1e-6;  // of kappa; the volume then exceeds the bound by twice as much
 constexpr int kMostIterations = 300;
 
-// Radii below this part of the greatest are as good as flat, and would make quotients that say nothing.
+// Radii are no less than this part of the largest. Smaller ones are practically flat, and distances divided
+// by them would be meaningless.
 constexpr double kThinRadius = 0x1p-30;
 
-// Found for the spread vertices, of which the hull's rank says how many coordinates count: what is smallest
-// for these is so for all their affine images, but the solver's matrices say nothing of points thinner than
-// 1e-8.
+// Solves for the vertices in LocalHull::spread() coordinates, the first `rank` of them. The smallest
+// ellipsoid is the same in all affine coordinates, but the solver's matrices are inaccurate for points
+// thinner than 1e-8.
 WeightedEllipsoid solve(const LocalHull& hull) {
   std::vector<Eigen::Vector3d> points;
   for (const HullPoint& v : hull.vertices)
@@ -33,39 +34,41 @@ WeightedEllipsoid solve(const LocalHull& hull) {
 
 struct Axes {
   Eigen::Matrix3d axes;
-  Eigen::Vector3d radii;  // local
+  Eigen::Vector3d radii;  // in local units
 };
 
-// With q off by U = 2^-53 of itself, q . axis is off by 5 U |q|_1.
+// Scales the radii such that all points are inside. With q off by U = 2^-53 of itself, q . axis is off by
+// 5 U |q|_1.
 Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center, Axes body) {
   double greatest = 0;
   for (const HullPoint& candidate : hull.candidates) {
-    const Eigen::Vector3d q = frame.seen_from(center, candidate.point);
+    const Eigen::Vector3d q = frame.relative_to(center, candidate.point);
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const double along = std::abs(dot3(body.axes.col(k), q)) + 8 * kU * taxicab3(q);
+      const double along = std::abs(dot3(body.axes.col(k), q)) + 8 * kUnitRoundoff * taxicab3(q);
       const double ratio = along > 0 ? along / body.radii[k] : 0;
       sum += ratio * ratio;
     }
     greatest = std::max(greatest, sum);
   }
-  body.radii *= std::sqrt(greatest) * (1 + 16 * kU);
+  body.radii *= std::sqrt(greatest) * (1 + 16 * kUnitRoundoff);
   return body;
 }
 
-// The ratio in the dimensions that the points span: volume, area or length. Rounding moved the spread points
-// by 2^-48 of what is thinnest.
+// Fills in the certificate. `ratio` compares volumes, areas or lengths, as many dimensions as the points
+// span. The margin of the bound covers rounding, which moved the spread points by 2^-48 divided by the
+// smallest entry of hull.distances.
 void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllipsoid& weighted,
              const Axes& body, EllipsoidCertificate& certificate) {
   const SymmetricEigen spread = symmetric_eigen(weighted.covariance);
   double ratio = 1, bound = 4 * std::numbers::pi / 3;
   for (int k = 0; k < hull.rank; ++k) {
-    const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0)) * hull.reach[k];
+    const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0)) * hull.distances[k];
     ratio *= body.radii[k] / radius;
     bound *= frame.length_down(radius);
   }
   certificate.excess = std::max(0.0, ratio - 1);
-  certificate.lower_bound = hull.rank == 3 ? bound * (1 - 0x1p-40 / std::min(1.0, hull.reach[2])) : 0;
+  certificate.lower_bound = hull.rank == 3 ? bound * (1 - 0x1p-40 / std::min(1.0, hull.distances[2])) : 0;
   for (std::size_t i = 0; i < hull.vertices.size(); ++i) {
     if (weighted.weights[i] == 0) continue;
     certificate.support.push_back(hull.vertices[i].index);
@@ -83,13 +86,14 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
     if (hull.rank == 0) {
       certificate.support = {hull.vertices[0].index};
       certificate.weights = {1};
-      // Below 1e-300 even spread points count as one: a ball of twice their extent holds them.
+      // If the extent is below 1e-300, even distinct points have rank 0: a ball with a radius of twice the
+      // extent holds them.
       const Eigen::Vector3d radii = Eigen::Vector3d::Constant(2 * frame.extent());
       ellipsoid = Ellipsoid(vector(hull.vertices[0].point), Eigen::Matrix3d::Identity(), radii);
       return;
     }
     const WeightedEllipsoid weighted = solve(hull);
-    const Eigen::Matrix3d unspread = hull.reach.asDiagonal();
+    const Eigen::Matrix3d unspread = hull.distances.asDiagonal();
     const SymmetricEigen spread = symmetric_eigen(unspread * weighted.covariance * unspread);
     Axes body;
     Eigen::Vector3d center = hull.candidates.front().local;
@@ -97,7 +101,7 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
       body.axes.col(k) = (hull.axes.col(0) * spread.vectors(0, k) + hull.axes.col(1) * spread.vectors(1, k)) +
                          hull.axes.col(2) * spread.vectors(2, k);
       body.radii[k] = std::sqrt(hull.rank * std::max(spread.values[k], 0.0));
-      center += weighted.center[k] * hull.reach[k] * hull.axes.col(k);
+      center += weighted.center[k] * hull.distances[k] * hull.axes.col(k);
     }
     body.radii = body.radii.cwiseMax(kThinRadius * body.radii[0]);
     center = frame.global(center);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The smallest enclosing ellipsoid of points, by exchanges of weight between points.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,21 +10,24 @@
 
 namespace pcl_bv {
 
-/// A distribution over points and what it proves: with S its covariance, no ellipsoid around these points has
-/// a smaller volume than (unit ball) * sqrt(dimensions^dimensions det S).
+/// Weights of points, and the ellipsoid that they define. With S their weighted covariance and d the number
+/// of dimensions, no ellipsoid around these points has a volume below that of the unit ball times
+/// sqrt(d^d det S).
 struct WeightedEllipsoid {
   std::vector<double> weights;  ///< One per point, not negative, sum 1.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< S; zero beyond `dimensions`.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< S; rows and columns beyond d are zero.
   int iterations = 0;
 };
 
-/// Of points that span so many dimensions, in their first so many coordinates, which should be about 1. The
-/// ellipsoid dimensions >= (p - center)' S^-1 (p - center) grows by at most (1 + 4/3 tolerance) to hold all
-/// points, unless `most_iterations` are spent before. O(points) each; some 20 to 100 are enough.
+/// Computes the smallest ellipsoid of points that span `dimensions` dimensions in their first `dimensions`
+/// coordinates, which should be about 1. In the end, all points satisfy (p - center)' S^-1 (p - center) <=
+/// dimensions + (dimensions + 1) tolerance, unless `most_iterations` are spent before. O(points) for each
+/// iteration; some 20 to 100 iterations are enough.
 ///
-/// Exchanges of weight between pairs (Boehning 1986), best with all others first and then among those that
-/// have any, as Harman, Filova and Richtarik 2020 do in random order.
+/// Exchanges weight between pairs of points (Boehning 1986): first the point farthest outside with all points
+/// that have weight, then these points with one another, as Harman, Filova and Richtarik 2020 do in random
+/// order.
 WeightedEllipsoid smallest_ellipsoid(const std::vector<Eigen::Vector3d>& points, int dimensions,
                                      double tolerance, int most_iterations);
 

@@ -18,10 +18,11 @@ namespace {
 
 constexpr std::size_t kBlocksPerChunk = 32;
 
-// With so few blocks, each is likely to hold a point on the sphere, which float arithmetic cannot reject.
+// With so few blocks the float filter stays off: each block is likely to hold a point on the sphere, which
+// floats cannot reject.
 constexpr std::size_t kFewBlocks = 4;
 
-// Room for the rounding of distances and of their sums, of which there are a few dozen at most.
+// Margins for the rounding of distances and of their sums, a few dozen roundings at most.
 constexpr double kRoundUp = 1 + 0x1p-44;
 constexpr double kRoundDown = 1 - 0x1p-44;
 
@@ -35,7 +36,8 @@ void raise(std::atomic<double>& greatest, double found) {
   }
 }
 
-// The block's points of that octant and distance compete for `best`.
+// Replaces `best` by the farthest of the block's points in that octant, if it is farther. Only points with a
+// squared distance of at least `squared` are inspected.
 void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
                    double squared, FloatFilter filter, FarPoint& best) {
   std::array<std::uint32_t, kBlockPoints> positions;
@@ -43,7 +45,7 @@ void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& 
   for (std::size_t i = 0; i < count; ++i) {
     const Coordinates p = load_point(block, positions[i]);
     if (octant(p, center) != in_octant) continue;
-    keep_farthest({squared_distance(p, center), block.index(positions[i]), p}, best);
+    update_farthest({squared_distance(p, center), block.index(positions[i]), p}, best);
   }
 }
 
@@ -71,7 +73,8 @@ ParallelPolicy DistanceScan::policy(std::size_t expected) const {
   return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
 }
 
-// visit(chunk, first block, number of blocks) for all chunks; `expected` blocks are looked at in them.
+// Calls visit(chunk, first block, number of blocks) for all chunks. `expected` is the number of blocks that
+// will be inspected; it decides the number of threads.
 template <typename Visit>
 void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const {
   const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
@@ -82,14 +85,14 @@ void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const 
   });
 }
 
-void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const {
-  bounds.resize(blocks_);
+void DistanceScan::block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const {
+  maxima.resize(blocks_);
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
     const LoadedPoints points = blocks(first, count);
     OctantScan scan{center, limit, filter_};
     for (std::size_t b = 0; b < count; ++b) {
       scan_octants(isa_, block_of(points.view(), b), scan);
-      bounds[first + b] = *std::max_element(scan.greatest.begin(), scan.greatest.end());
+      maxima[first + b] = *std::max_element(scan.max_squared.begin(), scan.max_squared.end());
     }
   });
 }
@@ -102,14 +105,15 @@ double DistanceScan::greatest(const DistanceCenter& center, double at_least) con
     for (std::size_t b = 0; b < count; ++b) {
       scan.limit = greatest.load(std::memory_order_relaxed);
       scan_octants(isa_, block_of(points.view(), b), scan);
-      raise(greatest, *std::max_element(scan.greatest.begin(), scan.greatest.end()));
+      raise(greatest, *std::max_element(scan.max_squared.begin(), scan.max_squared.end()));
     }
   });
   return greatest;
 }
 
-// The farthest point in each octant of all that has been scanned, by any thread. Which chunks find theirs
-// depends on timing, which one is left does not. Points nearer than all eight do not matter any more.
+// The farthest point in each octant among all points that the threads have scanned so far. Which candidates
+// compete depends on timing; the points that remain in the end do not. Points nearer than the nearest of the
+// eight can be skipped.
 class DistanceScan::SharedOctants {
  public:
   SharedOctants() {
@@ -133,12 +137,12 @@ class DistanceScan::SharedOctants {
 
   void compete(const FarPoint& candidate, std::size_t octant) {
     const std::lock_guard lock(mutex_);
-    keep_farthest(candidate, points_[octant]);
+    update_farthest(candidate, points_[octant]);
   }
 
   void filtered() { chunks_filtered_.fetch_add(1, std::memory_order_relaxed); }
 
-  /// Once all threads are done.
+  /// Valid when all threads have finished.
   const OctantPoints& points() const { return points_; }
   std::size_t chunks_filtered() const { return chunks_filtered_; }
 
@@ -158,11 +162,12 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
     scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
     scan.limit = std::max(limit, best.least());
     scan_octants(isa_, block_of(points.view(), b), scan);
-    greatest[b] = scan.greatest;
-    best.raise(scan.greatest);
+    greatest[b] = scan.max_squared;
+    best.raise(scan.max_squared);
   }
   if (scan.filter == FloatFilter::reject) best.filtered();
-  // Nothing of a chunk is kept: of a source it would have to be read again, and a billion points have 31 000.
+  // The points are found while the chunk is in memory. To find them later, a source would have to load the
+  // chunk again, and the values of all chunks would have to be stored: 31 000 chunks for a billion points.
   for (std::size_t o = 0; o < 8; ++o) {
     for (std::size_t b = 0; b < count; ++b) {
       if (greatest[b][o] < 0 || greatest[b][o] < best[o]) continue;
@@ -174,40 +179,42 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 }
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
-  // Written whole by the kernel: no need to clear it. Points of a source come past in each scan anyway.
+  // The array is not initialised, because the kernel writes every bound. Points of a source get no bounds,
+  // because a scan loads all of them anyway.
   if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
     bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
-  first_center_ = center;
+  scan_center_ = center;
   SharedOctants best;
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
     scan_chunk(first, count, center, limit, best);
   });
   found = best.points();
-  // Where floats reject nothing, all points are near the surface, and bounds do not help either.
+  // If floats reject next to nothing, nearly all points are near the surface, and bounds do not help either.
   if (2 * best.chunks_filtered() < (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk) {
     filter_ = FloatFilter::off;
     bounds_.reset();
   }
 }
 
-// Lists the points that matter, now and to spheres that move an eighth as far again. False if they are not
+// Lists the points at least `distance` from `center`, and those that can be so far from a centre that moves
+// from here by up to an eighth of its movement since the full scan. Returns false if these points are not
 // few.
 bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   if (bounds_ == nullptr) return false;
-  const double moved = distance_up(center, first_center_);
+  const double moved = distance_up(center, scan_center_);
   shell_.clear();
   shell_center_ = center;
   shell_distance_ = distance - moved / 8;
   const double least = (shell_distance_ - moved) * kRoundDown;
   if (!(least > 0)) return false;
-  KeptBounds kept{nullptr, least * least * kRoundDown};
+  ScanBounds scan_bounds{nullptr, least * least * kRoundDown};
   const double limit = shell_distance_ * shell_distance_ * kRoundDown;
   std::array<std::uint32_t, kBlockPoints> positions;
   for (std::size_t block = 0; block < blocks_; ++block) {
-    kept.bounds = &bounds_[block * kBlockBounds];
+    scan_bounds.bounds = &bounds_[block * kBlockBounds];
     const std::size_t count =
-        list_reaching(isa_, blocks(block, 1).view(), kept, center, limit, positions.data());
+        list_distant_by_bounds(isa_, blocks(block, 1).view(), scan_bounds, center, limit, positions.data());
     for (std::size_t i = 0; i < count; ++i)
       shell_.push_back(block * kBlockPoints + positions[i]);
     if (shell_.size() > 64 + points_.count / 16) return false;
@@ -220,14 +227,14 @@ void DistanceScan::scan_shell(const DistanceCenter& center, double limit, Octant
     const Coordinates p = load_point(points_, i);
     const double squared = squared_distance(p, center);
     if (!(squared >= limit) || !is_valid(p)) continue;
-    keep_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
+    update_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
   }
 }
 
 bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
   const double distance = std::sqrt(limit) * kRoundDown;
   found = {};
-  // What is not in the shell can have come to shell_distance_ and the way of the centre together.
+  // A point that is not listed is nearer than shell_distance_ plus the movement of the centre since then.
   listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
   listed_ = listed_ || (scanned_ && list_shell(center, distance));
   if (listed_) {

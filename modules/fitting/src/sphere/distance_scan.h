@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud's points against a radius, block by block and over the cores: what is outside, how far, and what
-// need not be looked at again.
+// Compares the distances of a cloud's points with a radius, in parallel: which points are outside, how far,
+// and which points need not be inspected again.
 #pragma once
 
 #include <array>
@@ -13,33 +13,35 @@
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/kernels/distances.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "small_vector.h"
 
 namespace pcl_bv {
 
-/// One number for each block.
-using BlockNumbers = SmallVector<double, 16>;
+/// For each block of points the largest squared distance of a point.
+using BlockMaxima = SmallVector<double, 16>;
 
-/// All squared distances are squared_distance() of the kernels. No result depends on the execution.
+/// Scans of a cloud for points far from a centre. All squared distances are squared_distance() of the
+/// kernels. No result depends on the execution.
 class DistanceScan {
  public:
-  /// Keeps the view and the execution.
+  /// Copies the view and the execution, not the points.
   DistanceScan(const PointView& points, const Execution& execution);
 
   const PointView& points() const { return points_; }
 
-  /// Whether a pass over all points would run in one thread.
+  /// Returns whether a pass over all points would run in one thread.
   bool serial() const;
 
-  /// For each block the greatest squared distance of a valid point that is at least `limit`; -1 if there is
-  /// none.
-  void bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const;
+  /// Sets `maxima` to the largest squared distance of a valid point in each block that is at least `limit`;
+  /// -1 if the block has no such point.
+  void block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const;
 
-  /// The greatest squared distance of a valid point, or `at_least` if that is greater.
+  /// Returns the largest squared distance of a valid point, or `at_least` if that is larger.
   double greatest(const DistanceCenter& center, double at_least) const;
 
-  /// Calls visit(position in the block, p) for those of one block, in order.
+  /// Calls visit(position in the block, p), in ascending order, for the valid points of a block with a
+  /// squared distance of at least `limit`.
   template <typename Visit>
   void visit_block(std::size_t block, const DistanceCenter& center, double limit, const Visit& visit) const {
     const LoadedPoints part = blocks(block, 1);
@@ -49,9 +51,9 @@ class DistanceScan {
       visit(listed[i], load_point(part.view(), listed[i]));
   }
 
-  /// As FarthestPoints says. For spheres that hardly move between calls: the first one keeps how far every
-  /// few points reach, and later ones look only at those that can have come to reach the limit, if they are
-  /// few.
+  /// Answers a query as FarthestQuery does. Made for centres that hardly move between calls: a scan of all
+  /// points also stores upper bounds of distances, one for every few points. Later calls inspect only the
+  /// points that can reach the limit, if these are few.
   bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
 
  private:
@@ -73,11 +75,11 @@ class DistanceScan {
   FloatFilter filter_;
   std::size_t blocks_;
 
-  std::unique_ptr<float[]> bounds_;  // of the first scan, from first_center_
-  DistanceCenter first_center_;
+  std::unique_ptr<float[]> bounds_;  // of the latest full scan, for distances from scan_center_
+  DistanceCenter scan_center_;
   bool scanned_ = false;
 
-  // All points not nearer than shell_distance_ to shell_center_, by position, if listed_.
+  // If listed_: the positions of all points whose distance from shell_center_ is at least shell_distance_.
   std::vector<std::size_t> shell_;
   DistanceCenter shell_center_;
   double shell_distance_ = 0;

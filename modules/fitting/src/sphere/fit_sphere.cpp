@@ -11,10 +11,10 @@
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "scattered.h"
 #include "sphere/distance_scan.h"
 #include "sphere/growth.h"
 #include "sphere/sphere_seed.h"
+#include "spread_directions.h"
 #include "support/support_search.h"
 
 namespace pcl_bv {
@@ -34,10 +34,10 @@ DirectionSet seed_directions(SphereMethod method) {
 
 struct FirstBall {
   Eigen::Vector3d center;
-  double squared_radius;  // as the kernels measure
+  double squared_radius;  // in the unit of the kernels, squared
 };
 
-// Half-way between the ends of the axis whose ends are farthest apart.
+// The ball over the two extremal points of the axis whose extremal points are farthest apart.
 FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   FirstBall ball{Eigen::Vector3d::Zero(), -1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -51,9 +51,9 @@ FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   return ball;
 }
 
-// Of opposite ones one: what the cube's directions lack of those with components up to 2.
+// The directions that EPOS-98 has beyond those of the cube; one of each two opposite directions.
 std::vector<Direction> epos98_directions() {
-  std::vector<Direction> directions = scattered_directions();
+  std::vector<Direction> directions = spread_directions();
   const auto of_cube = [](const Direction& d) {
     return std::none_of(d.begin(), d.end(), [](double c) { return std::abs(c) == 2; });
   };
@@ -61,7 +61,8 @@ std::vector<Direction> epos98_directions() {
   return directions;
 }
 
-// EPOS of no more points than it has ends of directions is the ball of all of them (Larsson 2008).
+// The first ball of EPOS. If there are no more points than support points, it is the ball of all points
+// (Larsson 2008).
 FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports& supports,
                     const LocalFrame& frame, const Execution& execution) {
   const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(supports.set);

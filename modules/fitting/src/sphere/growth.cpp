@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ritter's step for one point after another (Ritter 1990, Larsson 2008), in the orders of the paper's §5.
+// Ritter's step for one point after another (Ritter 1990, Larsson 2008), in the orders of the paper, §5.
 
 #include "sphere/growth.h"
 
@@ -13,8 +13,8 @@
 namespace pcl_bv {
 namespace {
 
-// A sphere that only grows. Each one holds, by exact arithmetic, the one before, so that points once inside
-// stay inside.
+// A sphere that only grows. After each step it contains, by exact arithmetic, the sphere before the step, so
+// points once inside stay inside.
 class GrowingSphere {
  public:
   GrowingSphere(const LocalFrame& frame, const Eigen::Vector3d& center, double squared_radius)
@@ -22,11 +22,12 @@ class GrowingSphere {
 
   DistanceCenter center() const { return frame_.center(center_); }
 
-  // Squared distances below this one do not make it grow.
+  // Points with a smaller squared distance do not make the sphere grow.
   double squared_radius() const { return radius_ * radius_ * (1 - 0x1p-50); }
 
-  // The sphere through p and the far side of the old one, with what rounding may have moved. A point that is
-  // inside by exact arithmetic never does anything, so it does not matter which of them are asked.
+  // Grows to the sphere through p and the far side of the old sphere, with a margin for rounding. A point
+  // that is inside by exact arithmetic never changes the sphere, so callers may pass such points or leave
+  // them out.
   void grow(const Coordinates& p) {
     const double d = std::sqrt(squared_distance(p, center()));
     if (!(d > radius_ * kInside)) return;
@@ -34,11 +35,11 @@ class GrowingSphere {
     const Eigen::Vector3d old = center_;
     center_ = old + (d - grown) / d * (vector(p) - old);
     const double moved = std::sqrt(squared_distance({old.x(), old.y(), old.z()}, center())) * kOutward;
-    const double reach = std::sqrt(squared_distance(p, center())) * kOutward;
-    radius_ = std::max({grown, (moved + radius_) * kOutward, reach});
+    const double distance = std::sqrt(squared_distance(p, center())) * kOutward;
+    radius_ = std::max({grown, (moved + radius_) * kOutward, distance});
   }
 
-  // With the margin for points that kInside let pass.
+  // Adds the margin for points that are outside by no more than kInside.
   Sphere finish() const { return {center_, frame_.radius(radius_ * kOutward)}; }
 
  private:
@@ -46,7 +47,7 @@ class GrowingSphere {
 
   const LocalFrame& frame_;
   Eigen::Vector3d center_;
-  double radius_;  // in the kernels' unit
+  double radius_;  // in the unit of the kernels
 };
 
 void grow_over_block(const DistanceScan& scan, std::size_t block, GrowingSphere& sphere) {
@@ -59,18 +60,19 @@ void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
     grow_over_block(scan, block, sphere);
 }
 
-// Calls visit(block) for those that the sphere leaves points of outside, which are found in parallel.
+// Calls visit(block), in ascending order, for the blocks with points outside the sphere as it is at the
+// beginning. These blocks are found in parallel.
 template <typename Visit>
 void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& sphere, const Visit& visit) {
   const double limit = sphere.squared_radius();
-  BlockNumbers bounds;
-  scan.bound(sphere.center(), limit, bounds);
-  for (std::size_t block = 0; block < bounds.size(); ++block) {
-    if (bounds[block] >= limit) visit(block);
+  BlockMaxima maxima;
+  scan.block_maxima(sphere.center(), limit, maxima);
+  for (std::size_t block = 0; block < maxima.size(); ++block) {
+    if (maxima[block] >= limit) visit(block);
   }
 }
 
-// An index list may name the points in any order.
+// For an index list that is not ascending: grows over the points outside in ascending order of their indices.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
   std::vector<std::size_t> outside;
@@ -100,11 +102,11 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
     grow_by_index(scan, sphere);
   } else if (growth == SphereGrowth::deferred && !scan.serial()) {
-    // Over what grown spheres still leave outside: in the end, of the points outside of the first those that
-    // matter.
+    // Each block is compared with the sphere as grown so far. This skips only points that would not change
+    // it.
     for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });
   } else {
-    grow_in_order(scan, sphere);  // gives the same bits as the deferred ways, and is faster in one thread
+    grow_in_order(scan, sphere);  // the same bits as the deferred variants, and faster in one thread
   }
   return sphere.finish();
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// EXPANDSPHERE of the paper: a first sphere grows over the points that it leaves outside.
+// Grows a first sphere over the points that are outside of it: EXPANDSPHERE of the paper.
 #pragma once
 
 #include "local_frame.h"
@@ -10,7 +10,7 @@
 
 namespace pcl_bv {
 
-/// Grows the sphere of `center` and `squared_radius` (a measure of the kernels) until it holds every valid
+/// Grows the sphere of `center` and `squared_radius` (as the kernels measure) until it contains every valid
 /// point by exact arithmetic.
 Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eigen::Vector3d& center,
                    double squared_radius, SphereGrowth growth);

@@ -15,16 +15,16 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kRounding = 1 + 0x1p-50;  // what a squared distance may differ by without meaning anything
-constexpr double kTie = 1 + 0x1p-46;       // and what that of two centres of one ball may
+constexpr double kRounding = 1 + 0x1p-50;  // smaller relative differences of squared distances are rounding
+constexpr double kTie = 1 + 0x1p-46;       // the same if two computed centres of one ball are compared
 
 double squared_distance(const Vector& a, const Vector& b) {
   return dot3(a - b, a - b);
 }
 
-// x with rows[i] . x = right[i], by elimination with row pivoting: its residual is small even where the rows
-// are nearly dependent, and the residual is what decides how far points of a support stick out. False if they
-// are dependent.
+// Solves rows[i] . x = right[i] by elimination with row pivoting. The residual is small even if the rows are
+// nearly dependent, and the residual decides how far the points of a support are outside their ball. Returns
+// false if the rows are dependent.
 bool solve(std::array<Vector, 3> rows, Vector right, Vector& x) {
   for (int column = 0; column < 3; ++column) {
     int pivot = column;
@@ -47,7 +47,7 @@ bool solve(std::array<Vector, 3> rows, Vector right, Vector& x) {
   return true;
 }
 
-// The weights of three spokes that add up to x; NaN if they are dependent.
+// Returns the weights with which the sum of three spokes is x; NaN if the spokes are dependent.
 Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
   std::array<Vector, 3> rows;
   for (int axis = 0; axis < 3; ++axis)
@@ -56,8 +56,8 @@ Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
   return solve(rows, x, result) ? result : Vector::Constant(kNan);
 }
 
-// The best ball of a support of up to four points and one new point, which must be on its boundary. All is
-// relative to the new point.
+// Finds the best ball of a support of up to four points and one new point, which must be on its boundary. All
+// coordinates are relative to the new point.
 class Step {
  public:
   Step(const Vector* points, const std::array<std::size_t, 4>& support, int size, std::size_t pivot)
@@ -68,18 +68,19 @@ class Step {
     }
   }
 
-  // The members of the support that stay, as bits; the centre relative to the new point.
+  // Returns the members of the support that stay, as bits. Sets the centre, relative to the new point.
   unsigned solve(Vector& center) {
-    // Smaller supports first: what they span and what holds all is the smallest ball.
+    // Smaller supports first: if the ball that one spans contains all points, it is the smallest ball.
     if (!try_pairs() && !try_triples()) try_quadruples();
     center = center_;
     return members_;
   }
 
  private:
-  // Whether nothing is outside of a ball with this centre, whose surface the new point (the origin) is on.
-  // Cospherical points span the same ball many times; of equal ones that with the greatest least weight is
-  // taken, since a support with a negative weight does not ask for its ball.
+  // Compares the ball with this centre through the new point (the origin) with the best ball so far. Returns
+  // whether no point is outside of it. Cospherical points span the same ball many times. Of equal balls the
+  // one with the largest minimum weight is taken, because a support with a negative weight does not require
+  // its ball.
   template <typename LeastWeight>
   bool offer(unsigned members, const Vector& center, LeastWeight&& least_weight) {
     const double squared_radius = dot3(center, center);
@@ -108,7 +109,7 @@ class Step {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
         const double product = dot3(spokes_[i], spokes_[j]);
-        // Of a triangle that is not acute, the longest side spans the ball.
+        // If the triangle is not acute, its longest side spans the ball.
         if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
         Vector center;
         const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross3(spokes_[i], spokes_[j])};
@@ -119,7 +120,8 @@ class Step {
     return false;
   }
 
-  // A sphere through four points may hold the fifth without being the smallest: all are tried.
+  // Tries all quadruples until a ball contains all points and has no negative weight: a sphere through four
+  // points may contain the fifth without being the smallest.
   void try_quadruples() {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
@@ -147,8 +149,8 @@ class Step {
   Vector center_ = Vector::Zero();
 };
 
-// Weights with which the support's points have the centre as their mean. A negative one, which only rounding
-// can bring, becomes 0.
+// Computes the weights with which the centre is the weighted mean of the support points. A negative weight,
+// which only rounding can cause, becomes 0.
 void weigh(const Vector* points, SmallBall& ball) {
   const Vector origin = points[ball.support[0]];
   std::array<Vector, 3> spokes = {Vector::Zero(), Vector::Zero(), Vector::Zero()};
@@ -167,8 +169,8 @@ void weigh(const Vector* points, SmallBall& ball) {
     weight /= sum;
 }
 
-// sum w_i |q_i|^2 - |sum w_i q_i|^2 for q relative to the centre: for any weights, no ball around these
-// points is smaller.
+// Returns sum w_i |q_i|^2 - |sum w_i q_i|^2, with q_i relative to the centre. For any weights, no ball around
+// these points has a smaller squared radius.
 double squared_lower_bound(const Vector* points, const SmallBall& ball) {
   double squares = 0;
   Vector mean = Vector::Zero();
@@ -208,7 +210,8 @@ SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const 
     ball.center = points[ball.support[0]];
     ball.squared_radius = 0;
   }
-  // Each step's ball is greater than the last, until rounding hides it: far fewer steps are needed than this.
+  // Each step's ball is larger than the ball before, until rounding hides it. Far fewer than 200 steps are
+  // needed.
   for (int steps = 0; steps < 200; ++steps) {
     const std::size_t pivot = farthest(points, count, ball.center, greatest);
     const bool done = greatest <= ball.squared_radius * kRounding;

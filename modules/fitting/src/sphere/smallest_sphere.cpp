@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Larsson, Capannini and Kallberg's orthant scan: the exact ball of some points, all points against it, and
-// again with the farthest one outside in each octant, until none is outside.
+// The orthant scan (Larsson, Capannini, Källberg 2016): compute the exact ball of a few points, scan all
+// points, add the farthest point outside in each octant, and repeat until no point is outside.
 
 #include "pcl_bv/fitting/smallest_sphere.h"
 
@@ -18,12 +18,12 @@
 namespace pcl_bv {
 namespace {
 
-// A squared distance that is greater by less than this is not greater: half is the rounding of the distances,
-// half that of the ball.
+// A point is outside only if its squared distance exceeds that of the candidates by this factor. Half of the
+// margin is for the rounding of distances, half for that of the ball.
 constexpr double kNotOutside = 1 + 0x1p-48;
 
-// The radius is stated with room for the rounding of the weights, of the bound itself and of local
-// coordinates.
+// Fills in the certificate. The lower bound has a margin for the rounding of the weights, of the bound itself
+// and of the local coordinates.
 void certify(const SmallBall& ball, const SeedPoints& candidates, const LocalFrame& frame,
              SphereCertificate& certificate) {
   certificate.support_size = ball.support_size;
@@ -34,7 +34,7 @@ void certify(const SmallBall& ball, const SeedPoints& candidates, const LocalFra
       frame.length_down(std::sqrt(std::max(0.0, ball.squared_lower_bound)) * (1 - 0x1p-48));
 }
 
-// Adds the points found outside; false if all of them were candidates already.
+// Adds the points found outside. Returns false if all of them were candidates already.
 bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   bool added = false;
   for (const FarPoint& far : found) {
@@ -43,10 +43,10 @@ bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   return added;
 }
 
-Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints candidates,
+Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints candidates,
              SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
-  double best_distance = -1;  // squared, of the farthest point
+  double best_distance = -1;  // squared distance of the farthest point
   SmallBall ball;
   for (;;) {
     ball = candidates.smallest_ball(frame, &ball);
@@ -63,7 +63,7 @@ Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints
       best_distance = distance;
       best_center = center;
     }
-    // Each pass adds a point or is the last.
+    // Each pass adds a point or is the last one, so the loop ends.
     if (!outside || !add_candidates(found, candidates)) break;
   }
   return {best_center, frame.radius(std::sqrt(best_distance) * kOutward)};
@@ -71,24 +71,24 @@ Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints
 
 }  // namespace
 
-void keep_farthest(const FarPoint& other, FarPoint& best) {
+void update_farthest(const FarPoint& other, FarPoint& best) {
   const bool tie = other.squared_distance == best.squared_distance;
   if (tie ? other.index < best.index : other.squared_distance > best.squared_distance) best = other;
 }
 
-void keep_farthest(const OctantPoints& other, OctantPoints& best) {
+void update_farthest(const OctantPoints& other, OctantPoints& best) {
   for (std::size_t o = 0; o < best.size(); ++o)
-    keep_farthest(other[o], best[o]);
+    update_farthest(other[o], best[o]);
 }
 
-bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
+bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution) {
   const FloatEnvironment environment;
-  if (points.indices != nullptr) throw std::invalid_argument("farthest_points: the view has an index list");
+  if (points.indices != nullptr) throw std::invalid_argument("answer_farthest: the view has an index list");
   return DistanceScan(points, execution).farthest(center, limit, found);
 }
 
-Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,
+Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate) {
   const FloatEnvironment environment;
   certificate = SphereCertificate();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The candidate points from which sphere fits compute a smallest ball.
 #pragma once
 
 #include "local_frame.h"
@@ -10,7 +11,7 @@
 
 namespace pcl_bv {
 
-/// Points of a cloud, each once, in the order of their indices until some are added.
+/// Distinct points of a cloud: at first in ascending order of their indices, then in the order of add().
 class SeedPoints {
  public:
   struct Seed {
@@ -18,22 +19,23 @@ class SeedPoints {
     Coordinates point;
   };
 
-  /// The points of both ends of all of the supports' directions, which must have been asked for.
+  /// The support points of all directions; the supports must have points.
   explicit SeedPoints(const Supports& supports);
 
-  /// All valid points, with their supports.
+  /// All valid points of a view of at most kChunkPoints points; `supports` are those of the view.
   SeedPoints(const PointView& points, const Supports& supports);
 
   std::size_t size() const { return seeds_.size(); }
   const Seed& operator[](std::size_t i) const { return seeds_[i]; }
 
-  /// False, and nothing changes, if the point is there already.
+  /// Appends a point. Returns false, and changes nothing, if the point is there already.
   bool add(std::size_t index, const Coordinates& point);
 
-  /// Their smallest ball, in local coordinates. `start`: that of all but the last of them.
+  /// Returns the smallest ball of the points, in local coordinates. `start`, if not null, is the ball of the
+  /// first of these points.
   SmallBall smallest_ball(const LocalFrame& frame, const SmallBall* start = nullptr) const;
 
-  /// The greatest squared distance of any.
+  /// Returns the largest squared distance of the points from `center`.
   double greatest_distance(const DistanceCenter& center) const;
 
  private:

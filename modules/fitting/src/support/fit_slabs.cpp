@@ -31,12 +31,12 @@ EstimationResult fit_built_in(const PointView& points, DirectionSet directions,
   return result_of(supports);
 }
 
-EstimationResult fit_own(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                         SlabPoints* touching, const Execution& execution) {
+EstimationResult fit_custom(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
+                            SlabPoints* touching, const Execution& execution) {
   std::vector<std::array<double, 3>> directions;
   for (std::size_t k = 0; k < set->size(); ++k)
     directions.push_back({set->direction(k).x(), set->direction(k).y(), set->direction(k).z()});
-  const OwnSupports supports = find_supports(points, directions, execution);
+  const CustomSupports supports = find_supports(points, directions, execution);
   SlabVector low = kdop.min(), high = kdop.max();
   for (std::size_t k = 0; k < supports.along.size(); ++k) {
     const Support& along = supports.along[k];
@@ -56,7 +56,7 @@ EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSe
   kdop = Kdop(set);
   const std::optional<DirectionSet> directions = direction_set(set);
   return directions ? fit_built_in(points, *directions, set, kdop, touching, execution)
-                    : fit_own(points, set, kdop, touching, execution);
+                    : fit_custom(points, set, kdop, touching, execution);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The search for supports as the parts of a pass over chunks, so that other work can ride on the same pass.
+// The search for supports, split into calls for each chunk, so that one pass can do other work on the chunks,
+// too.
 #pragma once
 
 #include <array>
@@ -15,58 +16,65 @@
 
 namespace pcl_bv {
 
-/// Throws std::invalid_argument if the execution has supports, but not those of these points. For every fit,
-/// also where it does not use them.
-void require_own_supports(const PointView& points, const Execution& execution);
+/// Throws std::invalid_argument if the execution has supports of other points. Every fit calls it, also a fit
+/// that does not use the supports.
+void require_matching_supports(const PointView& points, const Execution& execution);
 
-/// Whether the points are few that stand for a cloud.
-inline bool stand_for_all(const Execution& execution) {
+/// Returns whether the points are a few points that represent a whole cloud (Supports::moments).
+inline bool represents_cloud(const Execution& execution) {
   return execution.supports != nullptr && execution.supports->moments != nullptr;
 }
 
-/// Throws std::invalid_argument if they do, for a fit whose volume depends on all points.
+/// Throws std::invalid_argument if the points only represent a whole cloud. For fits whose volume depends on
+/// all points; `fit` is the name of the fit for the message.
 void require_all_points(const Execution& execution, const char* fit);
 
+/// Throws the std::invalid_argument of require_all_points().
 [[noreturn]] void refuse_partial(std::string_view fit);
 
+/// Finds the support points of a cloud chunk by chunk.
 class SupportSearch {
  public:
-  /// For a cloud of so many points. Keeps the directions.
+  /// For a cloud of so many points. Keeps a reference to the directions.
   SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points);
 
-  /// Of a chunk. Several threads may call it at a time, and each profits from what the others are known to
-  /// reach. Which chunk sees what depends on timing; merged, the result does not. Needs a FloatEnvironment.
+  /// Finds the support points of a chunk. Several threads may call it at the same time: they share the
+  /// projections found so far, and skip points that cannot exceed these. Which points a call finds depends on
+  /// timing; the merged result does not. Needs a FloatEnvironment.
   ChunkSupports find(const PointView& chunk);
 
-  /// Lets what was found so far compete with what a chunk has.
+  /// Merges the support points of a chunk into those found so far.
   void merge(const ChunkSupports& part);
 
-  /// find() and merge() of all chunks of the cloud.
+  /// Calls find() and merge() for all chunks of the cloud.
   void run(const PointView& points, const Execution& execution);
 
-  /// Points of the merged chunks that are not valid.
+  /// Number of points of the merged chunks that are not valid.
   std::size_t dropped() const { return all_.dropped; }
 
-  /// Along the k-th direction; of a cloud with a valid point.
+  /// Returns the support along the k-th direction; the cloud must have a valid point.
   Support along(std::size_t k) const;
 
  private:
   UsableIsa isa_;
   const SupportDirections& directions_;
-  bool shared_;  // a single chunk has nobody to tell
-  std::array<std::atomic<double>, kMaxSupportEnds> reached_;
+  bool shared_;  // whether there are several chunks, which use known_max_
+  std::array<std::atomic<double>, kMaxSupports> known_max_;
   ChunkSupports all_;
 };
 
-/// Along the k-th direction, for points that reach farthest at its two ends.
+/// Returns the support along the k-th direction, given the points with the minimum and the maximum
+/// projection.
 Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,
                         const SupportPoint& high);
 
-/// What a search along the directions of a set has found among all of these points, but for the rank.
-Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
+/// Returns the supports that a search along the directions of `set` has found among all points of a view. The
+/// rank is not set.
+Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
-/// Lets a box, of no points at first, grow by that of a chunk.
-Supports no_bounds(const PointView& points);
+/// The supports of a box, built chunk by chunk: empty_bounds() starts without a point, merge_bounds() adds
+/// the box of a chunk, finish_bounds() sets the counts.
+Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);
 

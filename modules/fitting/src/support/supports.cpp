@@ -17,13 +17,13 @@
 namespace pcl_bv {
 namespace {
 
-// Whether all directions of a set are among those that were searched, with what is asked of them.
+// Whether `known` has all directions of `set`, with the points if `detail` wants them.
 bool holds(const Supports& known, DirectionSet set, SupportDetail detail) {
   const bool directions = known.set == set || known.set == DirectionSet::dop26 || set == DirectionSet::dop6;
   return directions && (known.detail == SupportDetail::points || detail == SupportDetail::bounds);
 }
 
-// The same with fewer directions.
+// Returns the supports of `known` along the directions of `set`, which holds() must allow.
 Supports part_of(const Supports& known, DirectionSet set) {
   Supports part = known;
   part.set = set;
@@ -34,7 +34,7 @@ Supports part_of(const Supports& known, DirectionSet set) {
 }
 
 Supports find_bounds(const PointView& points, const Execution& execution) {
-  Supports supports = no_bounds(points);
+  Supports supports = empty_bounds(points);
   map_chunks<AxisExtents>(
       points, worthwhile(execution, Work::box, points.count),
       [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
@@ -46,18 +46,18 @@ Supports find_bounds(const PointView& points, const Execution& execution) {
 Supports find_points(const PointView& points, DirectionSet set, const Execution& execution) {
   SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
   search.run(points, execution);
-  return of_search(search, set, points);
+  return supports_of_search(search, set, points);
 }
 
 }  // namespace
 
-void require_own_supports(const PointView& points, const Execution& execution) {
-  if (execution.supports != nullptr && !same_places(execution.supports->points, points))
-    throw std::invalid_argument("Execution::supports are those of other points");
+void require_matching_supports(const PointView& points, const Execution& execution) {
+  if (execution.supports != nullptr && !same_memory(execution.supports->points, points))
+    throw std::invalid_argument("Execution::supports were found for other points");
 }
 
 void require_all_points(const Execution& execution, const char* fit) {
-  if (stand_for_all(execution)) refuse_partial(fit);
+  if (represents_cloud(execution)) refuse_partial(fit);
 }
 
 void refuse_partial(std::string_view fit) {
@@ -67,20 +67,20 @@ void refuse_partial(std::string_view fit) {
 SupportSearch::SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points)
     : isa_(isa), directions_(directions), shared_(chunk_count(points) > 1) {
   for (std::size_t end = 0; end < 2 * directions.count; ++end)
-    reached_[end].store(-kInfinity, std::memory_order_relaxed);
+    known_max_[end].store(-kInfinity, std::memory_order_relaxed);
 }
 
 ChunkSupports SupportSearch::find(const PointView& chunk) {
-  ReachedSupports reached = nothing_reached();
+  SupportBounds known_max = no_support_bounds();
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end)
-    reached[end] = reached_[end].load(std::memory_order_relaxed);
+    known_max[end] = known_max_[end].load(std::memory_order_relaxed);
   ChunkSupports found;
-  chunk_supports(isa_, chunk, directions_, reached, found);
+  chunk_supports(isa_, chunk, directions_, known_max, found);
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end) {
-    if (!found.ends[end].found) continue;
-    const double reach = surely_reached(directions_, end, found.ends[end].point);
-    while (reached[end] < reach &&
-           !reached_[end].compare_exchange_weak(reached[end], reach, std::memory_order_relaxed)) {
+    if (!found.supports[end].found) continue;
+    const double projection = projection_lower_bound(directions_, end, found.supports[end].point);
+    while (known_max[end] < projection &&
+           !known_max_[end].compare_exchange_weak(known_max[end], projection, std::memory_order_relaxed)) {
     }
   }
   return found;
@@ -89,18 +89,18 @@ ChunkSupports SupportSearch::find(const PointView& chunk) {
 void SupportSearch::merge(const ChunkSupports& part) {
   all_.dropped += part.dropped;
   for (std::size_t end = 0; end < 2 * directions_.count; ++end)
-    keep_farther(directions_.end_direction(end), part.ends[end], all_.ends[end]);
+    keep_larger_projection(directions_.support_direction(end), part.supports[end], all_.supports[end]);
 }
 
 void SupportSearch::run(const PointView& points, const Execution& execution) {
-  const Work work = directions_.cube ? Work::cube_support : Work::own_support;
+  const Work work = directions_.cube ? Work::cube_support : Work::custom_support;
   map_chunks<ChunkSupports>(
       points, worthwhile(execution, work, directions_.count * points.count),
       [&](const PointView& chunk) { return find(chunk); }, [&](const ChunkSupports& part) { merge(part); });
 }
 
 Support SupportSearch::along(std::size_t k) const {
-  return support_between(directions_, k, all_.ends[2 * k], all_.ends[2 * k + 1]);
+  return support_between(directions_, k, all_.supports[2 * k], all_.supports[2 * k + 1]);
 }
 
 Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,
@@ -109,7 +109,7 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
   return {project_down(n, low.point), project_up(n, high.point), low, high};
 }
 
-Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points) {
+Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points) {
   Supports supports;
   supports.set = set;
   supports.detail = SupportDetail::points;
@@ -121,7 +121,7 @@ Supports of_search(const SupportSearch& search, DirectionSet set, const PointVie
   return supports;
 }
 
-Supports no_bounds(const PointView& points) {
+Supports empty_bounds(const PointView& points) {
   Supports supports;
   supports.points = points;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -146,7 +146,7 @@ void finish_bounds(Supports& supports) {
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_supports(points, execution);
+  require_matching_supports(points, execution);
   if (execution.supports != nullptr && holds(*execution.supports, set, detail))
     return part_of(*execution.supports, set);
   const bool bounds = set == DirectionSet::dop6 && detail == SupportDetail::bounds;
@@ -155,17 +155,17 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
   return supports;
 }
 
-OwnSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                          const Execution& execution) {
+CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
+                             const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_supports(points, execution);
+  require_matching_supports(points, execution);
   if (directions.empty()) throw std::invalid_argument("find_supports: no directions");
   SupportDirections set;
   for (const Direction& direction : directions)
     set.add(direction);
   SupportSearch search(execution.isa, set, points.count);
   search.run(points, execution);
-  OwnSupports result{points.count - search.dropped(), search.dropped(), {}};
+  CustomSupports result{points.count - search.dropped(), search.dropped(), {}};
   for (std::size_t k = 0; k < directions.size() && result.used > 0; ++k)
     result.along.push_back(search.along(k));
   return result;

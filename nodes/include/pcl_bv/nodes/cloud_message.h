@@ -12,25 +12,28 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The bytes of a message, and what keeps them there.
+/// A serialised message and the owner of its bytes.
 struct CloudMessage {
   const std::byte* data = nullptr;
   std::size_t size = 0;
   std::shared_ptr<const void> owner;
-  bool ros1 = false;  ///< In ROS 1's encoding; else CDR with its encapsulation.
+  bool ros1 = false;  ///< ROS 1 encoding; otherwise CDR with its encapsulation header.
 };
 
-/// The message itself, whose data stay where they are. Throws MessageError for what is no
-/// sensor_msgs/msg/PointCloud2.
+/// Parses a sensor_msgs/msg/PointCloud2. Its data are not copied: they stay in the bytes of `message`. Throws
+/// MessageError if the message is not a PointCloud2.
 msg::PointCloud2 cloud_in(const CloudMessage& message);
 
-/// A sensor_msgs/msg/PointCloud2 as a frame: points, owner, frame_id, the stamp unless it is 0, and as `note`
-/// which fields cannot be read (unread_fields()). The points stay where they lie if they can be viewed there
-/// (points_in_place()), else they are copied. With `class_field` classes are that integer field. Throws
-/// MessageError for what is no such cloud.
+/// Turns a sensor_msgs/msg/PointCloud2 into a frame.
+///
+/// Sets points, intensity, owner and frame_id, the stamp unless it is 0, and `note`, which names fields that
+/// cannot be read (skipped_fields_note()). Points stay where they are if they can be read there
+/// (view_points()); otherwise they are copied. If `class_field` is not empty, Frame::classes gets the
+/// values of that integer field. Throws MessageError if the message is not a PointCloud2, and
+/// std::runtime_error if the class field cannot be used (integers_of()).
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame);
 
-/// The same of a message that is read already; `owner` keeps its data.
+/// As above for a parsed message; `owner` keeps its data alive.
 void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<const void>& owner,
                         const std::string& class_field, Frame& frame);
 

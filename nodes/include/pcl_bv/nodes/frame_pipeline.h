@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in, the objects in it as volumes out: the whole way, without I/O and, unless `threads` asks for
-// more, in one thread.
+// The complete pipeline from a point cloud to the bounding volumes of its objects. Processing does no I/O and
+// runs in one thread unless PipelineConfig::threads says otherwise.
 #pragma once
 
 #include <memory>
@@ -13,35 +13,40 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Filter, ground, clusters, volumes, tracks, for frames of any point type.
+/// Processes frames of any point type: filter, ground removal, clustering, volume fitting and tracking.
 ///
-/// All stages work on lists of indices into the frame's cloud. Same configuration and frames, same bits, on
-/// every instruction set and number of threads. Memory is kept: a second pass over the same sequence
-/// allocates nothing (for aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw).
+/// All stages work on lists of indices into the frame's cloud. The same configuration and frames give the
+/// same bits on every instruction set and with any number of threads. Memory is reused: a second pass over
+/// the same sequence allocates nothing with the methods aabb, dop*, sphere-*, obb-pca, obb-dito14 and
+/// obb-yaw.
 class FramePipeline {
  public:
-  /// Throws std::invalid_argument with the lines of PipelineConfig::validate(), if there are any, and IoError
-  /// for a file of regions that cannot be read.
+  /// Throws std::invalid_argument with all lines of PipelineConfig::validate() if there are any, and IoError
+  /// if a region file (filter.regions) cannot be read.
   explicit FramePipeline(PipelineConfig config = {});
   ~FramePipeline();
   FramePipeline(FramePipeline&&) noexcept;
   FramePipeline& operator=(FramePipeline&&) noexcept;
 
-  /// Takes effect with the next frame; callable from any thread. Throws as the constructor and changes
-  /// nothing then. Tracks live on.
+  /// Replaces the configuration from the next frame on. May be called from any thread. Throws as the
+  /// constructor does and then changes nothing. Tracks are retained.
   void set_config(PipelineConfig config);
+  /// Returns the configuration that the next frame will use.
   PipelineConfig config() const;
 
-  /// Replaces `result`. Frames must come in the order of their stamps where they are tracked. No valid point:
-  /// no clusters (without clustering one of no points), the frame's header, and the counts say why. Throws
-  /// std::length_error beyond 2^31 - 1 points; std::invalid_argument for points of a source, if ground or
-  /// clusters are asked for. Not for several threads at once.
+  /// Processes one frame and replaces `result`. Tracked frames must come in the order of their stamps. A
+  /// frame without a valid point gives no clusters, or one empty cluster if cluster.tolerance is 0;
+  /// `result.counts` tells why points were dropped. Must not be called by several threads at the same time.
+  ///
+  /// Throws std::length_error if index lists are needed for more than 2^31 - 1 points. Throws
+  /// std::invalid_argument if ground removal or clustering is enabled and the points come from a PointSource,
+  /// or if cluster.class_field is set and the frame has no classes.
   void process(const Frame& frame, FrameResult& result);
 
-  /// Makes room for frames of `points` points, so that the first one takes about as long as the next ones:
-  /// fresh memory costs several times what the work does. Passes a made sweep twice through all stages; call
-  /// it before the sensor's first frame. Tracks are forgotten, and `result` means nothing afterwards but
-  /// room.
+  /// Allocates the memory for frames of `points` points, so that the first frame takes about as long as the
+  /// next ones; first-time allocation costs several times as much as the processing itself. Processes a
+  /// synthetic sweep twice; call it before the sensor's first frame. Deletes all tracks. Only the capacity of
+  /// `result` is meaningful afterwards.
   void reserve(std::size_t points, FrameResult& result);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where results go.
+// Sinks of results: files, recordings, network topics and functions.
 #pragma once
 
 #include <atomic>
@@ -21,110 +21,122 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A pipe that nobody reads any more: for a program that prints, the end, but no failure.
+/// Thrown if the reader of a pipe has gone. A program that prints should end then, but this is no failure.
 class ClosedPipe : public IoError {
  public:
   using IoError::IoError;
 };
 
-/// Called by one thread.
+/// A receiver of results. Called by one thread.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
 
-  /// One frame, in order. Throws IoError if nothing more can be written, ClosedPipe where SIGPIPE is ignored;
-  /// anything else is of this frame only.
+  /// Writes one frame; frames come in order. Throws IoError if nothing more can be written (ClosedPipe for a
+  /// pipe without a reader, if SIGPIPE is ignored). Any other exception concerns this frame only.
   virtual void write(const Frame& frame, const FrameResult& result) = 0;
 
-  /// A frame that was lost, and why.
+  /// Writes that a frame was lost, and the reason.
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
-  /// Before the first frame: settings that those who read the results may see and change.
-  virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
+  /// Offers settings that the readers of the results may see and change. Called before the first frame.
+  virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
-  /// What was noticed and harms no frame, since the last call: a line each, for people.
-  virtual std::vector<std::string> take_remarks() { return {}; }
+  /// Returns the warnings since the last call that affect no frame, one line each.
+  virtual std::vector<std::string> take_warnings() { return {}; }
 
-  /// The end; nothing is written afterwards. Throws IoError if what was written is not all there.
+  /// Ends the output; nothing is written afterwards. Throws IoError if not everything could be written.
   virtual void close() {}
 };
 
 struct SinkDescription;
 
-/// A row of the table of sinks.
+/// An entry of the table of sinks.
 struct SinkKind {
-  std::string_view name;   ///< What stands before the colon: "vtp".
-  std::string_view place;  ///< What stands after it, as --help says: "FOLDER[,points]".
-  std::string_view files;  ///< How the names of its files end, where the place is their folder; else empty.
+  std::string_view name;    ///< Text before the colon: "vtp".
+  std::string_view target;  ///< Syntax of the text after the colon, for help: "FOLDER[,points]".
+  /// Extension of the files if `target` is a folder with a file per frame; else empty.
+  std::string_view files;
   std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
-  bool live = false;  ///< Sent to whoever listens: the place is no file.
+  bool live = false;  ///< Sends to listeners: the target is not a file.
 };
 
-/// jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
+/// Returns the table of sinks: jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
 const std::vector<SinkKind>& sink_kinds();
 
-/// "jsonl:FILE, csv:FILE, ...": all of them, for help and errors.
+/// Returns the syntax of all sinks for help and errors: "jsonl:FILE, csv:FILE, ...".
 std::string sink_syntax();
 
+/// Which sink to open and where it writes.
 struct SinkDescription {
   const SinkKind* kind = nullptr;
-  std::filesystem::path place;  ///< "-" is standard output; of dds the topics' prefix, of ws [HOST:]PORT.
-  bool points = false;          ///< The frame's points, too.
+  /// File or folder ("-": standard output); dds: topic prefix; ws: [HOST:]PORT.
+  std::filesystem::path target;
+  bool points = false;  ///< Write the points of each frame, too.
 };
 
-/// Reads what sink_syntax() says; opens nothing. Throws std::invalid_argument for anything else.
+/// Parses the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any other text.
 SinkDescription parse_sink(const std::string& description);
 
-/// Opens it: a file or recording is made if it is not there, and emptied by the first frame or by close(); a
-/// folder is made if it is not there. Throws IoError, std::invalid_argument without a kind. After each frame
-/// files hold whole lines (jsonl, csv; where the disk is full, the last one may be cut) and frames.pvd (vtp)
-/// lists it; files of a frame (vtp, image, labels) are named by FrameHeader::number.
+/// Opens a sink.
+///
+/// A file or recording is created if it does not exist; an existing one is emptied by the first frame or by
+/// close(). A folder is created if it does not exist. After each frame, jsonl and csv files hold whole lines
+/// (if the disk is full, the last one may be cut), and frames.pvd (vtp) lists the frame. Files of single
+/// frames (vtp, image, labels) are named by FrameHeader::number. Throws IoError if the sink cannot be opened,
+/// and std::invalid_argument if `kind` is null.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
-/// Calls the function with each result. Throws std::invalid_argument without one.
+/// Creates a sink that calls the function with each result. Throws std::invalid_argument if that is empty.
 std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result);
 
-/// Many sinks, of which none harms another or the stream: one that throws IoError is given up, what else it
-/// throws costs it a frame. times() and alive() may be called from any thread.
+/// Writes to several sinks and isolates their failures from each other and from the stream. A sink that
+/// throws IoError gets no more frames; a sink that throws anything else lacks that frame only. times() and
+/// alive() may be called from any thread.
 class SinkGroup {
  public:
-  /// `say` is told of each failure in words, once in a row. Throws std::invalid_argument without it.
-  explicit SinkGroup(std::function<void(const std::string&)> say);
+  /// `report` is called with a line for each failure, but not if a sink fails as it did the time before.
+  /// Throws std::invalid_argument if `report` is empty.
+  explicit SinkGroup(std::function<void(const std::string&)> report);
 
-  /// Without a frame and without close(), as when one of them could not be opened, each sink removes the
-  /// files that it made, and folders that were made for them are removed if they are empty.
+  /// If nothing was written and close() was not called, for example because another sink could not be opened,
+  /// each sink removes the files that it created. Folders that were created for the sinks are then removed if
+  /// they are empty.
   ~SinkGroup();
 
+  /// Adds an open sink; `name` is its name in messages.
   void add(std::string name, std::unique_ptr<FrameSink> sink);
 
-  /// Opens it; throws as make_sink(), with its name.
+  /// Opens a sink and adds it. Throws as make_sink(); the message begins with the sink's name.
   void add(const SinkDescription& description);
 
-  /// To all that were added so far.
-  void offer(const std::shared_ptr<RemoteSettings>& settings);
+  /// Offers the settings to all sinks added so far.
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings);
 
+  /// Write to all sinks that have not been given up.
   void write(const Frame& frame, const FrameResult& result);
   void write_lost(const Frame& frame, const std::string& reason);
 
-  /// Closes all, and says which lack more than one frame, and how many.
+  /// Closes all sinks. Reports for each sink that lacks more than one frame how many frames it lacks.
   void close();
 
-  bool failed() const { return failed_; }  ///< Whether anything was not written, but to a closed pipe.
-  bool alive() const { return alive_; }    ///< Whether one still takes frames.
-  std::vector<std::pair<std::string, LatencyHistogram>> times() const;  ///< Of write(), milliseconds.
+  bool failed() const { return failed_; }  ///< Whether an output failed other than by a closed pipe.
+  bool alive() const { return alive_; }    ///< Whether a sink still takes frames.
+  /// Durations of write() by sink, milliseconds.
+  std::vector<std::pair<std::string, LatencyHistogram>> times() const;
 
  private:
   struct Member;
-  void complain(Member& member, const std::string& problem);
+  void report_failure(Member& member, const std::string& problem);
   template <typename Do>
   bool attempt(Member& member, const Do& what);
   template <typename Do>
   void each(const Do& what);
 
-  std::function<void(const std::string&)> say_;
+  std::function<void(const std::string&)> report_;
   std::vector<std::unique_ptr<Member>> members_;
-  std::vector<std::pair<std::filesystem::path, std::filesystem::path>>
-      made_;  // places, and what was missing above
+  // Path of each sink, and its outermost folder or file that did not exist.
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> created_;
   bool used_ = false;
   std::atomic<bool> failed_{false}, alive_{false};
 };

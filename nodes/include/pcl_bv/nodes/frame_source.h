@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where frames come from.
+// Sources of frames: files, recordings, network topics, synthetic sequences and functions.
 #pragma once
 
 #include <chrono>
@@ -20,103 +20,124 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A frame that its source has not been able to read; the next one may be fine. what() names its file and
-/// says why.
+/// Thrown for a frame that its source could not read; the next frame may be readable. what() names the file
+/// and the reason.
 class FrameError : public std::runtime_error {
  public:
   FrameError(Frame lost, const std::string& why)
       : std::runtime_error(lost.file.empty() ? why : lost.file + ": " + why),
         frame(std::move(lost)),
         reason(why) {}
-  Frame frame;  ///< What is known of it: header and file.
+  Frame frame;  ///< The known parts of the frame: header and file.
   std::string reason;
 };
 
+/// Outcome of FrameSource::next().
 enum class Next : std::uint8_t {
   frame,
   end,
-  nothing  ///< Nothing has come yet: ask again.
+  timeout  ///< No frame has come yet; call next() again.
 };
 
+/// A sequence of frames.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// Replaces `frame` by the next one if it comes within `patience`; reading a file that is there may take
-  /// longer. Throws FrameError for a frame that cannot be read; the next call gives the one after it. After
-  /// the end, and after any other exception, it is not called again.
-  virtual Next next(Frame& frame, std::chrono::milliseconds patience) = 0;
+  /// Replaces `frame` by the next frame if it comes within `timeout`; reading an existing file may take
+  /// longer. Throws FrameError for a frame that cannot be read; the next call continues with the following
+  /// frame. Must not be called again after Next::end or after any other exception.
+  virtual Next next(Frame& frame, std::chrono::milliseconds timeout) = 0;
 
-  /// What was noticed of the source as a whole since the last call, and not refused: a line each, for people.
-  virtual std::vector<std::string> take_remarks() { return {}; }
+  /// Returns the warnings about the source as a whole since the last call, one line each.
+  virtual std::vector<std::string> take_warnings() { return {}; }
 };
 
-inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
+/// Range of ReplayOptions::rate_hz, frames per second.
+inline constexpr double kMinRate = 1e-3, kMaxRate = 1e6;
 
-/// How recordings become frames.
+/// How files and recordings become frames.
 struct ReplayOptions {
-  double rate_hz = 10;  ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
-  /// Stamps that frames have themselves: of files by stamp_in_name(), but in one way for all of a folder,
-  /// whose stamps ascend if there is such a way, also with fractions that are milli-, micro- or nanoseconds
-  /// without leading zeros; a remark says that none does. A name without one is a FrameError. Of messages
-  /// those of their headers, and where they are 0 of when they were recorded.
-  bool from_name = false;
-  std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
-  std::size_t loops = 1;       ///< How often; at least once.
-  std::string
-      class_field{};       ///< An integer field of the clouds for Frame::classes; if empty, there are none.
-  std::string frame_id{};  ///< Of all frames; if empty, what the recording says.
+  double rate_hz = 10;  ///< Frames per second, 0.001 to 1000000; frame n has the stamp n / rate_hz.
+  /// Use the frames' own stamps instead of `rate_hz`.
+  ///
+  /// Files: the time in the name, read as by stamp_in_name(), but with one interpretation for all files of a
+  /// folder. An interpretation whose stamps ascend is preferred; it may read fractions as whole milli-,
+  /// micro- or nanoseconds without leading zeros. If there is none, take_warnings() returns a warning. A name
+  /// without a time gives a FrameError. Messages: the stamp of the header or, if that is 0, the time of
+  /// recording.
+  bool own_stamps = false;
+  std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
+  std::size_t loops = 1;       ///< Number of passes; 0 means 1.
+  /// Integer field of the clouds for Frame::classes; if empty, frames have no classes.
+  std::string class_field{};
+  std::string frame_id{};  ///< Frame id of all frames; if empty, that of the recording.
 
-  /// A file of the sensor's poses, if not empty. A line has 12 numbers, the upper rows of the frame's matrix
-  /// (KITTI: of the left camera where `Tr:` in a calib.txt beside the file says how to convert), as many
-  /// lines as frames; or `seconds x y z qx qy qz qw` (TUM), where frames are between two lines at most 0.5 s
-  /// apart, interpolated, or have no pose. Lines that begin with # and empty ones are skipped.
+  /// File of sensor poses; none if empty. Empty lines and lines that begin with # are skipped.
+  ///
+  /// KITTI: 12 numbers per line, the upper three rows of the pose matrix, and one line per frame. If a
+  /// calib.txt next to the file has a line `Tr:`, the poses are those of the left camera and are converted to
+  /// the sensor. TUM: `seconds x y z qx qy qz qw` per line. Poses are interpolated between two lines that are
+  /// at most 0.5 s apart; other frames have no pose.
   std::filesystem::path poses{};
-  std::string topic{};  ///< Of a recording; if empty, the only one with clouds.
+  std::string topic{};  ///< Topic of a recording; if empty, the only one with clouds.
 };
 
-/// Where the times of a source's frames can come from, beside the rate.
+/// Where a source can take the times of frames from, other than the rate.
 enum class FrameTimes : std::uint8_t {
   none,
-  names,     ///< Of files, where they are asked for.
-  messages,  ///< Of a recording, unless others are asked for.
-  live       ///< Of messages as they come; no others.
+  names,     ///< File names, if requested by ReplayOptions::own_stamps.
+  messages,  ///< Messages of a recording, unless the rate is requested.
+  live       ///< Live messages; there is no other choice.
 };
 
-/// A row of the table of sources.
+/// An entry of the table of sources. `accepts` tells whether this kind opens the name.
 struct SourceKind {
   std::string_view syntax;
   FrameTimes times;
-  bool (*takes)(const std::string& name);
+  bool (*accepts)(const std::string& name);
   std::unique_ptr<FrameSource> (*open)(const std::string& name, const ReplayOptions& options);
 };
 
-/// The first that takes a name opens it; the last takes any.
+/// Returns the table of sources. The first kind that accepts a name opens it; the last kind accepts any name.
 const std::vector<SourceKind>& source_kinds();
+/// Returns the kind that opens this name.
 const SourceKind& source_kind(const std::string& name);
 
-/// All that can be opened, for help.
+/// Returns the syntax of all sources for help texts.
 std::string source_syntax();
 
-/// A folder of clouds in natural order, one file, a recording (open_recording():
-/// sensor_msgs/msg/PointCloud2), a capture of a Velodyne's packets (VelodyneReader), `dds:TOPIC`
-/// (middleware()), which never ends, or `synth:street-sequence[:FRAMES[:SEED]]`, whose frames are made when
-/// they are asked for. Throws IoError if there is no cloud or no poses can be read, std::invalid_argument for
-/// a rate out of range, for names none of which has a stamp, for a topic that is not there or not said where
-/// there are several, and for an unknown sequence. Further ones as Middleware::receiver() does.
+/// Opens a source by its name:
+/// - a folder of clouds, in natural order, or one file;
+/// - a recording (open_recording()) with messages sensor_msgs/msg/PointCloud2;
+/// - a capture of a Velodyne sensor's packets (VelodyneReader);
+/// - `dds:TOPIC` (middleware()), which never ends;
+/// - `synth:street-sequence[:FRAMES[:SEED]]` and other synthetic sequences, generated frame by frame.
+///
+/// Throws IoError if there is no cloud or if poses cannot be read. Throws std::invalid_argument for a rate
+/// out of range, for names without any time (ReplayOptions::own_stamps), for an unknown sequence, for a topic
+/// that does not exist, and if no topic is given and several have clouds. Also throws as
+/// Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
 
-/// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread
-/// of its own. One that still waits when the source is destroyed is left to, so that what it uses must be
-/// there until it returns. Its exceptions are those of next().
+/// Creates a source from a function that fills the next frame and returns false at the end. The function may
+/// block, since each call has a thread of its own. A call that is still running when the source is destroyed
+/// is not stopped: whatever the function uses must live until it returns. next() rethrows the exceptions of
+/// the function.
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
-/// The stamp in a file's name without its extension, nanoseconds; -1 without one. The surest way of writing a
-/// time that is there counts, the last of its kind: a time since 1970 (seconds of 2001 to 2033,
-/// also with a fraction, a whole number of milli- or microseconds of 2001 to 2262, or nanoseconds from 1e16
-/// on), a date with hours, minutes and seconds (UTC, or with a zone east of it such as +0800; one such as
-/// -0500 is ignored), a time of day, or other seconds with a decimal point. Other numbers count frames. For a
-/// folder see ReplayOptions::from_name.
+/// Returns the time in a file name without extension, nanoseconds; -1 if there is none.
+///
+/// If a name contains several times, the first of these formats that occurs is used, and its last occurrence:
+/// 1. A time since 1970: seconds of 2001 to 2033, also with a fraction; a whole number of milli- or
+///    microseconds of 2001 to 2262; or nanoseconds from 1e16 on.
+/// 2. A date with hours, minutes and seconds: UTC, or with a time zone east of UTC such as +0800. Zones such
+///    as -0500 are ignored.
+/// 3. A time of day.
+/// 4. Other seconds with a decimal point.
+///
+/// Other numbers are taken as frame numbers and ignored. For the names of a folder see
+/// ReplayOptions::own_stamps.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

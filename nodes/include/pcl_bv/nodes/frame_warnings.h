@@ -12,21 +12,22 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What a user wants to know before believing results: no ground or nothing else, a cloud that does not lie
-/// around its sensor's place or is upside down, a sensor height that fits no plane, stamps of tracked frames
-/// that do not advance.
+/// Detects results that a user should not trust: no ground or only ground, a cloud that does not surround its
+/// sensor or is upside down, many points far away, a sensor height that fits no plane, stamps of tracked
+/// frames that do not advance.
 class FrameWarnings {
  public:
-  /// Returns those that were not yet returned under the result's configuration: of a stream each kind comes
-  /// once. They name settings by their keys. `frame` is that of the result, whose points are in memory if
-  /// ground was removed. O(1), except where another up direction is searched: that takes milliseconds, and
-  /// happens once for the first frame without ground and once for the first with little.
+  /// Returns the warnings about a result, one line each; they name settings by their keys. Each kind of
+  /// warning is returned once per configuration, hence once in a stream. `frame` is the frame of `result`;
+  /// its points must be in memory if ground was removed. O(1), except for the search for another up
+  /// direction. The search takes milliseconds and happens once for the first frame without ground and once
+  /// for the first frame with little ground.
   std::vector<std::string> take(const Frame& frame, const FrameResult& result);
 
  private:
   std::shared_ptr<const PipelineConfig> config_;
-  std::uint32_t said_ = 0;  // bits of kinds
-  bool searched_ = false;   // another up direction, in a frame with little ground
+  std::uint32_t returned_ = 0;  // kinds already returned, one bit each
+  bool searched_ = false;       // another up direction was searched because of little ground
 };
 
 }  // namespace pcl_bv

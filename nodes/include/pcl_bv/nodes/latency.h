@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How long things took, in a bounded space.
+// A histogram of durations in constant memory.
 #pragma once
 
 #include <array>
@@ -10,23 +10,24 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Percentiles of durations from 1 us to 1000 s, to 1 %: a histogram whose classes grow by that. No
-/// allocation, whatever the number of durations.
+/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %: a histogram with logarithmic bins, each 1 %
+/// longer than the one before. Never allocates.
 class LatencyHistogram {
  public:
-  /// Milliseconds; what is shorter or longer counts as the least or greatest class, but max() is exact.
+  /// Adds a duration in milliseconds. Durations below 1 us or above 1000 s go into the first or last bin,
+  /// but max() is exact. Negative durations and NaN are treated as 0.
   void add(double milliseconds);
 
   std::uint64_t count() const { return count_; }
-  double max() const { return max_; }  ///< Milliseconds; 0 without any.
+  double max() const { return max_; }  ///< Longest duration, milliseconds; 0 if empty.
 
-  /// The duration that a part of all, from 0 to 1, do not exceed: the nearest rank, milliseconds, at most 1 %
-  /// above the true one. 0 without any.
-  double percentile(double part) const;
+  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed: the
+  /// nearest rank, at most 1 % above the exact value. 0 if empty.
+  double percentile(double share) const;
 
  private:
-  static constexpr std::size_t kClasses = 2084;  // ln(1e9) / ln(1.01), and one
-  std::array<std::uint32_t, kClasses> classes_{};
+  static constexpr std::size_t kBinCount = 2084;  // ln(1e9) / ln(1.01) + 1
+  std::array<std::uint32_t, kBinCount> bins_{};
   std::uint64_t count_ = 0;
   double max_ = 0;
 };

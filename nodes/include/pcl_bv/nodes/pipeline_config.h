@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Everything that a pipeline can be told, as plain data.
+// The configuration of a pipeline as plain data.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,121 +20,139 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Volumes that points are dropped for: a robot's own links, or what to crop to.
+/// Volumes by which points are dropped, such as a robot's own links or a region to crop to.
 struct RegionConfig {
-  std::filesystem::path file;  ///< Read by read_volumes(), unless `volumes` has some.
-  bool keep = false;           ///< Drop what is outside of all such regions; otherwise what is inside.
-  double padding = 0;  ///< By which the volumes are grown in every direction, metres (trees/region_mask.h).
+  std::filesystem::path file;  ///< Read by read_volumes() if `volumes` is empty.
+  bool keep = false;           ///< true: drop points outside all such regions; false: drop points inside.
+  double padding = 0;          ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
 
-/// Points that are kept at all. Those that are not finite never are.
+/// Which points enter the pipeline. Points that are not finite are always dropped.
 struct FilterConfig {
-  /// Distances from the origin that are kept, metres, both ends included. Dead beams are points at the
-  /// origin: with a minimum of 0 they become one giant cluster.
+  /// Smallest and largest distance from the origin, metres, both inclusive. Many drivers store beams without
+  /// a return as points at the origin: with a minimum of 0 these become one huge cluster.
   double range_min = 0.5;
   double range_max = std::numeric_limits<double>::infinity();
-  /// Corners of a box around the own vehicle, metres, whose points are dropped; both or none.
+  /// Corners of a box around the own vehicle, metres; points inside are dropped. Set both corners or none.
   std::optional<Eigen::Vector3d> own_box_min, own_box_max;
   std::vector<RegionConfig> regions{};
 };
 
+/// How ground is removed.
 enum class GroundMethod : std::uint8_t {
   none,
   plane,  ///< split_ground(): one plane, for indoor scenes.
   zones   ///< GroundZones: many planes, for roads.
 };
 
+/// Settings of the ground removal.
 struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; of any length.
-  /// Where the sensor is in the frame of the points, metres; if not given, in its origin. The centre of
-  /// zones.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
+  /// Sensor position in the frame of the points, metres; zones are centred there. If not given, see
+  /// FrameResult::sensor.
   std::optional<Eigen::Vector3d> sensor;
-  /// Of the sensor (with a plane: of the origin) above the ground, metres; learnt if not given.
+  /// Height of the sensor (with `plane`: of the origin) above the ground, metres; estimated if not given.
   std::optional<double> sensor_height;
-  /// Points at most this far above the ground belong to it, metres; if not given, what the method's settings
-  /// say.
+  /// Largest height of ground points above the ground surface, metres; if not given, the default of the
+  /// method (GroundPlaneSettings, GroundZonesSettings).
   std::optional<double> distance;
-  /// Greatest angle between the ground and the horizontal; if not given, what the method's settings say.
+  /// Largest angle between the ground and the horizontal; if not given, the default of the method.
   std::optional<double> max_slope_degrees;
 };
 
+/// The name of a field of a cloud.
 struct FieldName {
   std::string name;
 };
 
-/// What is special about the objects of one class; what is not said is as for the others.
+/// Settings for the objects of one class. Unset fields inherit ClusterConfig and PipelineConfig::volumes.
 struct ClassConfig {
-  std::int64_t value = 0;             ///< Of the class field.
-  bool drop = false;                  ///< Its points are in no object.
+  std::int64_t value = 0;             ///< Value of the class field.
+  bool drop = false;                  ///< Drop the points of this class.
   std::optional<double> tolerance{};  ///< Metres, above 0.
   std::optional<std::size_t> min_size{}, max_size{};
-  std::vector<std::string> volumes{};  ///< Methods.
+  std::vector<std::string> volumes{};  ///< Methods; if empty, PipelineConfig::volumes.
 };
 
+/// Settings of the clustering.
 struct ClusterConfig {
-  double tolerance = 0.5;  ///< Points nearer to each other are one object, metres; 0: all points are one.
-  /// Points; smaller objects are dropped. If not given 10, and 0 where all points are one.
+  double tolerance = 0.5;  ///< Points nearer to each other belong to one object, metres; 0: all points do.
+  /// Objects with fewer points are dropped. If not given: 10, or 0 if the tolerance is 0.
   std::optional<std::size_t> min_size;
-  std::size_t max_size = std::numeric_limits<std::size_t>::max();  ///< Points; larger ones are dropped.
-  /// DBSCAN: points nearer to each other than the tolerance are one object only if one of them has so many
-  /// points nearer than that, itself included; 1: always.
+  /// Objects with more points: see `oversized`.
+  std::size_t max_size = std::numeric_limits<std::size_t>::max();
+  /// Core condition of DBSCAN (Ester et al. 1996): two points within the tolerance belong to one object only
+  /// if one of them is a core point. A core point has at least this many points within the tolerance, itself
+  /// included. 1: every point is a core point.
   std::size_t min_points = 1;
-  /// By how much the tolerance grows with the distance from the origin (ClusterSettings).
+  /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterSettings).
   double tolerance_per_metre = 0;
-  Oversized oversized = Oversized::drop;  ///< What becomes of objects above max_size.
-  /// Field of the clouds, of integers, whose values are the points' classes: objects are of one class each.
+  Oversized oversized = Oversized::drop;  ///< How objects above max_size are treated.
+  /// Integer field of the clouds that holds the points' classes. If set, all points of an object have one
+  /// class.
   std::optional<FieldName> class_field{};
-  std::vector<ClassConfig> classes{};  ///< Those that differ from the others; only with `class_field`.
+  std::vector<ClassConfig> classes{};  ///< Classes with settings of their own; only with `class_field`.
 
-  std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
+  /// Returns `min_size`, or its default.
+  std::size_t effective_min_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };
 
+/// Settings of the tracking (Tracker).
 struct TrackConfig {
   bool enabled = false;
-  double gate = 2.0;      ///< How far an object may be from where it was expected, metres, at most 100.
-  std::size_t birth = 3;  ///< Frames in which an object must have been seen to get its id.
-  std::size_t death = 5;  ///< Frames without it after which it is gone.
-  bool smooth = false;    ///< Upright boxes turn with the mean over time, still around all points.
-  bool grow = false;      ///< Upright boxes are as long and wide as the object has been seen.
+  double gate = 2.0;      ///< Largest distance of an object from its expected position, metres, at most 100.
+  std::size_t birth = 3;  ///< Detections after which an object gets its id.
+  std::size_t death = 5;  ///< Frames without a detection after which a track is deleted.
+  bool smooth = false;    ///< Smooth the yaw of upright boxes over time; they still contain all points.
+  bool grow = false;      ///< Give upright boxes the largest length and width seen of the object.
 };
 
+/// The complete configuration of a FramePipeline.
 struct PipelineConfig {
   FilterConfig filter;
   GroundConfig ground;
   ClusterConfig cluster;
-  /// Methods of fitting/methods.h; if empty, obb-lshape, and aabb, sphere, obb where all points are one
+  /// Methods of fitting/methods.h. If empty: obb-lshape, or aabb, sphere and obb if all points are one
   /// object.
   std::vector<std::string> volumes;
-  SphereGrowth growth = SphereGrowth::deferred;  ///< Of spheres that grow.
+  SphereGrowth growth = SphereGrowth::deferred;  ///< For spheres that grow (sphere-ritter, sphere-epos*).
   TrackConfig track;
-  std::size_t threads = 1;   ///< 0: all processors.
-  std::string isa = "auto";  ///< Instruction set, by the names of parse_isa().
+  std::size_t threads = 1;   ///< Number of threads; 0: all processors.
+  std::string isa = "auto";  ///< Instruction set, a name that parse_isa() knows.
 
-  /// One line for each value that is not allowed: the key as in the configuration file, the value, the range.
+  /// Returns one line for each value that is not allowed: the key as in the configuration file, the value and
+  /// the allowed range.
   std::vector<std::string> validate() const;
 
-  /// One line for each setting that changes nothing beside the others, as "track.smooth: has no effect
-  /// without track.enabled": for a warning, none is an error.
-  std::vector<std::string> without_effect() const;
+  /// Returns a warning for each setting that has no effect in combination with the others, such as
+  /// "track.smooth: has no effect without track.enabled". None of them is an error.
+  std::vector<std::string> ineffective_settings() const;
 
-  /// What `volumes` stands for, then what only classes have; methods that are unknown are left out.
+  /// Returns the methods of all objects: those of `volumes`, then those that only classes have. Unknown names
+  /// are skipped.
   std::vector<const Method*> methods() const;
 
-  /// Those of objects of one class; null: of objects of no class, or of one of which nothing is said.
+  /// Returns the methods for objects of one class. Null: for objects without a class, or of a class without
+  /// settings of its own.
   std::vector<const Method*> methods_of(const ClassConfig* own) const;
 
-  /// What `threads` stands for.
-  ParallelPolicy policy() const;
+  /// Returns the execution policy for `threads`.
+  ParallelPolicy parallel_policy() const;
 };
 
-/// For clouds of which nothing is known: no filter, no ground, all points one object, all processors.
+/// Returns the configuration for any cloud: no filter, no ground removal, all points one object, all
+/// processors.
 PipelineConfig whole_cloud_config();
 
-/// Filter, ground and clusters to begin with: "road" (a LiDAR on a vehicle, z up: the defaults), "indoor"
-/// (the same on a robot in rooms), or "table" (things on a table before a depth camera that looks down at
-/// them, in its optical frame: z forward, y down). Throws std::invalid_argument for another name.
+/// Replaces the filter, ground and cluster settings by a preset:
+/// - "road": a LiDAR on a vehicle, z up (the defaults);
+/// - "indoor": a LiDAR on a robot in rooms, z up;
+/// - "table": objects on a table below a depth camera that looks down at them, in the camera's optical frame
+///   (z forward, y down).
+///
+/// Throws std::invalid_argument for another name.
 void apply_preset(std::string_view name, PipelineConfig& config);
 
 }  // namespace pcl_bv

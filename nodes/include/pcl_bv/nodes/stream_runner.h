@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A pipeline behind a bounded queue, in a thread of its own.
+// Runs a pipeline in its own thread, behind a bounded queue of frames.
 #pragma once
 
 #include <chrono>
@@ -21,90 +21,100 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Why a frame has no result.
 enum class Loss : std::uint8_t {
-  queue,  ///< For want of room, and what stop() discards.
-  age,    ///< It waited longer than max_age_ms.
-  error   ///< An exception was thrown, or the source could not read it.
+  queue,  ///< The queue was full, or stop() discarded the frame.
+  age,    ///< The frame waited longer than RunnerConfig::max_age_ms.
+  error   ///< Processing threw an exception, or the source could not read the frame.
 };
 
-/// What became of the frames. in = processed + dropped_* + those still waiting or being processed.
+/// Number of frames by outcome. in = processed + dropped_* + frames that are waiting or being processed.
 struct FrameTotals {
-  std::uint64_t in = 0;                                                 ///< Pushed.
-  std::uint64_t processed = 0;                                          ///< Handed to the callback.
-  std::uint64_t dropped_queue = 0, dropped_age = 0, dropped_error = 0;  ///< By Loss.
+  std::uint64_t in = 0;                                                 ///< Pushed or reported unreadable.
+  std::uint64_t processed = 0;                                          ///< Processed without an exception.
+  std::uint64_t dropped_queue = 0, dropped_age = 0, dropped_error = 0;  ///< Lost, by reason (Loss).
 };
 
-/// Milliseconds by stage, over all processed frames. `wait` is the time in the queue, also of frames whose
-/// work threw; `latency` that from Frame::taken, by default the call of push(), to the return of on_result.
+/// Latencies by stage in milliseconds, over all processed frames. `wait` is the time in the queue; it also
+/// covers frames whose processing threw. `latency` is the time from Frame::taken (by default the call of
+/// push()) to the return of on_result.
 struct StageLatencies {
   LatencyHistogram decode, wait, filter, ground, cluster, fit, track, total, latency;
 };
 
+/// Statistics of a runner since its start.
 struct RunnerStats {
   FrameTotals frames;
   StageLatencies ms;
-  std::uint64_t callback_errors = 0;  ///< Exceptions of on_lost and on_silence, which cost no frame.
-  std::vector<std::pair<std::string, LatencyHistogram>> sinks;  ///< Milliseconds of each, from SinkGroup.
+  std::uint64_t callback_errors = 0;  ///< Exceptions from on_lost and on_silence; they drop no frame.
+  /// Write times in ms by sink; set by the caller from SinkGroup::times().
+  std::vector<std::pair<std::string, LatencyHistogram>> sinks;
 };
 
-/// `{"frames":{"in":..,"processed":..,"dropped":{"queue":..,"age":..,"error":..}},"ms":{"total":{"p50":..,"p95":..,
-/// "p99":..,"max":..},..,"sinks":{"vtp:FOLDER":{..}}}}`
+/// Returns the statistics as one line of JSON, milliseconds rounded to 0.001:
+/// `{"frames":{"in":..,"processed":..,"dropped":{"queue":..,"age":..,"error":..}},"ms":{"total":{"p50":..,
+/// "p95":..,"p99":..,"max":..},..,"sinks":{"vtp:FOLDER":{..}}}}`
 std::string stats_json(const RunnerStats& stats);
 
-/// Frames in from any thread, results out in the runner's thread, in order.
+/// Processes frames from any thread, in order, in a thread of its own.
 ///
-/// Memory is bounded by the queue. The runner must not be destroyed from a callback, nor while another thread
-/// may still push(). An exception of the process or the result callback drops that frame and is told to
-/// on_lost; the stream goes on.
+/// Memory is bounded by the queue. Do not destroy the runner from a callback or while another thread may
+/// still call push(). If `process` or `on_result` throws, that frame is dropped and reported to on_lost; the
+/// stream goes on.
 class StreamRunner {
  public:
-  /// All are called in the runner's thread, in the order of FrameHeader::number, also while it stops.
+  /// Functions that the runner calls in its own thread, in the order of FrameHeader::number, also while it is
+  /// stopping.
   struct Callbacks {
-    /// The work; FramePipeline::process() of a pipeline that outlives the runner.
+    /// Processes a frame, usually by FramePipeline::process() of a pipeline that outlives the runner.
     std::function<void(const Frame&, FrameResult&)> process;
-    /// Each result with its frame. May stop() the runner.
+    /// Receives each result with its frame. May call stop().
     std::function<void(const Frame&, const FrameResult&)> on_result;
-    /// A frame that was lost, whose points may be gone, and why in words. Optional. Where a thousand wait to
-    /// be told, and after a thousand that came when the runner was stopped, further ones are only counted.
+    /// Receives each lost frame, perhaps without its points, and the reason as text. Optional. At most 1000
+    /// lost frames wait for this call, and at most 1000 that are lost after stop() are reported; further ones
+    /// are only counted.
     std::function<void(const Frame&, Loss, const std::string&)> on_lost;
-    /// No frame has come for config.watchdog_s; seconds since the last one. Called once per silence.
-    /// Optional.
+    /// Called once per silence: when no frame has come for RunnerConfig::watchdog_s. Receives the seconds
+    /// since the last frame. Optional.
     std::function<void(double)> on_silence;
   };
 
-  /// Starts the thread. QueuePolicy::automatic is drop_oldest here. Throws std::invalid_argument for a queue
-  /// of 0, a negative or NaN duration, or without a `process` and an `on_result`.
+  /// Starts the thread. QueuePolicy::automatic means drop_oldest here. Throws std::invalid_argument if
+  /// `config.queue` is 0, if a duration is negative or NaN, or if `process` or `on_result` is empty.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config);
 
-  /// The same; results use the memory of `reserved`, which FramePipeline::reserve() has filled.
+  /// As above. Results reuse the memory of `reserved`, which FramePipeline::reserve() has allocated.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved);
 
-  /// stop(End::discard).
+  /// Calls stop(End::discard).
   ~StreamRunner();
   StreamRunner(const StreamRunner&) = delete;
   StreamRunner& operator=(const StreamRunner&) = delete;
 
-  /// Hands over a frame; false if it is dropped at once, which a stopped runner always does. Waits only with
-  /// QueuePolicy::block, until there is room or the runner is stopped; from a callback, which would wait for
-  /// itself, it does not wait either and drops the frame. Throws std::invalid_argument for points without an
-  /// owner, which might be gone when it is their turn.
+  /// Adds a frame to the queue. Returns false if this frame is dropped at once; a stopped runner always drops
+  /// it. Waits only with QueuePolicy::block, until the queue has capacity or the runner is stopped. A call
+  /// from a callback never waits, since it would wait for itself: with QueuePolicy::block and a full queue it
+  /// drops the frame. Throws std::invalid_argument if the frame has points but no owner, since the points
+  /// might be gone when they are processed.
   bool push(Frame frame);
 
-  /// Counts a frame that its source could not read, in its place among the others. Takes no room in the
-  /// queue, but waits where a thousand lost frames do.
+  /// Reports a frame that its source could not read. The frame is numbered in order with the pushed ones and
+  /// counted as lost (Loss::error). Needs no capacity in the queue, but waits while 1000 lost frames wait for
+  /// on_lost.
   void report_unreadable(Frame frame, std::string reason);
 
-  /// Waits until no frame waits or is in work, but not beyond `until`; says whether that is so.
+  /// Waits until no frame is queued or being processed, at most until `until`. Returns whether this is so.
   bool wait_idle(std::chrono::steady_clock::time_point until) const;
 
   enum class End {
-    drain,   ///< What waits is processed first.
-    discard  ///< What waits is dropped (Loss::queue); the frame in work is finished.
+    drain,   ///< Queued frames are processed first.
+    discard  ///< Queued frames are dropped (Loss::queue); the frame being processed is finished.
   };
 
-  /// Ends the thread and waits for it; from a callback, it ends after the callback. Again: does nothing,
-  /// except that discard cuts a drain short.
+  /// Ends the thread and waits for it. Called from a callback it does not wait: the thread ends after the
+  /// callback (with `drain`, after the queued frames). A second call does nothing, except that `discard` cuts
+  /// a drain short.
   void stop(End end);
 
+  /// Returns the statistics so far; `sinks` is empty. May be called from any thread.
   RunnerStats stats() const;
 
  private:

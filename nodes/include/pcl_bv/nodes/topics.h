@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds from messages, and results as messages. The templates read and fill any types with ROS's field
-// names: those of pcl_bv/messages, those of ROS 1 and those that ROS 2's rosidl makes. Poses are in the frame
-// of the points.
+// Converts ROS messages to frames and results to ROS messages. The templates work with any message types that
+// have ROS's field names: those of pcl_bv/messages, of ROS 1 and of ROS 2 (rosidl). Poses are in the frame of
+// the points.
 #pragma once
 
 #include <array>
@@ -25,40 +25,42 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A volume as viewers draw it.
-struct DrawnVolume {
+/// A volume as a shape that viewers can draw.
+struct VolumeShape {
   enum class Kind : std::uint8_t {
     cube,
-    sphere,    ///< Or an ellipsoid: the sizes are its diameters.
-    cylinder,  ///< About z.
-    lines      ///< The edges, where viewers know no such shape.
+    sphere,    ///< A sphere or an ellipsoid: `size` holds the diameters.
+    cylinder,  ///< Its axis is z.
+    lines      ///< Edges, for shapes that viewers do not know.
   };
   Kind kind = Kind::lines;
   std::array<double, 3> position{};
-  std::array<double, 4> orientation{0, 0, 0, 1};  ///< x, y, z, w.
-  std::array<double, 3> size{};                   ///< Whole lengths along its axes; 1 of lines.
-  std::vector<std::array<double, 3>> ends;        ///< Of lines, two each, in the frame of the points.
+  std::array<double, 4> orientation{0, 0, 0, 1};   ///< x, y, z, w.
+  std::array<double, 3> size{};                    ///< Full lengths along its axes; 1 for lines.
+  std::vector<std::array<double, 3>> line_points;  ///< Two points per line, in the frame of the points.
 };
 
-/// An empty volume has no edges.
-DrawnVolume drawn(const AnyVolume& volume);
+/// Returns the shape of a volume; for an empty volume `lines` without points.
+VolumeShape viewer_shape(const AnyVolume& volume);
 
-/// Those of a result, as FrameResult::volumes has them; of what is not there without edges. Once for all
-/// messages: the edges of a k-DOP cost as much as its fit.
-std::vector<DrawnVolume> drawn(const FrameResult& result);
+/// Returns the shapes of all volumes in the order of FrameResult::volumes; for missing volumes `lines`
+/// without points. Call it once for all messages: computing the edges of a k-DOP costs as much as its fit.
+std::vector<VolumeShape> viewer_shapes(const FrameResult& result);
 
-/// The box of a cluster: its first volume that is a box, else the box around its first volume.
-DrawnVolume box_of(const FrameResult& result, std::size_t cluster);
+/// Returns the box of a cluster: its first volume that is a box, otherwise the axis-aligned box of its first
+/// volume. Without volumes: `lines` without points.
+VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
-/// Red, green, blue and alpha in 0..1: objects keep theirs while they are tracked.
+/// Returns the red, green, blue and alpha of a cluster, 0 to 1. A tracked object keeps its colour.
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster);
 
-/// Of a cluster, as viewers know it again: its track's, or, until it has one, its number in the frame.
+/// Returns the id of a cluster for viewers: the id of its track or, until it has one, its number in the
+/// frame.
 std::string object_id(const FrameResult& result, std::size_t cluster);
 
 namespace topics {
 
-/// Into time or duration types of ROS 1 (nsec) and ROS 2 (nanosec).
+/// Whether a time or duration type has the field nanosec (ROS 2) instead of nsec (ROS 1).
 template <class Time, class = void>
 struct HasNanosec : std::false_type {};
 template <class Time>
@@ -103,7 +105,7 @@ void set_point(const std::array<double, 3>& from, Point& to) {
 }
 
 template <class Pose>
-void set_pose(const DrawnVolume& from, Pose& pose) {
+void set_pose(const VolumeShape& from, Pose& pose) {
   set_point(from.position, pose.position);
   pose.orientation.x = from.orientation[0];
   pose.orientation.y = from.orientation[1];
@@ -121,14 +123,14 @@ void set_colour(const std::array<float, 4>& from, Colour& to) {
 
 }  // namespace topics
 
-/// A sensor_msgs/PointCloud2 as a frame, as read_cloud_message(). `pointer` owns it (std::shared_ptr,
-/// std::unique_ptr or boost::shared_ptr) and is kept with the frame: its points are not copied where they can
-/// be read in it.
+/// Turns a sensor_msgs/PointCloud2 into a frame, as read_cloud_message(). `pointer` owns the message
+/// (std::shared_ptr, std::unique_ptr or boost::shared_ptr) and is stored in the frame. Points are not copied
+/// if they can be read in place.
 template <class Pointer>
 void read_cloud(Pointer pointer, const std::string& class_field, Frame& frame) {
   const auto owner = std::make_shared<const Pointer>(std::move(pointer));
   const auto& cloud = **owner;
-  msg::PointCloud2 view;  // all but the data
+  msg::PointCloud2 view;  // everything but the data is copied
   view.header.stamp = topics::time_from(cloud.header.stamp);
   view.header.frame_id = cloud.header.frame_id;
   view.height = cloud.height;
@@ -143,9 +145,9 @@ void read_cloud(Pointer pointer, const std::string& class_field, Frame& frame) {
   read_cloud_message(view, owner, class_field, frame);
 }
 
-/// vision_msgs/Detection3DArray: a box for each cluster, its track as the id (empty until it has one). One
-/// result of the class (empty without classes), of score 1 and the box's pose, with the covariance of the
-/// track's place.
+/// Fills a vision_msgs/Detection3DArray with a box for each cluster. The detection's id is that of the track,
+/// or empty until there is one. Each detection has one result: the class (empty without classes), score 1 and
+/// the pose of the box, with the variances of the track's position.
 template <class Array>
 void fill_detections(const Frame& frame, const FrameResult& result, Array& array) {
   topics::set_header(frame, array.header);
@@ -154,7 +156,7 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
     array.detections.emplace_back();
     auto& detection = array.detections.back();
     topics::set_header(frame, detection.header);
-    const DrawnVolume box = box_of(result, i);
+    const VolumeShape box = box_of(result, i);
     topics::set_pose(box, detection.bbox.center);
     topics::set_point(box.size, detection.bbox.size);
     detection.results.resize(1);
@@ -165,28 +167,29 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
     if (result.tracks.empty() || !result.tracks[i]) continue;
     const TrackEntry& track = *result.tracks[i];
     detection.id = std::to_string(track.id);
-    for (std::size_t axis = 0; axis < 3; ++axis) {  // the upper triangle of 6 x 6, row by row
+    // diagonal of x, y, z in the packed upper triangle of a 6 x 6 matrix
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       constexpr std::size_t diagonal[] = {0, 6, 11};
       hypothesis.pose.covariance[7 * axis] = track.covariance[diagonal[axis]];
     }
   }
 }
 
-/// Which markers and entities are shown, so that those of ended objects can be deleted.
+/// The markers or entities that viewers show, for deleting those of ended objects.
 class ShownObjects {
  public:
-  /// What `now` has is shown from here on; returns what was, and is not any more.
+  /// Replaces the set of shown objects by `now`. Returns those that are no longer in it.
   std::set<std::pair<std::string, std::int32_t>> replace(std::set<std::pair<std::string, std::int32_t>> now);
 
  private:
   std::set<std::pair<std::string, std::int32_t>> shown_;
 };
 
-/// visualization_msgs/MarkerArray: a namespace for each method, ids as object_id(); those of `shown` that
-/// have ended are deleted. Markers last `lifetime_ns`. Volumes that are empty have none. `volumes`:
-/// drawn(result).
+/// Fills a visualization_msgs/MarkerArray with a marker for each volume that is not empty, and deletes the
+/// markers of `shown` that have ended. The namespace is the method; the id is that of the track, or negative
+/// until there is one. Markers last `lifetime_ns`. `volumes` is viewer_shapes(result).
 template <class Array>
-void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
+void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                   std::int64_t lifetime_ns, ShownObjects& shown, Array& array) {
   using Marker = typename std::decay<decltype(array.markers.front())>::type;
   array.markers.clear();
@@ -202,12 +205,12 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
   };
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
     const bool tracked = !result.tracks.empty() && result.tracks[i];
-    // Clusters without a track get numbers that tracks do not reach.
+    // Clusters without a track get negative ids, which no track has.
     const auto id =
         tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      if (!result.has(i, m) || empty(result.volume(i, m))) continue;
-      const DrawnVolume& volume = volumes[i * result.methods.size() + m];
+      if (!result.is_requested(i, m) || empty(result.volume(i, m))) continue;
+      const VolumeShape& volume = volumes[i * result.methods.size() + m];
       Marker& marker = add(std::string(result.methods[m]->name), id);
       now.emplace(marker.ns, id);
       topics::set_pose(volume, marker.pose);
@@ -215,33 +218,33 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
       topics::set_colour(colour_of(result, i), marker.color);
       topics::set_time(lifetime_ns, marker.lifetime);
       switch (volume.kind) {
-        case DrawnVolume::Kind::cube:
+        case VolumeShape::Kind::cube:
           marker.type = Marker::CUBE;
           break;
-        case DrawnVolume::Kind::sphere:
+        case VolumeShape::Kind::sphere:
           marker.type = Marker::SPHERE;
           break;
-        case DrawnVolume::Kind::cylinder:
+        case VolumeShape::Kind::cylinder:
           marker.type = Marker::CYLINDER;
           break;
-        case DrawnVolume::Kind::lines:
+        case VolumeShape::Kind::lines:
           marker.type = Marker::LINE_LIST;
           marker.scale.x = 0.03;
           break;
       }
-      marker.points.resize(volume.ends.size());
-      for (std::size_t k = 0; k < volume.ends.size(); ++k)
-        topics::set_point(volume.ends[k], marker.points[k]);
+      marker.points.resize(volume.line_points.size());
+      for (std::size_t k = 0; k < volume.line_points.size(); ++k)
+        topics::set_point(volume.line_points[k], marker.points[k]);
     }
   }
   for (const auto& ended : shown.replace(std::move(now)))
     add(ended.first, ended.second).action = Marker::DELETE;
 }
 
-/// How long markers last: three periods of the stream, so that who misses a frame still sees its objects.
+/// Lifetime of markers: three frame periods, so that a viewer that misses a frame still shows the objects.
 class MarkerLifetime {
  public:
-  /// Of the next frame, nanoseconds; 300 ms of the first.
+  /// Returns the lifetime for the next frame, nanoseconds; 300 ms for the first frame.
   std::int64_t next(std::int64_t stamp_ns);
 
  private:
@@ -249,13 +252,13 @@ class MarkerLifetime {
   std::int64_t last_stamp_ns_ = 0, period_ns_ = 100'000'000;
 };
 
-/// 16 bytes a point: x, y and z as float32 and `label` as uint32, as labels_of() has it; then, where the
-/// frame has it, `intensity` as float32.
+/// Writes x, y and z as float32 and `label` as uint32 (from labels_of()), 16 bytes a point. If the frame has
+/// intensities, `intensity` as float32 follows: 20 bytes a point.
 void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to);
 
 namespace topics {
 
-/// Of labelled points all but their data.
+/// Fills all of a labelled cloud except its data.
 template <class Cloud>
 void set_labelled(const Frame& frame, const FrameResult& result, Cloud& cloud) {
   using Field = typename std::decay<decltype(cloud.fields.front())>::type;
@@ -278,7 +281,7 @@ void set_labelled(const Frame& frame, const FrameResult& result, Cloud& cloud) {
 
 }  // namespace topics
 
-/// sensor_msgs/PointCloud2 of all points, as write_labelled_points().
+/// Fills a sensor_msgs/PointCloud2 with all points, as write_labelled_points().
 template <class Cloud>
 void fill_points(const Frame& frame, const FrameResult& result, Cloud& cloud) {
   topics::set_labelled(frame, result, cloud);
@@ -286,16 +289,18 @@ void fill_points(const Frame& frame, const FrameResult& result, Cloud& cloud) {
   write_labelled_points(frame, result, reinterpret_cast<std::byte*>(cloud.data.data()));
 }
 
-/// What a stream says of itself once a second of its time.
+/// Diagnostics of a stream, once per second of stream time.
 class StreamHealth {
  public:
-  void lost() { ++lost_; }
+  /// Counts a lost frame.
+  void count_lost() { ++lost_; }
 
-  /// Of each frame; whether it is time to say it.
-  bool heeds(const Frame& frame, const FrameResult& result);
+  /// Records a frame. Returns whether a diagnostic message is due.
+  bool record_frame(const Frame& frame, const FrameResult& result);
 
-  /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last
-  /// time; as message that frames were lost, and the first warning of the configuration in force.
+  /// Fills a diagnostic_msgs/DiagnosticArray. Its values are the numbers of frames and of lost frames, the
+  /// number of objects in the last frame, and the duration of the slowest frame since the last message. Its
+  /// text tells whether frames were lost and gives the first warning under the current configuration.
   template <class Array>
   void fill(const Frame& frame, Array& array) {
     using Status = typename std::decay<decltype(array.status.front())>::type;
@@ -318,11 +323,11 @@ class StreamHealth {
   std::array<std::pair<const char*, std::string>, 4> take_values();
 
   FrameWarnings warnings_;
-  std::shared_ptr<const PipelineConfig> warned_of_;
+  std::shared_ptr<const PipelineConfig> warned_config_;
   std::string warning_;
   std::uint64_t frames_ = 0, lost_ = 0;
   std::size_t objects_ = 0;
-  std::int64_t said_ns_ = 0;
+  std::int64_t last_message_ns_ = 0;
   double slowest_ms_ = 0;
 };
 

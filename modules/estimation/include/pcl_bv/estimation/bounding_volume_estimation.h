@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bounding volumes the PCL way: set a cloud, set indices, compute.
+// Estimators of bounding volumes in the style of PCL: set a cloud, set indices, compute.
 #pragma once
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
-// Without the implementation, own point types do not link (PCL instantiates PCLBase for its own types only).
+// PCL instantiates PCLBase for its own point types only; other point types need its implementation to link.
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cstddef>
@@ -24,11 +24,12 @@
 
 namespace pcl_bv {
 
-/// Base of the estimators: holds the input, and knows how to run one fit or a batch.
+/// Base class of the estimators. It stores the input and runs one fit or a batch of fits.
 ///
-/// \tparam PointT any point type with x, y, z of float or double, PCL's or an own one. Volumes are in the
-/// unit and frame of these coordinates; the cloud's sensor pose is not applied. \tparam VolumeT the volume
-/// that compute() fills.
+/// Volumes are in the unit and frame of the points' coordinates; the cloud's sensor pose is not applied.
+///
+/// \tparam PointT any point type with members x, y, z of type float or double, from PCL or your own.
+/// \tparam VolumeT the type of volume that compute() fills.
 template <typename PointT, typename VolumeT>
 class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
  public:
@@ -38,8 +39,8 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   using Ptr = pcl::shared_ptr<BoundingVolumeEstimation>;
   using ConstPtr = pcl::shared_ptr<const BoundingVolumeEstimation>;
 
-  /// Restricts the fit to some points, or, with a null pointer, lifts the restriction. (PCLBase remembers
-  /// that indices were set, but not that they were taken away again.)
+  // Overridden because PCLBase remembers that indices were set, but not that they were removed.
+  /// Restricts the fit to the points with these indices. A null pointer removes the restriction.
   void setIndices(const pcl::IndicesPtr& indices) override { this->indices_ = indices; }
   void setIndices(const pcl::IndicesConstPtr& indices) override {
     this->indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
@@ -50,25 +51,26 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   void setIndices(std::nullptr_t) { this->indices_.reset(); }
   using Base::setIndices;
 
-  /// Threads for compute(): 0 means all processors, 1 (the default) the calling thread. Never changes the
-  /// result; clouds that are done in less than about 200 us are not threaded.
+  /// Sets the number of threads of compute(): 0 for all processors, 1 (the default) for the calling thread.
+  /// The result does not depend on it. Clouds that take less than about 200 us use one thread.
   void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
-  /// The instruction set, an Isa: Isa::automatic as this object is made, which asks PCL_BV_ISA. Never changes
-  /// the result. Throws std::invalid_argument, as the constructor does, if this build or machine does not
-  /// have it.
+  /// Sets the instruction set, an Isa. The default is Isa::automatic, for which the constructor reads the
+  /// environment variable PCL_BV_ISA. The result does not depend on it. Throws std::invalid_argument if this
+  /// build or machine does not support the instruction set; so does the constructor.
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
-  /// Fits the volume to the input cloud, or to those points of it that the indices name.
+  /// Fits the volume to the input cloud, or to its points with the indices that were set.
   ///
-  /// Points with a coordinate that is not finite are dropped, whatever is_dense says. No point left: an empty
-  /// volume and `no_valid_points`. A fit that fails: an empty volume, `failed` and the reason. Throws
-  /// std::logic_error if no cloud was set, std::out_of_range for an index outside the cloud.
+  /// Points with a coordinate that is not finite are dropped, whatever is_dense says. If no point is left,
+  /// the volume is empty and the status `no_valid_points`. If the fit fails, the volume is empty and the
+  /// result holds the status `failed` and the reason. Throws std::logic_error if no cloud was set, and
+  /// std::out_of_range for an index outside the cloud.
   EstimationResult compute(VolumeT& volume) const { return fit(input(), volume, execution_); }
 
-  /// Fits one volume to each cluster (index lists into the input cloud; setIndices() does not matter here),
-  /// in order. The same bits as one compute() per cluster: one that fails takes no other with it. Throws as
-  /// compute() does, before anything is written.
+  /// Fits one volume to each cluster, in order. Clusters are lists of indices into the input cloud;
+  /// setIndices() has no effect here. The results have the same bits as one compute() per cluster, and a
+  /// cluster that fails does not affect the others. Throws as compute() does, before anything is written.
   std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
                                         std::vector<VolumeT>& volumes) const {
     std::vector<PointView> views;
@@ -84,10 +86,12 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   }
 
  protected:
+  /// Fits the volume to the points; to be implemented by each estimator.
   virtual EstimationResult fit(const PointView& points, VolumeT& volume,
                                const Execution& execution) const = 0;
 
-  /// What compute() fits: the cloud or those points of it that the indices name. Throws as compute() does.
+  /// Returns the points that compute() fits: the cloud, or its points with the indices that were set. Throws
+  /// as compute() does.
   PointView input() const {
     return this->indices_ ? point_view(cloud(), *this->indices_) : point_view(cloud());
   }
@@ -95,14 +99,15 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 
  private:
   const PointCloud& cloud() const {
-    if (!this->input_) throw std::logic_error("BoundingVolumeEstimation: compute() before setInputCloud()");
+    if (!this->input_)
+      throw std::logic_error("BoundingVolumeEstimation: call setInputCloud() before compute()");
     return *this->input_;
   }
 
   Execution execution_;
 };
 
-/// The estimator of a fit without settings.
+/// An estimator for a fit without settings.
 template <typename PointT, typename VolumeT,
           EstimationResult (*fit_points)(const PointView&, VolumeT&, const Execution&)>
 class FitEstimation : public BoundingVolumeEstimation<PointT, VolumeT> {
@@ -116,17 +121,24 @@ class FitEstimation : public BoundingVolumeEstimation<PointT, VolumeT> {
   }
 };
 
-/// The axis-aligned box, the convex hull, a small cylinder, a small capsule. See fit_aabb() and so on.
+/// Estimates the axis-aligned box. See fit_aabb().
 template <typename PointT>
 using AabbEstimation = FitEstimation<PointT, Aabb, fit_aabb>;
+
+/// Estimates the convex hull. See fit_hull().
 template <typename PointT>
 using HullEstimation = FitEstimation<PointT, Hull, fit_hull>;
+
+/// Estimates a small cylinder. See fit_cylinder().
 template <typename PointT>
 using CylinderEstimation = FitEstimation<PointT, Cylinder, fit_cylinder>;
+
+/// Estimates a small capsule. See fit_capsule().
 template <typename PointT>
 using CapsuleEstimation = FitEstimation<PointT, Capsule, fit_capsule>;
 
-/// The k-DOP along K / 2 directions, K = 6, 14, 18 or 26, or along your own. See fit_kdop().
+/// Estimates the k-DOP along K / 2 built-in directions (K = 6, 14, 18 or 26) or along your own directions.
+/// See fit_kdop().
 template <typename PointT, int K = 26>
 class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   static_assert(K == 6 || K == 14 || K == 18 || K == 26, "K is 6, 14, 18 or 26");
@@ -136,15 +148,16 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   using ConstPtr = pcl::shared_ptr<const KdopEstimation>;
   using BoundingVolumeEstimation<PointT, Kdop>::compute;
 
-  /// Other directions than those of K, which are the default. Throws std::invalid_argument for a null
-  /// pointer.
+  /// Sets directions that replace the K / 2 built-in ones. Throws std::invalid_argument for a null pointer.
   void setDirections(std::shared_ptr<const KdopSet> directions) {
-    if (!directions) throw std::invalid_argument("KdopEstimation::setDirections: a null pointer");
+    if (!directions)
+      throw std::invalid_argument("KdopEstimation::setDirections: directions must not be null");
     directions_ = std::move(directions);
   }
   const std::shared_ptr<const KdopSet>& getDirections() const { return directions_; }
 
-  /// The same, and for each slab which points of the input cloud touch it; empty if there is no valid point.
+  /// Fits the k-DOP as compute(kdop) does. `touching` gets, for each slab, the indices of the points of the
+  /// input cloud that touch its two sides; it is empty if there is no valid point.
   EstimationResult compute(Kdop& kdop, SlabPoints& touching) const {
     return fit_kdop(this->input(), directions_, kdop, touching, this->execution());
   }
@@ -155,17 +168,17 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   }
 
  private:
-  static const std::shared_ptr<const KdopSet>& of_k() {
+  static const std::shared_ptr<const KdopSet>& default_directions() {
     return K == 6    ? KdopSet::dop6()
            : K == 14 ? KdopSet::dop14()
            : K == 18 ? KdopSet::dop18()
                      : KdopSet::dop26();
   }
 
-  std::shared_ptr<const KdopSet> directions_ = of_k();
+  std::shared_ptr<const KdopSet> directions_ = default_directions();
 };
 
-/// A bounding sphere: the smallest one unless another method is set. See fit_sphere().
+/// Estimates a bounding sphere: the smallest one unless another method is set. See fit_sphere().
 template <typename PointT>
 class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
  public:
@@ -173,18 +186,20 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   using ConstPtr = pcl::shared_ptr<const SphereEstimation>;
   using BoundingVolumeEstimation<PointT, Sphere>::compute;
 
+  /// Sets the method; SphereMethod::exact by default.
   void setMethod(SphereMethod method) { options_.method = method; }
   SphereMethod getMethod() const { return options_.method; }
 
-  /// How Ritter's and EPOS's spheres grow; SphereGrowth::deferred by default.
+  /// Sets how spheres of the methods ritter and epos* grow; SphereGrowth::deferred by default.
   void setGrowth(SphereGrowth growth) { options_.growth = growth; }
   SphereGrowth getGrowth() const { return options_.growth; }
 
-  /// The smallest sphere, and the proof that it is. See fit_smallest_sphere(). Throws as compute() does, and
-  /// std::invalid_argument if another method than SphereMethod::exact is set: no other has a proof.
+  /// Fits the smallest sphere and the proof that no sphere is smaller. See fit_smallest_sphere(). Throws as
+  /// compute() does. Also throws std::invalid_argument if a method other than SphereMethod::exact is set,
+  /// because the other methods have no proof.
   EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const {
     if (options_.method != SphereMethod::exact)
-      throw std::invalid_argument("SphereEstimation: only the method exact has a certificate");
+      throw std::invalid_argument("SphereEstimation: compute() with a certificate needs SphereMethod::exact");
     return fit_smallest_sphere(this->input(), sphere, certificate, this->execution());
   }
 
@@ -197,19 +212,20 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   SphereOptions options_;
 };
 
-/// An oriented box: the smallest that is found unless another method is set. The upright methods' boxes have
-/// their axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
+/// Estimates an oriented box: the smallest box found, unless another method is set. Boxes of the upright
+/// methods have axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
 template <typename PointT>
 class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
  public:
   using Ptr = pcl::shared_ptr<ObbEstimation>;
   using ConstPtr = pcl::shared_ptr<const ObbEstimation>;
 
+  /// Sets the method; ObbMethod::minimal by default.
   void setMethod(ObbMethod method) { options_.method = method; }
   ObbMethod getMethod() const { return options_.method; }
 
-  /// Against gravity, of any length, z by default: for the upright methods. compute() throws
-  /// std::invalid_argument for one that is none.
+  /// Sets the direction against gravity for the upright methods; z by default. It may have any length:
+  /// compute() throws std::invalid_argument unless its largest component is from 1e-30 to 1e30 in magnitude.
   void setUpAxis(const Eigen::Vector3d& up) { options_.up = up; }
   const Eigen::Vector3d& getUpAxis() const { return options_.up; }
 
@@ -222,7 +238,7 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
   ObbOptions options_;
 };
 
-/// The smallest ellipsoid. See fit_ellipsoid().
+/// Estimates the smallest ellipsoid. See fit_ellipsoid().
 template <typename PointT>
 class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
  public:
@@ -230,7 +246,7 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
   using ConstPtr = pcl::shared_ptr<const EllipsoidEstimation>;
   using BoundingVolumeEstimation<PointT, Ellipsoid>::compute;
 
-  /// The same, and how near it is to the smallest and why.
+  /// Fits the ellipsoid and a proof of how much larger than the smallest ellipsoid it is at most.
   EstimationResult compute(Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) const {
     return fit_ellipsoid(this->input(), ellipsoid, certificate, this->execution());
   }
@@ -242,35 +258,37 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
   }
 };
 
-/// Whichever of several volumes is the smallest. See fit_smallest().
+/// Fits several methods and returns the smallest of their volumes. See fit_smallest().
 template <typename PointT>
 class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
  public:
   using Ptr = pcl::shared_ptr<BestEstimation>;
   using ConstPtr = pcl::shared_ptr<const BestEstimation>;
 
-  /// The methods to choose from; best_candidates() by default. Throws std::invalid_argument, naming it, for a
-  /// name that is no method, for `best` itself and for no names.
+  /// Sets the methods to choose from, by name; best_candidates() by default. Throws std::invalid_argument for
+  /// an unknown name and for `best` itself (the message contains the name), and for an empty list.
   void setMethods(const std::vector<std::string>& names) {
-    std::vector<const Method*> among;
+    std::vector<const Method*> candidates;
     for (const std::string& name : names) {
-      among.push_back(find_method(name));
-      if (among.back() == nullptr || among.back()->name == "best") {
-        throw std::invalid_argument("BestEstimation::setMethods: '" + name + "' is no method to choose from");
+      candidates.push_back(find_method(name));
+      if (candidates.back() == nullptr || candidates.back()->name == "best") {
+        throw std::invalid_argument("BestEstimation::setMethods: '" + name +
+                                    "' is unknown or is 'best' itself");
       }
     }
-    if (among.empty()) throw std::invalid_argument("BestEstimation::setMethods: no names");
-    among_ = std::move(among);
+    if (candidates.empty())
+      throw std::invalid_argument("BestEstimation::setMethods: the list of names is empty");
+    candidates_ = std::move(candidates);
   }
 
  protected:
   EstimationResult fit(const PointView& points, AnyVolume& volume,
                        const Execution& execution) const override {
-    return fit_smallest(points, among_, volume, execution);
+    return fit_smallest(points, candidates_, volume, execution);
   }
 
  private:
-  std::vector<const Method*> among_ = best_candidates();
+  std::vector<const Method*> candidates_ = best_candidates();
 };
 
 }  // namespace pcl_bv

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes in the form that PCL's visualizer and its sample consensus models take. Empty ones give NaN, and -1
-// for the radius.
+// Conversion of volumes to the pcl::ModelCoefficients of PCL's visualizer and sample consensus models. An
+// empty volume gives NaN for all coefficients except its radius, which is -1.
 #pragma once
 
 #include <pcl/ModelCoefficients.h>
@@ -28,9 +28,9 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
 
 }  // namespace estimation_internal
 
-/// As PCLVisualizer::addCube() takes it: translation x y z, rotation as a quaternion x y z w, and the sizes
-/// along the box's axes 0, 1 and 2 (of an upright box: length, width, height). Rounded to float, so not a
-/// bound.
+/// Returns the coefficients for PCLVisualizer::addCube(): translation x y z, rotation as a quaternion x y z
+/// w, and the sizes along axes 0, 1 and 2 of the box (for an upright box: length, width, height). They are
+/// rounded to float, so the result need not enclose the box.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
   const FloatEnvironment environment;
   const Eigen::Vector3d& c = box.center();
@@ -40,8 +40,8 @@ inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
       {c.x(), c.y(), c.z(), q.x(), q.y(), q.z(), q.w(), size.x(), size.y(), size.z()});
 }
 
-/// As PCLVisualizer::addSphere() and SACMODEL_SPHERE take it: centre and radius, as Sphere::cast_float()
-/// gives them; holds the sphere.
+/// Returns the coefficients for PCLVisualizer::addSphere() and SACMODEL_SPHERE: centre and radius of
+/// Sphere::cast_float(), which encloses the sphere.
 inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
   const FloatEnvironment environment;
   const Eigen::Vector3d& c = sphere.center();
@@ -50,19 +50,19 @@ inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
   return estimation_internal::as_floats({f.center.x(), f.center.y(), f.center.z(), f.radius});
 }
 
-/// As PCLVisualizer::addCylinder() takes it without ends, and SACMODEL_CYLINDER: a point on the axis (the
-/// centre), the direction of the axis, the radius. It has grown by what the rounding of the others moves the
-/// axis between the ends, so the model holds the cylinder.
+/// Returns the coefficients for PCLVisualizer::addCylinder() and SACMODEL_CYLINDER, a cylinder without ends:
+/// a point on the axis (the centre), the direction of the axis, the radius. The radius is inflated by how far
+/// rounding to float moves the axis between the ends, so the model encloses the cylinder.
 inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
   const FloatEnvironment environment;
   const Eigen::Vector3d& c = cylinder.center();
   if (cylinder.empty()) return estimation_internal::as_floats({kNan, kNan, kNan, kNan, kNan, kNan, -1});
   const Eigen::Vector3f center = c.cast<float>(), axis = cylinder.axis().cast<float>();
   const double moved = (center.cast<double>() - c).norm();
-  const double turned = 2 * (axis.cast<double>() - cylinder.axis()).norm();
-  const double grown = (cylinder.radius() + moved + turned * cylinder.half_height()) * (1 + 1e-12);
+  const double rotated = 2 * (axis.cast<double>() - cylinder.axis()).norm();
+  const double inflated_radius = (cylinder.radius() + moved + rotated * cylinder.half_height()) * (1 + 1e-12);
   return estimation_internal::as_floats(
-      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(grown)});
+      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(inflated_radius)});
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Several volumes at a time over the cores (paper §5).
+// Fits volumes to many point views in parallel (the paper, §5; see docs/references.md).
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,19 @@
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Calls fit(i, execution) once for each view, in any order and on the threads of the execution's policy.
+/// Calls fit(i, execution) once for each view i, in any order and on the threads of the execution's policy.
 ///
-/// Views large enough to be worth several threads come first, one after another, each with the whole policy;
-/// the others are handed out by size, largest first, each with Serial, and all to the calling thread if
-/// together they are not worth a second one, as the time of one of middle size tells. Exceptions come back as
-/// for_each_chunk() says, but one of a large view or of that one ends the call.
+/// Large views, of 200 000 points or more, come first, one after another; each of their fits gets the whole
+/// policy. The smaller views are then distributed over the threads, largest first; each of their fits gets
+/// Serial. The fit of one view of middle size is timed: if the time of all smaller views together is not
+/// worth a second thread, the calling thread fits them all. Execution::supports is not handed to `fit`.
+///
+/// If fits of smaller views throw, the others are still done and one exception is rethrown, as
+/// for_each_chunk() describes. An exception of a large view or of the timed view ends the call at once.
 void for_each_view(const std::vector<PointView>& views, const Execution& execution,
                    const std::function<void(std::size_t, const Execution&)>& fit);
 

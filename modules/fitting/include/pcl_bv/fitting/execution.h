@@ -3,21 +3,23 @@
 
 #pragma once
 
-#include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/isa.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct Supports;
 
-/// Where and how a fit runs. No choice here changes a single bit of the result.
+/// How a fit runs: threads, instruction set and supports that are already known. No choice here changes a
+/// single bit of the result.
 struct Execution {
-  ParallelPolicy parallel = Serial{};
-  UsableIsa isa = Isa::automatic;  ///< Looked up where an Execution is made, not where it is copied.
+  ParallelPolicy parallel = Serial{};  ///< Threads that the fit may use.
+  UsableIsa isa = Isa::automatic;      ///< `automatic` is resolved when an Execution is made, not copied.
 
-  /// If not null, what find_supports() gave for these very points, which most fits begin with: they then need
-  /// a pass less where it holds what they ask for. share_supports() (methods.h) decides for several methods.
-  /// A fit of a view of other places (same_places() in point_view.h) throws std::invalid_argument.
+  /// If not null: the result of find_supports() for exactly these points. Most fits begin with supports; they
+  /// save a pass over the points if the directions and the detail that they need are in here.
+  /// share_supports() (methods.h) prepares this for several methods. A fit throws std::invalid_argument if
+  /// its view is not the one that was searched (same_memory() in point_view.h).
   const Supports* supports = nullptr;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in parts, on many machines or in many files: what of each part is needed for volumes around all.
+// Volumes around a cloud that comes in parts, on many machines or in many files.
 #pragma once
 
 #include <cstddef>
@@ -11,62 +11,65 @@
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct PartialState;
 
-/// What some of a cloud's points contribute to volumes around all of them: of up to kAllKept points all, of
-/// more the extreme ones (the vertices of their hull), those that reach farthest along the 26 directions, and
-/// sums for the covariance. Copies share what they hold.
+/// The contribution of some points of a cloud to volumes around the whole cloud. Up to kMaxStored points are
+/// all stored. Of more points it stores the extreme ones (the vertices of their convex hull), the support
+/// points along the 26 directions, and sums for the covariance. Copies share their data.
 ///
-/// Which parts a cloud was cut into, and in what order they were merged, changes no bit, neither of volumes
-/// nor of bytes. The volumes are those of a fit of the whole cloud, bit by bit, but for two methods on more
-/// than kAllKept points: sphere-exact and obb-yaw are fits of the extreme points, which are also theirs, but
-/// points within rounding of them may have turned the last bits of a fit of all.
+/// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
+/// the serialised bytes. The volumes have the bits of a fit to the whole cloud. There are two exceptions, for
+/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These
+/// determine both volumes, but in a fit to all points, points within rounding of the extreme ones can change
+/// the last bits.
 class Partial {
  public:
-  /// Points up to which all are kept.
-  static constexpr std::size_t kAllKept = 4096;
+  /// Maximum number of points that are all stored.
+  static constexpr std::size_t kMaxStored = 4096;
 
-  /// Of no points.
+  /// Holds no points.
   Partial();
 
-  /// Of points that the whole cloud numbers from `first` + PointView::first on. Time as for fit_hull() and
-  /// summarize() together; no memory beyond theirs is kept. No point, or none that is valid, is fine. Throws
-  /// std::invalid_argument for a view with an index list, and as fit_hull().
+  /// Holds the points of a view. In the whole cloud they have the numbers from `first` + PointView::first on.
+  /// The view may have no points, or no valid ones. Takes the time of fit_hull() and summarize() together,
+  /// and no memory beyond theirs. Throws std::invalid_argument for a view with an index list; other errors as
+  /// for fit_hull().
   explicit Partial(const PointView& points, std::size_t first = 0, const Execution& execution = {});
 
-  /// Of the points of both: associative and commutative. O(m log m) for m extreme points. Throws
-  /// std::invalid_argument, and changes nothing, if a point is in both or if one has floats and the other
-  /// doubles.
+  /// Adds the points of `other`. Associative and commutative. O(m log m) for m extreme points. Throws
+  /// std::invalid_argument, and changes nothing, if a point is in both, or if one has float and the other
+  /// double coordinates.
   void merge(const Partial& other);
 
-  /// Whether the method can be fitted to parts: not spheres that grow and obb-lshape, which depend on all
-  /// points, also those deep inside.
-  static bool serves(const Method& method);
+  /// Returns whether the method can be fitted to parts. The exceptions are the spheres that grow and
+  /// obb-lshape: points deep inside the cloud can change these.
+  static bool can_fit(const Method& method);
 
-  /// The volume around all points, and their status, rank and counts. Throws std::invalid_argument unless
-  /// serves(method), and for Execution::supports. O(m log m).
+  /// Fits the volume around all points; returns their status, rank and counts. O(m log m) for m extreme
+  /// points. Throws std::invalid_argument unless can_fit(method), and if Execution::supports is set.
   EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
                        const MethodOptions& options = {}) const;
 
-  /// The smallest sphere of all points, which answer questions where they are: the bits of
-  /// fit_smallest_sphere() of the whole cloud, whatever the number of points, if `farthest` speaks of these
-  /// points by the numbers that they have here. Asks nothing where all points are kept. Throws what it
-  /// throws.
+  /// Fits the smallest sphere of all points, which stay where they are and are queried through `farthest`.
+  /// The result has the bits of pcl_bv::fit_smallest_sphere() for the whole cloud, whatever the number of
+  /// points. For this, `farthest` must answer for the same points, with the numbers that they have here. It
+  /// is not called if all points are stored. Exceptions of `farthest` are passed on.
   EstimationResult fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
-                                       const FarthestPoints& farthest, const Execution& execution = {}) const;
+                                       const FarthestQuery& farthest, const Execution& execution = {}) const;
 
-  /// Points, valid or not.
+  /// Number of points, valid or not.
   std::size_t size() const;
 
-  /// For a file or a message: some 2 kB and 32 bytes for each extreme or kept point, with a version and a
-  /// check sum; the same on every machine.
+  /// Returns the state as bytes for a file or a message: some 2 kB, and 32 bytes for each extreme or stored
+  /// point, with a version and a checksum. The bytes are the same on every machine.
   std::vector<std::byte> to_bytes() const;
 
-  /// Throws std::invalid_argument, saying what is wrong, for anything but what to_bytes() gave.
+  /// Restores a Partial from the bytes of to_bytes(). Throws std::invalid_argument, with the reason, for any
+  /// other bytes.
   static Partial from_bytes(const std::byte* bytes, std::size_t size);
 
  private:

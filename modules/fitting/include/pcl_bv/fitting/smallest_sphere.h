@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The solver of the smallest sphere, for points that only answer questions: those of a file, of a tree, of
-// many machines. For points in memory and sources fit_smallest_sphere() (fit.h) asks and answers.
+// The smallest sphere of points that are only queried: points in a file, in a tree or on many machines. For
+// points in memory or of a PointSource use fit_smallest_sphere() (fit.h).
 #pragma once
 
 #include <array>
@@ -15,33 +15,36 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A point outside, or none (squared_distance < 0).
+/// A point outside a sphere; squared_distance < 0 if there is none.
 struct FarPoint {
-  double squared_distance = -1;  ///< As squared_distance() of kernels/distances.h says.
-  std::size_t index = 0;         ///< The cloud's number of the point.
-  Coordinates point{};
+  double squared_distance = -1;  ///< From the centre: squared_distance() of kernels/distances.h.
+  std::size_t index = 0;         ///< Index of the point in the cloud.
+  Coordinates point{};           ///< Coordinates of the point.
 };
 
-/// The farthest point in each octant() around a centre; of equally far ones that with the smallest index.
+/// The farthest point in each octant() around a centre; of equally far points the one with the smallest
+/// index.
 using OctantPoints = std::array<FarPoint, 8>;
 
-/// Lets the farthest of some of the points compete with those of others.
-void keep_farthest(const FarPoint& other, FarPoint& best);
-void keep_farthest(const OctantPoints& other, OctantPoints& best);
+/// Replaces `best` by `other` if that is farther, or as far with a smaller index; for OctantPoints in each
+/// octant.
+void update_farthest(const FarPoint& other, FarPoint& best);
+void update_farthest(const OctantPoints& other, OctantPoints& best);
 
-/// Of the valid points with a squared distance of at least `limit` the farthest in each octant, in `found`,
-/// whatever was there. Whether there is any.
-using FarthestPoints = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
+/// A query: finds, among the valid points with a squared distance of at least `limit`, the farthest in each
+/// octant, and overwrites `found` with them. Returns whether there is any such point.
+using FarthestQuery = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
 
-/// The answer of the points of a view: `found` becomes what FarthestPoints says, and its numbers are those of
-/// PointView::index(). One pass over the points. Throws std::invalid_argument for a view with an index list.
-bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
+/// Answers the query of FarthestQuery for the points of a view; the indices are those of PointView::index().
+/// One pass over the points. Throws std::invalid_argument for a view with an index list.
+bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution = {});
 
-/// The smallest sphere of the points that `supports`, along dop26 with points, and `farthest` speak of. The
-/// bits of fit_smallest_sphere(), whoever answers. Empty without a valid point. Throws std::invalid_argument
-/// for other supports, and what `farthest` throws. One question for each of certificate.passes.
-Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,
+/// Computes the smallest sphere of the points that `supports` describes and `farthest` answers for. The
+/// supports must be along dop26, with points. The result has the bits of fit_smallest_sphere(), however the
+/// queries are answered. Without a valid point the sphere is empty. Calls `farthest` certificate.passes
+/// times. Throws std::invalid_argument for other supports; exceptions of `farthest` are passed on.
+Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate);
 
 }  // namespace pcl_bv

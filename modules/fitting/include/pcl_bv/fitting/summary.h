@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What many algorithms ask of a cloud first, in one pass over its memory: how far it reaches, where its
-// middle is, how it spreads.
+// Extents, centroid and covariance of a cloud in one pass over its memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,43 +9,49 @@
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// In the points' unit and frame. Without a valid point centroid and covariance are zero, the volumes empty.
+/// Supports, centroid and covariance of a cloud, in the points' unit and frame. Without a valid point,
+/// centroid and covariance are zero and the volumes are empty.
 struct CloudSummary {
-  /// Along the 26 directions, with points; `used` and `dropped` are in here.
+  /// Along the 26 directions, with points. Also holds the counts `used` and `dropped`.
   Supports supports;
 
-  /// The mean of the valid points, inside their box. Of at most 2^b blocks of 1024 points, off by at most
-  /// (175 + 30 b) 2^-53 of the extent and a rounding of the coordinate itself.
+  /// Mean of the valid points; it is inside their box. For at most 2^b blocks of 1024 points, the error is at
+  /// most (175 + 30 b) 2^-53 of the extent, plus one rounding of the coordinate itself.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
-  /// Of the valid points about their centroid, as a population (divided by n, not n - 1), symmetric, times
-  /// scale². Entry (i, j) is off by at most 3 (175 + 30 b) 2^-53 of the product of the extents along i and j:
-  /// 6e-14 in one block, 2e-13 for 30 million points (and by 2^-1073, where it underflows). Exactly 0 along
-  /// an axis on which all points agree.
+  /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric, and the
+  /// population covariance: divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b)
+  /// 2^-53 of the product of the extents along i and j: 6e-14 for one block, 2e-13 for 30 million points (and
+  /// 2^-1073 more if it underflows). Exactly 0 along an axis on which all points agree.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  /// 1, except for doubles whose greatest extent is below 1e-99, whose squares could vanish: a power of two
-  /// by which the points were multiplied for the covariance. Its eigenvectors do not depend on it.
-  double scale = 1;
+  /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
+  /// whose largest extent is below 1e-99: their squares could underflow, so it is a larger power of two. The
+  /// eigenvectors of the covariance do not depend on it.
+  double covariance_scale = 1;
 
+  /// Returns the axis-aligned box of the points.
   Aabb aabb() const { return aabb_of(supports); }
+
+  /// Returns the k-DOP of the points along the 26 directions.
   Kdop dop26() const { return kdop_of(supports); }
 
+  /// Returns the status, the rank and the counts of the points.
   EstimationResult result() const { return result_of(supports); }
 };
 
-/// Supports, centroid and covariance of all valid points. O(n); each chunk is read from memory once, as it is
-/// still in the cache when the moments follow the supports. The same bits for every execution; another order
-/// of the points may round centroid and covariance otherwise.
+/// Computes the supports, the centroid and the covariance of all valid points. O(n). Each chunk is read from
+/// memory once: it is still in the cache when its moments are computed after its supports. The same bits for
+/// every execution. Another order of the points may round centroid and covariance differently.
 ///
-/// Covariance by the shifted formula in blocks of 1024 points, sums of squares about a point of the block,
-/// which are added up pair by pair (Chan, Golub, LeVeque 1983).
+/// The covariance uses the shifted formula in blocks of 1024 points: sums of squares about a point of the
+/// block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

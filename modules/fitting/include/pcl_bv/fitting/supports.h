@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a cloud reaches along directions, exactly, and which points reach there: what boxes, k-DOPs and the
-// seeds of spheres are made of.
+// Exact minimum and maximum projections of a cloud along directions, and the points that attain them. Boxes,
+// k-DOPs and the first balls of spheres are made of these.
 #pragma once
 
 #include <array>
@@ -12,75 +12,81 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// How far all points reach along one direction n, in units of n . p: of a point's coordinate if n has unit
-/// length.
+/// Minimum and maximum projection n . p of all points p along one direction n, in the unit of the coordinates
+/// if n has unit length.
 struct Support {
-  double low = 0;          ///< Exact least n . p, rounded down to a double; never -0.
-  double high = 0;         ///< Exact greatest n . p, rounded up to a double; never -0.
-  SupportPoint low_point;  ///< Of points with the same n . p the one with the smallest index.
-  SupportPoint high_point;
+  double low = 0;           ///< Exact minimum of n . p, rounded down to a double; never -0.
+  double high = 0;          ///< Exact maximum of n . p, rounded up to a double; never -0.
+  SupportPoint low_point;   ///< Point with the minimum n . p; of several the one with the smallest index.
+  SupportPoint high_point;  ///< Point with the maximum n . p; of several the one with the smallest index.
 };
 
+/// What to find along each direction.
 enum class SupportDetail {
-  bounds,  ///< How far only: all that a box needs, four times as fast along the axes alone.
-  points   ///< Also the points.
+  bounds,  ///< Minimum and maximum only. Enough for a box; four times as fast if along the axes alone.
+  points   ///< Also the points that attain them.
 };
 
 struct LocalHull;
 struct Moments;
 
-/// Along the cube's directions.
+/// Supports of a cloud along directions of the cube.
 struct Supports {
-  DirectionSet set = DirectionSet::dop6;
-  SupportDetail detail = SupportDetail::bounds;  ///< What there is.
-  std::size_t used = 0;
-  std::size_t dropped = 0;
-  int rank = 0;  ///< Of the points, as result.h defines it.
-  /// The first direction_count(set) count; they follow kCubeDirections as cube_direction() says.
+  DirectionSet set = DirectionSet::dop6;         ///< The directions.
+  SupportDetail detail = SupportDetail::bounds;  ///< Whether the support points are stored, too.
+  std::size_t used = 0;                          ///< Number of valid points.
+  std::size_t dropped = 0;                       ///< Number of points that are not valid (is_valid()).
+  int rank = 0;                                  ///< Rank of the points, as result.h defines it.
+  /// Only the first direction_count(set) elements are used. Element k is along the k-th direction of the set:
+  /// number cube_direction(set, k) of kCubeDirections.
   std::array<Support, kMaxDirections> along{};
-  PointView points;                       ///< Whose supports they are: only compared with, never read again.
-  std::shared_ptr<const LocalHull> hull;  ///< For the fits that need it, where share_supports() found it.
-  /// Where `points` are few that stand for a cloud (partial.h), of all points of the cloud, as `used` is.
+  PointView points;                       ///< The view that was searched: only compared, never read again.
+  std::shared_ptr<const LocalHull> hull;  ///< The convex hull, if share_supports() computed it; else null.
+  /// Usually null. Set if `points` are a few points that represent a whole cloud (partial.h): the moments of
+  /// the whole cloud. `used` and `dropped` then count the whole cloud, too.
   std::shared_ptr<const Moments> moments;
 };
 
-/// Finds the supports of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
-/// none. The same bits for every execution. One SIMD pass over the points in chunks, which also looks exactly
-/// at the few points of each chunk that can be extreme (docs/numerics.md). None if Execution::supports has
-/// them; throws std::invalid_argument if those are of other points. Points that are flat but for 2^-30 of
-/// their extent, and not just across a coordinate axis, are passed over up to five times more for their rank.
+/// Finds the supports of all valid points along the directions of `set`. Without a valid point, `used` is 0
+/// and `along` stays zero. The same bits for every execution.
+///
+/// One SIMD pass over the points in chunks; the few points of each chunk that can be extreme are compared
+/// exactly (docs/numerics.md). No pass if Execution::supports already has the supports; throws
+/// std::invalid_argument if these were found for other points. The rank takes up to five more passes if the
+/// points are flat to 2^-30 of their extent, unless their plane is perpendicular to a coordinate axis.
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const Execution& execution);
 
-/// The box of the supports along the axes and the k-DOP of all of them; empty if there was no valid point.
+/// Returns the axis-aligned box, and the k-DOP of all directions, of the supports; empty without a valid
+/// point.
 Aabb aabb_of(const Supports& supports);
 Kdop kdop_of(const Supports& supports);
 
-/// Status and rank as result.h defines them.
+/// Returns the status, the rank and the counts, as result.h defines them.
 EstimationResult result_of(const Supports& supports);
 
-/// Along directions of your own.
-struct OwnSupports {
-  std::size_t used = 0;
-  std::size_t dropped = 0;     ///< Points that are not valid (is_valid()).
+/// Supports of a cloud along directions of your own.
+struct CustomSupports {
+  std::size_t used = 0;        ///< Number of valid points.
+  std::size_t dropped = 0;     ///< Number of points that are not valid (is_valid()).
   std::vector<Support> along;  ///< In the order of the directions; empty if no point is valid.
 };
 
-/// The same for directions of any length and any signs, repeated or not, in O(points * directions). Where the
-/// extent of a float cloud is below 1e-43 or above 1e38 all points are looked at exactly, at 50 ns for each
-/// direction.
+/// Finds the supports along directions of any length and any signs, repeated or not. O(points * directions).
+/// If the extent of a float cloud is below 1e-43 or above 1e38, all points are compared exactly, which takes
+/// 50 ns for each point and direction.
 ///
 /// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
-/// between 1e-30 and 1e30 in magnitude.
-OwnSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                          const Execution& execution = {});
+/// between 1e-30 and 1e30 in magnitude, and if Execution::supports were found for other points.
+CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
+                             const Execution& execution = {});
 
 }  // namespace pcl_bv

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The bytes of clouds. Where a reader fills them at once, zeros first and a page fault for each 4 KiB would
-// take longer than the reading itself.
+// Memory for the bytes of clouds. It is not zeroed, and large blocks use huge pages: zeroing and a page fault
+// for each 4 KiB would take longer than reading the file.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ void* allocate_buffer(std::size_t bytes);
 void free_buffer(void* memory, std::size_t bytes) noexcept;
 }  // namespace internal
 
-/// A standard allocator. Elements that are given no value are left uninitialised; from 4 MiB on, memory
-/// begins at a multiple of 2 MiB and the system is asked to back it with pages of that size.
+/// Standard allocator that leaves value-initialised elements (as of resize()) uninitialised. Blocks of 4 MiB
+/// and more are aligned to 2 MiB, and the system is asked for huge pages of 2 MiB.
 template <typename T>
 class BufferAllocator {
  public:
@@ -27,17 +27,20 @@ class BufferAllocator {
   template <typename U>
   BufferAllocator(const BufferAllocator<U>&) noexcept {}
 
-  /// Throws std::bad_alloc.
+  /// Returns uninitialised memory for `n` elements. Throws std::bad_alloc.
   T* allocate(std::size_t n) {
     if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
     return static_cast<T*>(internal::allocate_buffer(n * sizeof(T)));
   }
+  /// Frees memory that allocate(n) returned.
   void deallocate(T* memory, std::size_t n) noexcept { internal::free_buffer(memory, n * sizeof(T)); }
 
+  /// Leaves a trivial element uninitialised.
   template <typename U>
   void construct(U* at) noexcept {
     ::new (static_cast<void*>(at)) U;
   }
+  /// Constructs an element from the values.
   template <typename U, typename... Values>
   void construct(U* at, Values&&... values) {
     ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
@@ -47,7 +50,7 @@ class BufferAllocator {
   friend bool operator!=(const BufferAllocator&, const BufferAllocator&) { return false; }
 };
 
-/// Bytes that resize() leaves as they are: only for what is written before it is read.
+/// Vector of bytes. resize() leaves new bytes uninitialised: write them before reading them.
 using ByteBuffer = std::vector<std::byte, BufferAllocator<std::byte>>;
 
 }  // namespace pcl_bv

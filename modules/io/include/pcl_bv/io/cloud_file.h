@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds that stay in their file: a fit holds a part of them for each thread, and what it has found so far.
+// Clouds that stay in their file: a fit loads one chunk of points per thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -9,37 +9,38 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An open binary .pcd or .bin. Points are read where and when they are asked for, by position, so that
-/// several threads read and fit side by side; the system is told what comes next, 8 MiB ahead.
+/// An open binary .pcd or .bin file, whose points are read on demand. Reads are positional, so that several
+/// threads can read and fit at the same time; the system is asked to read 8 MiB ahead.
 ///
-/// A file that is changed while it is read gives an IoError, not volumes of two clouds. Its size and times
-/// are looked at after each reading; and what writers can hide from those (st_mtim put back together with a
-/// new link, a mapping written late) shows in a checksum of every 1024 points, kept from their first reading:
-/// of one byte in 64, so that a cloud in the place of another is seen, but not each edit of one point. What
-/// is cut out of 1024 points has no checksum.
+/// A file that changes while it is read causes an IoError instead of a volume of mixed content. Two checks
+/// detect changes. The file's size and times are compared after each read. Checksums, stored at the first
+/// read of each block of 1024 points, detect what a writer can hide from the times (st_mtim restored together
+/// with a new link, or a late write through a mapping). A checksum covers one byte in 64: it detects that the
+/// cloud was replaced, but not every edit of a single point. A block that is read only partly is not checked.
 class CloudFile final : public PointSource {
  public:
-  /// Opens the file and reads its header only; null if its points can only be read from first to last (ascii,
-  /// binary_compressed, .ply, .las), or are so few (kChunkPoints or less) that read_cloud() is the better
-  /// way. Throws as read_cloud() does.
+  /// Opens the file and reads only its header. Returns null if the points can only be read from first to last
+  /// (ascii, binary_compressed, .ply, .las), or if there are at most kChunkPoints points: use read_cloud()
+  /// for them. `bin_fields` as in read_bin(). Throws as read_cloud() does.
   static std::unique_ptr<CloudFile> open(const std::filesystem::path& path, std::size_t bin_fields = 0);
   ~CloudFile() override;
 
-  /// Fields, size and viewpoint; no points.
+  /// Returns fields, size and viewpoint, without points.
   const RawCloud& header() const;
 
-  /// All points, as a view that lives as long as this object.
+  /// Returns a view of all points, in file coordinates. It is valid as long as this object.
   PointView xyz() const;
 
-  /// Throws IoError if the file has been cut or changed since it was opened: to be called when all that was
-  /// wanted of it is there.
+  /// Throws IoError if the file has been cut or changed since it was opened. Call it when all results of the
+  /// file have been computed.
   void require_unchanged() const;
 
-  /// Throws IoError, also for a file that has been cut or changed since it was opened.
+  /// Reads points [first, first + count) into `buffer` and returns a view of them; see PointSource::load().
+  /// Throws IoError, also if the file has been cut or changed since it was opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:

@@ -9,15 +9,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A file that cannot be read or written. what() is the reason in one line; the file's name is added
-/// by those who know what the user called it.
+/// Error: a file cannot be read or written. what() is the reason in one line, without the file's name: the
+/// caller adds the name as the user gave it.
 class IoError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Text of a file or a path for an error message: in quotes, at most 40 characters, `?` for what is not
-/// printable ASCII.
+/// Returns a text for an error message: in quotes, cut to 40 characters ("...'"), with `?` for each byte that
+/// is not printable ASCII.
 std::string in_quotes(std::string_view text);
 
 }  // namespace pcl_bv

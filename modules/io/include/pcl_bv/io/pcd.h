@@ -12,36 +12,41 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads a .pcd file: ascii, binary or binary_compressed (also blocks stored as they are), with fields x, y
-/// and z (or X, Y and Z) among any others: float32, float64 or integers, also mixed (RawCloud::xyz()).
+/// Reads a .pcd file: ascii, binary or binary_compressed (also with blocks that were stored without
+/// compression). It must have fields x, y and z (or X, Y and Z) of float32, float64 or integer types, which
+/// may differ (see RawCloud::xyz()); any other fields are read, too.
 ///
-/// Sizes in the header are held against the size of the file before anything is allocated. A file of 0 points
-/// gives an empty cloud. Numbers in ascii are rounded to the nearest value of their field's type, to infinity
-/// or zero where they are beyond it; "nan" and "inf" are read, in any case, for floating-point fields only.
-/// Whole numbers are integers however they are written (1.0, 1e3), and -1 in an unsigned field is its
-/// greatest value. What is no such number is an error in a coordinate; in other fields it becomes 0 or NaN,
-/// which RawCloud::note says. The note also names a VIEWPOINT that is not the identity, which is never applied.
-/// Points after the last one of a binary file are left out, which the note says, but an error if the header
-/// says 0 points: a recorder did not get to write how many. Rows after the last point of an ascii file are an
-/// error.
+/// Sizes in the header are checked against the size of the file before anything is allocated. A file of 0
+/// points gives an empty cloud.
 ///
-/// Rows of text are read by the policy's threads; cloud and error are the same for any number of them. Beside
-/// the cloud, text takes 0.3 MiB per thread (more only for rows longer than that) and binary_compressed
-/// the file and once more the points.
+/// Ascii numbers are rounded to the nearest value of their field's type; numbers outside its range become
+/// infinity or zero. "nan" and "inf" in any case are accepted for floating-point fields only. Integer fields
+/// accept whole numbers in any notation (1.0, 1e3); -1 in an unsigned field becomes its maximum. Any other
+/// text is an error in a coordinate; in another field it becomes 0 or NaN, and RawCloud::note reports it.
+/// Rows after the last point are an error.
 ///
-/// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent
-/// or of an unsupported type.
+/// Further points after the last point of a binary file are left out, and the note reports them. They are an
+/// error if the header says 0 points, as when a recorder stopped before it updated the header. The note also
+/// reports a VIEWPOINT other than the identity, which is never applied.
+///
+/// The policy's threads read the rows of text; cloud and error are the same for any number of threads. Memory
+/// in addition to the cloud: 0.3 MiB per thread for ascii (more only if a row is longer); the file's size
+/// plus the points' size for binary_compressed.
+///
+/// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent or
+/// of an unsupported type.
 RawCloud read_pcd(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
+/// Encodings of the points in a .pcd file, named as in its line DATA.
 enum class PcdEncoding { ascii, binary, binary_compressed };
 
-/// Writes all fields of the cloud, with width, height and viewpoint, as write_file_atomically() does. What is
-/// written reads back equal to the bit, except that ascii keeps of a NaN only that it is one, and that
+/// Writes all fields of the cloud, with width, height and viewpoint, through write_file_atomically(). The
+/// values read back bit for bit, with two exceptions: ascii does not store the sign and payload of a NaN, and
 /// binary_compressed leaves out padding (fields named "_"), which PCL's reader does not expect there.
 ///
-/// Throws IoError if the file cannot be written, if it is ascii with a field of type F and size 1 or 2, or
-/// binary_compressed with more than 4e9 bytes of points; std::invalid_argument for a cloud that breaks the
-/// rules of RawCloud.
+/// Throws IoError if the file cannot be written, if an ascii cloud has a field of type F and size 1 or 2, or
+/// if a binary_compressed cloud has more than 4e9 bytes of points. Throws std::invalid_argument for a cloud
+/// that violates the rules of RawCloud.
 void write_pcd(const std::filesystem::path& path, const RawCloud& cloud,
                PcdEncoding encoding = PcdEncoding::binary);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud as a file holds it: every field kept, in records, with a view of its coordinates.
+// A cloud with all fields of its file, stored as records, and a view of its coordinates.
 #pragma once
 
 #include <array>
@@ -13,52 +13,55 @@
 #include <vector>
 
 #include "pcl_bv/io/byte_buffer.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// One field of a point record, with the letters and sizes of the .pcd format.
+/// One field of a point record; types and sizes as in the .pcd format.
 struct PointField {
   std::string name;         ///< Without white space; "_" marks padding and may occur more than once.
-  char type = 'F';          ///< 'F' floating point, 'I' signed, 'U' unsigned.
+  char type = 'F';          ///< 'F' floating point, 'I' signed integer, 'U' unsigned integer.
   std::uint32_t size = 4;   ///< Bytes of one element: 1, 2, 4 or 8.
   std::uint32_t count = 1;  ///< Elements per point.
   std::size_t offset = 0;   ///< Bytes from the start of the record.
 
-  /// Bytes of all its elements.
+  /// Returns the field's number of bytes per point: all its elements.
   std::size_t bytes() const { return std::size_t{size} * count; }
 };
 
-/// Points in records of `point_step` bytes, row by row; organised clouds have height > 1. The fields lie one
-/// after the other without gaps and fill the record.
+/// Points as records of `point_step` bytes, row by row; organised clouds have height > 1. The fields follow
+/// each other without gaps and fill the record.
 struct RawCloud {
-  std::vector<PointField> fields;
-  std::size_t width = 0;
-  std::size_t height = 1;
-  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; kept, never applied.
-  std::size_t point_step = 0;
+  std::vector<PointField> fields;  ///< Fields of a record, in the order of their offsets.
+  std::size_t width = 0;           ///< Points per row.
+  std::size_t height = 1;          ///< Number of rows.
+  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; stored, never applied.
+  std::size_t point_step = 0;                            ///< Bytes per record.
   ByteBuffer data;  ///< width * height * point_step bytes, little-endian.
-  /// x y z of all points, all float32 or all float64. Filled only if the record does not hold them side by
-  /// side as one floating-point type.
+  /// x y z of all points, all float32 or all float64. Empty if the records have x, y and z adjacent, in this
+  /// order, as one floating-point type.
   ByteBuffer packed_xyz;
 
-  /// What a reader noticed about the file and did not refuse, one line for the user; usually empty.
+  /// Warnings of the reader about the file, one line for the user; usually empty.
   std::string note;
 
-  /// Fields with values that are no numbers of their type, which are 0 or NaN here; `note` says which.
-  std::vector<std::string> unread_fields;
+  /// Names of the fields with values that could not be read as numbers of their type and were replaced by 0
+  /// or NaN; `note` has the details.
+  std::vector<std::string> invalid_fields;
 
+  /// Returns the number of points.
   std::size_t size() const { return width * height; }
 
-  /// The coordinates of all points, in their order: the fields x, y and z, or X, Y and Z where there is none
-  /// of that name. Integers and mixed types are viewed as float32 if that holds all values of their types,
-  /// else as float64. Views `data` (or `packed_xyz`), so it dies with the cloud. Empty for an empty cloud,
-  /// and for one without such fields, of one element each.
+  /// Returns a view of the coordinates of all points, in their order: the fields x, y and z, or X, Y and Z
+  /// where the lower-case name is missing (see coordinate_names()). Integers and mixed types are float32 if
+  /// float32 represents all values of their types exactly, else float64. The view refers to `data` or
+  /// `packed_xyz`, so it is valid as long as the cloud. Returns an empty view for an empty cloud, and if one
+  /// of the three fields is missing or has more than one element.
   PointView xyz() const;
 };
 
-/// The names of the fields that hold x, y and z, of any fields that have a `name`: "x", or "X" where no field
-/// is called x but one is called X; so for y and z. They need not exist.
+/// Returns the names of the coordinate fields x, y and z; works for any field type with a member `name`. The
+/// name is "x", or "X" if there is a field X but no field x; y and z likewise. The fields need not exist.
 template <typename Fields>
 std::array<std::string_view, 3> coordinate_names(const Fields& fields) {
   std::array<std::string_view, 3> names{"x", "y", "z"};
@@ -74,32 +77,32 @@ std::array<std::string_view, 3> coordinate_names(const Fields& fields) {
   return names;
 }
 
-/// The coordinates of `count` records, `point_step` bytes apart, which a message describes by fields like
-/// those of sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4, FLOAT64 'F', 8); nothing is copied, and the view dies
-/// with the data. x, y and z may stand anywhere in the record and need no alignment, but side by side in this
-/// order, all float32 or all float64, in this machine's byte order; X, Y and Z serve where there is no x, y
-/// or z, and other fields do not matter. Throws
-/// std::invalid_argument for anything else, also where they reach beyond the record.
+/// Returns a view of the coordinates of `count` records, `point_step` bytes apart, as in a message of type
+/// sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4; FLOAT64 is 'F', 8). Nothing is copied; the view is valid as
+/// long as the data. x, y and z (or X, Y and Z, see coordinate_names()) must be adjacent in this order, all
+/// float32 or all float64, in this machine's byte order. They may be anywhere in the record and need no
+/// alignment; other fields are ignored. 0 records give an empty view. Throws std::invalid_argument for any
+/// other layout, for coordinates beyond the end of the record, and for records without data (null).
 PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t point_step,
                          const std::vector<PointField>& fields);
 
-/// One number of each record, where it lies.
+/// A view of one number per record.
 struct FieldView {
-  const std::byte* data = nullptr;  ///< Of the first record.
+  const std::byte* data = nullptr;  ///< Address of the first record's number.
   std::size_t stride = 0;           ///< Bytes from one record to the next.
-  char type = 'F';                  ///< As PointField has them.
-  std::uint32_t size = 4;
+  char type = 'F';                  ///< As PointField::type.
+  std::uint32_t size = 4;           ///< As PointField::size.
 
-  float at(std::size_t record) const;  ///< Rounded to nearest, where float32 does not hold it.
+  float at(std::size_t record) const;  ///< Returns the record's number, rounded to the nearest float32.
 };
 
-/// How much light came back to each point, in a unit of the sensor's own: the first field of one element that
-/// is called intensity (Intensity, INTENSITY), intensities, reflectivity or i. nullopt if there is none. The
-/// view dies with the records.
+/// Returns a view of the intensity of each point, in the sensor's own unit: the field named intensity,
+/// Intensity, INTENSITY, intensities, reflectivity or i (the first of these names that is a field with one
+/// element). Returns nullopt if there is no such field. The view is valid as long as the records.
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step);
 
-/// The first field of this name, or null.
+/// Returns the first field of this name, or null.
 const PointField* find_field(const RawCloud& cloud, std::string_view name);
 
 }  // namespace pcl_bv

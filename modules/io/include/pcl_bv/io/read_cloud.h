@@ -12,27 +12,28 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The extension of a path in lower case, with the dot: ".ply". Empty if there is none.
+/// Returns the extension of a path in lower case with the dot, such as ".ply", or an empty string.
 std::string lower_case_extension(const std::filesystem::path& path);
 
-/// Whether the name is that of a cloud: it ends in .pcd, .ply, .bin, .las or .laz (which is refused), in any
-/// case.
+/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (Reading a .laz
+/// file fails with an error that says why.)
 bool is_cloud_name(const std::filesystem::path& path);
 
-/// Reads the cloud by the reader that the extension names: .ply by read_ply(), .bin by read_bin() with
-/// `bin_fields`, .las by read_las(), all others by read_pcd(), text by the policy's threads. Throws IoError,
-/// naming the reason.
+/// Reads a cloud with the reader for its extension: .ply with read_ply(), .bin with read_bin() and
+/// `bin_fields`, .las with read_las(), all others with read_pcd(). The policy's threads read text. Throws
+/// IoError with the reason; extensions of known other formats (meshes, recordings) are refused with advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{},
                     std::size_t bin_fields = 0);
 
-/// What the header of a file says of its points.
+/// The content of a cloud file's header.
 struct CloudHeader {
-  RawCloud cloud;  ///< All but its points.
-  ScalarType scalar = ScalarType::float32;
-  bool by_position = false;  ///< Whether any of them can be read without those before (CloudFile).
+  RawCloud cloud;                           ///< The cloud without its points.
+  ScalarType scalar = ScalarType::float32;  ///< Type of the coordinates in RawCloud::xyz().
+  bool random_access = false;               ///< Whether any point can be read on its own (CloudFile).
 };
 
-/// Reads no points: a file can still turn out to be cut or damaged. Throws as read_cloud().
+/// Reads the header of a cloud file. The points are not read, so a later read can still find that the file is
+/// cut or damaged. Throws as read_cloud().
 CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields = 0);
 
 }  // namespace pcl_bv

@@ -1,83 +1,93 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FIND-k-DOP: the support points of a chunk, those that reach farthest along given directions.
-// Floating-point vectors reject nearly all points; the few that are left are compared exactly.
+// FIND-k-DOP (Karlsson, Winberg and Larsson 2010): the support points of a chunk, which are the points with
+// the largest projections on given directions. Floating-point vectors reject nearly all points; the few that
+// remain are compared exactly.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <optional>
 
-#include "pcl_bv/kernels/isa.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directions.h"
 #include "pcl_bv/numeric/exact_dot.h"
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Directions per call of the kernel: KdopSet::max_size, the half of EPOS-98.
+/// Maximum number of directions in one call: KdopSet::max_size, half the number of points of EPOS-98.
 inline constexpr std::size_t kMaxSupportDirections = 49;
-inline constexpr std::size_t kMaxSupportEnds = 2 * kMaxSupportDirections;
+inline constexpr std::size_t kMaxSupports = 2 * kMaxSupportDirections;
 
-/// Directions with what the kernel needs to know of them. The two ends of each: 2k is its least projection,
-/// 2k + 1 its greatest. An end is the greatest projection along end_direction().
+/// The directions of a call. Each direction k has two supports: number 2k is the minimum of the projections
+/// on it, number 2k + 1 the maximum. Each support is the maximum of the projections on its
+/// support_direction(), which for a minimum is the opposite direction.
 struct SupportDirections {
   std::size_t count = 0;
   std::array<Direction, kMaxSupportDirections> exact{};
-  /// A power of two times `exact`, the largest component in [1, 2) in magnitude. (Tiny components may be
-  /// rounded.)
+  /// `exact` times a power of two, so that the largest component is in [1, 2) in magnitude. (Tiny components
+  /// may be rounded.)
   std::array<Direction, kMaxSupportDirections> scaled{};
-  std::optional<DirectionSet> cube;  ///< Of which they are the directions; needs no multiplications.
+  std::optional<DirectionSet> cube;  ///< Set if these are its directions, which need no multiplications.
 
+  /// Returns the directions of a DirectionSet.
   static const SupportDirections& of(DirectionSet set);
 
-  /// Throws std::invalid_argument for more than kMaxSupportDirections and unless this one is finite with its
-  /// largest component from 1e-30 to 1e30 in magnitude.
+  /// Appends a direction. Throws std::invalid_argument if there are kMaxSupportDirections already, and unless
+  /// the direction is finite with its largest component from 1e-30 to 1e30 in magnitude.
   void add(const Direction& direction);
-  Direction end_direction(std::size_t end) const;
-  Direction scaled_end_direction(std::size_t end) const;
+  /// Returns the direction whose maximum projection is the given support: exact[support / 2] or
+  /// its opposite.
+  Direction support_direction(std::size_t support) const;
+  /// The same for `scaled`.
+  Direction scaled_support_direction(std::size_t support) const;
 };
 
-/// The point that is farthest in some direction.
+/// The point with the largest projection on a direction.
 struct SupportPoint {
   bool found = false;
   Coordinates point{};
-  std::size_t index = 0;  ///< The cloud's number of the point.
+  std::size_t index = 0;  ///< Index of the point in the cloud.
 };
 
-/// Lets `best` compete with another one: the exactly greater projection wins; of equal ones the smaller
-/// index.
-void keep_farther(const Direction& direction, const SupportPoint& other, SupportPoint& best);
+/// Sets `best` to `other` if the exact projection of `other` on the direction is larger, or if it is equal
+/// and the index smaller.
+void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best);
 
-/// For each end a projection along the scaled direction that some other point of the cloud is known to reach;
-/// -infinity if none is. Points that do not reach it need not be found.
-using ReachedSupports = std::array<double, kMaxSupportEnds>;
+/// Known lower bounds of a cloud's supports: for each support a value that the projection of another point on
+/// the scaled direction certainly equals or exceeds; -infinity if none is known. Points with smaller
+/// projections need not be found.
+using SupportBounds = std::array<double, kMaxSupports>;
 
-inline constexpr ReachedSupports nothing_reached() {
-  ReachedSupports reached{};
-  for (double& r : reached)
-    r = -kInfinity;
-  return reached;
+/// Returns the bounds if nothing is known: -infinity for each support.
+inline constexpr SupportBounds no_support_bounds() {
+  SupportBounds bounds{};
+  for (double& bound : bounds)
+    bound = -kInfinity;
+  return bounds;
 }
 
-/// What a point surely reaches at an end, in the terms of ReachedSupports.
-double surely_reached(const SupportDirections& set, std::size_t end, const Coordinates& point);
+/// Returns a lower bound of the exact projection of a point, for use in SupportBounds.
+double projection_lower_bound(const SupportDirections& set, std::size_t support, const Coordinates& point);
 
-/// Only the first 2 count ends count.
+/// The supports of a chunk. Only the first 2 * count of them are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupportEnds> ends{};  ///< Not found: no valid point, or none that matters.
-  std::size_t dropped = 0;                           ///< Points that are not valid (is_valid()).
+  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found: no point is valid or exceeds the bound.
+  std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
 };
 
-/// Finds the support points of at most kChunkPoints points: the exactly greatest projection; of equal ones
-/// the smallest index. Whether an end that cannot beat `reached` is found may depend on `isa`; any that is
-/// found is the same for all. Paper §2 and §3. O(n count), but along directions that are not the cube's every
-/// point is looked at exactly where floats over- or underflow (extents above 1e38 or below 1e-43). Up to 220
-/// KiB of stack. Runs in the caller's floating-point environment: hold a FloatEnvironment. Throws
-/// std::invalid_argument for more points or directions, and unless the points are in memory.
+/// Finds the support points of at most kChunkPoints points: the points with the largest exact projections; of
+/// equal projections the smallest index. A support that cannot exceed its bound in `bounds` may or may not
+/// be found, depending on `isa`; every support that is found is the same for all `isa`.
+///
+/// O(n * count). For directions other than the cube's, all points are compared exactly if floats over- or
+/// underflow (extents above 1e38 or below 1e-43), which is slow. Needs up to 220 KiB of stack. The caller
+/// must hold a FloatEnvironment. Throws std::invalid_argument for more points or directions, and if the
+/// points are not in memory.
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                    const ReachedSupports& reached, ChunkSupports& out);
+                    const SupportBounds& bounds, ChunkSupports& out);
 
 }  // namespace pcl_bv

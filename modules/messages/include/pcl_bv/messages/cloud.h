@@ -7,32 +7,34 @@
 #include <string>
 
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/messages/types.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The points of a message where they lie: x, y and z (X, Y and Z where there is no lower-case one) side by
-/// side, all float32 or all float64, in this machine's byte order, rows without padding between them. nullopt
-/// for other layouts, which raw_cloud_of() takes. A cloud without points is empty, whatever its fields are.
-/// Where the data are just as many bytes as the points need, rows have no padding, whatever row_step says.
-/// Throws MessageError (serialize.h) for a cloud that does not fit its data, or without x, y and z that can
-/// be read.
-std::optional<PointView> points_in_place(const msg::PointCloud2& cloud);
+/// Returns a view of the message's points without a copy, valid as long as the message's data. x, y and z (or
+/// X, Y and Z if the lower-case name is missing) must be adjacent in this order, all float32 or all float64,
+/// in this machine's byte order, and rows must have no padding. Returns nullopt for other layouts: use
+/// raw_cloud_of() for them. Returns an empty view for a cloud without points, whatever its fields are. If the
+/// data has exactly the bytes that the points need, row_step is ignored and rows have no padding. Throws
+/// MessageError (serialize.h) if the data is too short for the points, or if x, y or z is missing, of an
+/// unknown type or outside of the record.
+std::optional<PointView> view_points(const msg::PointCloud2& cloud);
 
-/// intensity_of() where it lies in the message; nullopt where there is none, or none that can be read in
-/// place.
-std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud);
+/// Returns a view of the intensities (see intensity_of()) without a copy. Returns nullopt if there is no
+/// intensity, or if view_points() returns nullopt. Throws as view_points().
+std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud);
 
-/// Which fields raw_cloud_of() leaves out and why, a line for people; mostly empty. Throws as
-/// points_in_place().
-std::string unread_fields(const msg::PointCloud2& cloud);
+/// Returns a line for the user about the fields that raw_cloud_of() leaves out, and why; empty if there are
+/// none. Throws as view_points().
+std::string skipped_fields_note(const msg::PointCloud2& cloud);
 
-/// A copy with the fields, row by row without padding, little-endian; X, Y and Z become x, y and z. Where x,
-/// y and z are neither all float32 nor all float64 they become float32 if all are integers of 16 bits or
-/// float32, else float64: no value changes. Other fields that are of no known type, reach out of the record
-/// or make the fields longer than two records are left out, and `note` is unread_fields(). Throws as
-/// points_in_place(). O(points).
+/// Returns a copy of the cloud: row by row without padding, little-endian, X, Y and Z renamed to x, y and z.
+/// The coordinates become float32 if all have types that float32 represents exactly (float32, integers of 8
+/// or 16 bits), else float64. Other fields keep their types. A field is left out if its type is unknown, if
+/// it exceeds the record, if it is a second x, y or z, or if it would make the new records longer than twice
+/// point_step; `note` is then skipped_fields_note(). A cloud without points gives an empty cloud. Throws as
+/// view_points(). O(points).
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud);
 
 }  // namespace pcl_bv

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The messages of objects: vision_msgs 4, visualization_msgs of Humble and later, and Foxglove's scenes.
+// Messages about objects: vision_msgs 4, visualization_msgs of Humble and later, and Foxglove's scenes. See
+// types.h for each_field().
 #pragma once
 
 #include "pcl_bv/messages/types.h"
@@ -9,6 +10,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace msg {
 
+/// std_msgs/msg/ColorRGBA.
 struct ColorRGBA {
   float r = 0, g = 0, b = 0, a = 1;
   template <class Self, class Visit>
@@ -17,6 +19,7 @@ struct ColorRGBA {
   }
 };
 
+/// vision_msgs/msg/ObjectHypothesis.
 struct ObjectHypothesis {
   std::string class_id;
   double score = 0;
@@ -26,6 +29,7 @@ struct ObjectHypothesis {
   }
 };
 
+/// vision_msgs/msg/ObjectHypothesisWithPose.
 struct ObjectHypothesisWithPose {
   ObjectHypothesis hypothesis;
   PoseWithCovariance pose;
@@ -35,15 +39,17 @@ struct ObjectHypothesisWithPose {
   }
 };
 
+/// vision_msgs/msg/BoundingBox3D.
 struct BoundingBox3D {
   Pose center;
-  Vector3 size;  ///< Whole lengths of the edges.
+  Vector3 size;  ///< Full edge lengths in metres, not half of them.
   template <class Self, class Visit>
   static void each_field(Self& m, Visit& visit) {
     visit(m.center, m.size);
   }
 };
 
+/// vision_msgs/msg/Detection3D.
 struct Detection3D {
   Header header;
   std::vector<ObjectHypothesisWithPose> results;
@@ -55,6 +61,7 @@ struct Detection3D {
   }
 };
 
+/// vision_msgs/msg/Detection3DArray.
 struct Detection3DArray {
   static constexpr const char* ros_type = "vision_msgs/msg/Detection3DArray";
   Header header;
@@ -65,6 +72,7 @@ struct Detection3DArray {
   }
 };
 
+/// sensor_msgs/msg/CompressedImage.
 struct CompressedImage {
   Header header;
   std::string format;
@@ -75,6 +83,7 @@ struct CompressedImage {
   }
 };
 
+/// visualization_msgs/msg/UVCoordinate.
 struct UVCoordinate {
   float u = 0, v = 0;
   template <class Self, class Visit>
@@ -83,6 +92,7 @@ struct UVCoordinate {
   }
 };
 
+/// visualization_msgs/msg/MeshFile.
 struct MeshFile {
   std::string filename;
   Bytes data;
@@ -92,6 +102,7 @@ struct MeshFile {
   }
 };
 
+/// visualization_msgs/msg/Marker.
 struct Marker {
   enum : std::int32_t { ARROW = 0, CUBE, SPHERE, CYLINDER, LINE_STRIP, LINE_LIST, TEXT_VIEW_FACING = 9 };
   enum : std::int32_t { ADD = 0, DELETE = 2, DELETEALL };
@@ -125,6 +136,7 @@ struct Marker {
   }
 };
 
+/// visualization_msgs/msg/MarkerArray.
 struct MarkerArray {
   static constexpr const char* ros_type = "visualization_msgs/msg/MarkerArray";
   std::vector<Marker> markers;
@@ -134,6 +146,7 @@ struct MarkerArray {
   }
 };
 
+/// foxglove_msgs/msg/Color.
 struct SceneColor {
   double r = 0, g = 0, b = 0, a = 1;
   template <class Self, class Visit>
@@ -142,7 +155,7 @@ struct SceneColor {
   }
 };
 
-/// foxglove_msgs' CubePrimitive and SpherePrimitive: whole lengths along the pose's axes.
+/// foxglove_msgs/msg/CubePrimitive and SpherePrimitive. `size`: full lengths along the pose's axes.
 struct SolidPrimitive {
   Pose pose;
   Vector3 size;
@@ -153,9 +166,10 @@ struct SolidPrimitive {
   }
 };
 
+/// foxglove_msgs/msg/CylinderPrimitive.
 struct CylinderPrimitive {
   Pose pose;
-  Vector3 size;  ///< z along the axis.
+  Vector3 size;  ///< Full lengths; z is along the cylinder's axis.
   double bottom_scale = 1, top_scale = 1;
   SceneColor color;
   template <class Self, class Visit>
@@ -164,8 +178,9 @@ struct CylinderPrimitive {
   }
 };
 
+/// foxglove_msgs/msg/ArrowPrimitive.
 struct ArrowPrimitive {
-  Pose pose;  ///< Along x.
+  Pose pose;  ///< The arrow points along x.
   double shaft_length = 0, shaft_diameter = 0, head_length = 0, head_diameter = 0;
   SceneColor color;
   template <class Self, class Visit>
@@ -174,12 +189,13 @@ struct ArrowPrimitive {
   }
 };
 
+/// foxglove_msgs/msg/LinePrimitive.
 struct LinePrimitive {
   enum : std::uint8_t { LINE_STRIP = 0, LINE_LOOP, LINE_LIST };
   std::uint8_t type = LINE_LIST;
   Pose pose;
   double thickness = 1;
-  bool scale_invariant = false;  ///< Whether `thickness` is of pixels.
+  bool scale_invariant = false;  ///< Whether `thickness` is in pixels.
   std::vector<Point> points;
   SceneColor color;
   std::vector<SceneColor> colors;
@@ -190,6 +206,7 @@ struct LinePrimitive {
   }
 };
 
+/// foxglove_msgs/msg/TriangleListPrimitive.
 struct TriangleListPrimitive {
   Pose pose;
   std::vector<Point> points;
@@ -202,6 +219,7 @@ struct TriangleListPrimitive {
   }
 };
 
+/// foxglove_msgs/msg/TextPrimitive.
 struct TextPrimitive {
   Pose pose;
   bool billboard = true;
@@ -215,6 +233,7 @@ struct TextPrimitive {
   }
 };
 
+/// foxglove_msgs/msg/ModelPrimitive.
 struct ModelPrimitive {
   Pose pose;
   Vector3 scale;
@@ -228,6 +247,7 @@ struct ModelPrimitive {
   }
 };
 
+/// foxglove_msgs/msg/SceneEntityDeletion.
 struct SceneEntityDeletion {
   enum : std::uint8_t { MATCHING_ID = 0, ALL };
   Time timestamp;
@@ -239,6 +259,7 @@ struct SceneEntityDeletion {
   }
 };
 
+/// foxglove_msgs/msg/SceneEntity.
 struct SceneEntity {
   Time timestamp;
   std::string frame_id, id;
@@ -259,6 +280,7 @@ struct SceneEntity {
   }
 };
 
+/// foxglove_msgs/msg/SceneUpdate.
 struct SceneUpdate {
   static constexpr const char* ros_type = "foxglove_msgs/msg/SceneUpdate";
   std::vector<SceneEntityDeletion> deletions;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages as bytes: CDR as ROS 2 writes it (OMG DDSI-RTPS, "plain CDR" with its four bytes of
-// encapsulation), and ROS 1's. Both are a walk over the fields of types.h.
+// Reads and writes messages as bytes, in CDR as ROS 2 (OMG DDSI-RTPS, "plain CDR" after an encapsulation
+// header of four bytes) and in ROS 1's encoding. Both visit the fields through each_field() of types.h.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +19,16 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Bytes that are no message of the type that is asked for; what() is the reason in one line.
+/// Error: the bytes are not a message of the requested type. what() is the reason in one line.
 class MessageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+/// Encodings of messages: CDR of ROS 2, and ROS 1's.
 enum class MessageEncoding : std::uint8_t { cdr, ros1 };
 
-/// Appends a message to bytes, little-endian.
+/// Appends a message to a vector of bytes, little-endian.
 template <MessageEncoding encoding>
 class MessageWriter {
  public:
@@ -38,6 +39,7 @@ class MessageWriter {
     begin_ = to.size();
   }
 
+  /// Writes the fields in this order.
   template <class... Fields>
   void operator()(const Fields&... fields) {
     (write(fields), ...);
@@ -87,13 +89,14 @@ class MessageWriter {
   std::size_t begin_ = 0;
 };
 
-/// Reads a message; never beyond its end, and makes no list longer than the bytes that are there.
+/// Reads a message. Never reads beyond its end, and allocates no list that is longer than the remaining
+/// bytes.
 template <MessageEncoding encoding>
 class MessageReader {
  public:
   static constexpr bool ros1 = encoding == MessageEncoding::ros1;
 
-  /// Throws MessageError for an encapsulation that is not that of plain CDR.
+  /// Throws MessageError if a CDR message does not have the encapsulation header of plain CDR.
   MessageReader(const std::byte* data, std::size_t size) : data_(data), size_(size) {
     if constexpr (!ros1) {
       if (size < 4)
@@ -107,16 +110,18 @@ class MessageReader {
     }
   }
 
+  /// Reads the fields in this order. Throws MessageError if the message ends too early.
   template <class... Fields>
   void operator()(Fields&... fields) {
     (read(fields), ...);
   }
 
-  /// Throws MessageError if more is left than what middleware pads with: the type is another one.
+  /// Throws MessageError if bytes are left (in CDR: more than the padding of up to 7 bytes that middleware
+  /// adds), which means that the type is another one.
   void finish() const {
     if (size_ - at_ >= (ros1 ? 1 : 8))
-      throw MessageError("the message goes on for " + std::to_string(size_ - at_) +
-                         " bytes after its last field: another version of its type");
+      throw MessageError(std::to_string(size_ - at_) +
+                         " extra bytes after the last field: the message has another version of its type");
   }
 
  private:
@@ -154,7 +159,7 @@ class MessageReader {
   void read(std::string& text) {
     const std::uint32_t length = read_length();
     const auto* const characters = reinterpret_cast<const char*>(take(length));
-    // Some writers leave the null out where the text is empty.
+    // CDR strings end with a null, but some writers leave it out for an empty string.
     text.assign(characters, ros1 || length == 0 ? length : length - 1);
   }
   void read(msg::Bytes& bytes) {
@@ -180,25 +185,28 @@ class MessageReader {
   bool swap_ = false;
 };
 
-/// Appends the message.
+/// Appends the message in CDR.
 template <class Message>
 void write_cdr(const Message& message, std::vector<std::byte>& to) {
   MessageWriter<MessageEncoding::cdr> writer(to);
   writer(message);
 }
+/// Appends the message in ROS 1's encoding.
 template <class Message>
 void write_ros1(const Message& message, std::vector<std::byte>& to) {
   MessageWriter<MessageEncoding::ros1> writer(to);
   writer(message);
 }
 
-/// Fields of msg::Bytes look into `data`. Throw MessageError for what is no such message.
+/// Reads a message in CDR. Fields of type msg::Bytes refer to `data`. Throws MessageError if the bytes are
+/// not a message of this type.
 template <class Message>
 void read_cdr(const std::byte* data, std::size_t size, Message& message) {
   MessageReader<MessageEncoding::cdr> reader(data, size);
   reader(message);
   reader.finish();
 }
+/// Reads a message in ROS 1's encoding; otherwise like read_cdr().
 template <class Message>
 void read_ros1(const std::byte* data, std::size_t size, Message& message) {
   MessageReader<MessageEncoding::ros1> reader(data, size);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The messages of ROS that we read, and what others are made of, with ROS's own names. Each has
-// each_field(message, visit), which calls visit(a, b, ...) with its fields in their order: what writes and reads
-// messages (serialize.h) walks over that. Humble and later; with Visit::ros1 as ROS 1 has them.
+// ROS messages that are read or written, and the types of their fields, with ROS's own names, as in Humble
+// and later. Each struct has each_field(message, visit), which calls visit(a, b, ...) with its fields in
+// their order (if Visit::ros1 is true, with those of ROS 1); the readers and writers of serialize.h use it.
 #pragma once
 
 #include <array>
@@ -15,12 +15,13 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace msg {
 
-/// uint8[] that lies elsewhere: a cloud is read, and written, without a copy.
+/// A non-owning view of a uint8[], so that clouds are read and written without a copy.
 struct Bytes {
   const std::byte* data = nullptr;
   std::size_t size = 0;
 };
 
+/// builtin_interfaces/msg/Time.
 struct Time {
   std::int32_t sec = 0;
   std::uint32_t nanosec = 0;
@@ -29,12 +30,15 @@ struct Time {
     visit(m.sec, m.nanosec);
   }
 };
+/// builtin_interfaces/msg/Duration.
 using Duration = Time;
 
-/// Nanoseconds since 1970, and back. Seconds beyond 32 bits are cut to the nearest that fits.
+/// Converts nanoseconds since 1970 to a time. Times outside the range of 32-bit seconds are clamped.
 Time time_of(std::int64_t nanoseconds);
+/// Converts a time to nanoseconds since 1970.
 std::int64_t nanoseconds_of(const Time& time);
 
+/// std_msgs/msg/Header.
 struct Header {
   static constexpr const char* ros_type = "std_msgs/msg/Header";
   Time stamp;
@@ -49,6 +53,7 @@ struct Header {
   }
 };
 
+/// geometry_msgs/msg/Point.
 struct Point {
   double x = 0, y = 0, z = 0;
   template <class Self, class Visit>
@@ -56,8 +61,10 @@ struct Point {
     visit(m.x, m.y, m.z);
   }
 };
+/// geometry_msgs/msg/Vector3.
 using Vector3 = Point;
 
+/// geometry_msgs/msg/Quaternion.
 struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
   template <class Self, class Visit>
@@ -66,6 +73,7 @@ struct Quaternion {
   }
 };
 
+/// geometry_msgs/msg/Pose.
 struct Pose {
   Point position;
   Quaternion orientation;
@@ -75,15 +83,17 @@ struct Pose {
   }
 };
 
+/// geometry_msgs/msg/PoseWithCovariance.
 struct PoseWithCovariance {
   Pose pose;
-  std::array<double, 36> covariance{};  ///< Row by row of x, y, z and rotations about them.
+  std::array<double, 36> covariance{};  ///< Row-major, of x, y, z and the rotations about these axes.
   template <class Self, class Visit>
   static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.covariance);
   }
 };
 
+/// sensor_msgs/msg/PointField.
 struct PointField {
   enum : std::uint8_t { INT8 = 1, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64 };
   std::string name;
@@ -96,6 +106,7 @@ struct PointField {
   }
 };
 
+/// sensor_msgs/msg/PointCloud2.
 struct PointCloud2 {
   static constexpr const char* ros_type = "sensor_msgs/msg/PointCloud2";
   Header header;
@@ -112,6 +123,7 @@ struct PointCloud2 {
   }
 };
 
+/// geometry_msgs/msg/Transform.
 struct Transform {
   Vector3 translation;
   Quaternion rotation;
@@ -121,6 +133,7 @@ struct Transform {
   }
 };
 
+/// geometry_msgs/msg/TransformStamped.
 struct TransformStamped {
   Header header;
   std::string child_frame_id;
@@ -131,6 +144,7 @@ struct TransformStamped {
   }
 };
 
+/// tf2_msgs/msg/TFMessage.
 struct TFMessage {
   static constexpr const char* ros_type = "tf2_msgs/msg/TFMessage";
   std::vector<TransformStamped> transforms;
@@ -140,6 +154,7 @@ struct TFMessage {
   }
 };
 
+/// diagnostic_msgs/msg/KeyValue and foxglove_msgs/msg/KeyValuePair.
 struct KeyValue {
   std::string key, value;
   template <class Self, class Visit>
@@ -148,6 +163,7 @@ struct KeyValue {
   }
 };
 
+/// diagnostic_msgs/msg/DiagnosticStatus.
 struct DiagnosticStatus {
   enum : std::uint8_t { OK = 0, WARN, ERROR, STALE };
   std::uint8_t level = OK;
@@ -159,6 +175,7 @@ struct DiagnosticStatus {
   }
 };
 
+/// diagnostic_msgs/msg/DiagnosticArray.
 struct DiagnosticArray {
   static constexpr const char* ros_type = "diagnostic_msgs/msg/DiagnosticArray";
   Header header;

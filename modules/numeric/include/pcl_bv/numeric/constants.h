@@ -10,10 +10,11 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// What one rounding to double is off by at most, relatively: the U of what is said about errors.
-inline constexpr double kU = 0x1p-53;
+/// Largest relative error of one rounding to double (unit roundoff); the U of the error bounds in
+/// docs/numerics.md.
+inline constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Added to a bound, it covers what underflow takes from a few products.
+/// Smallest normal positive double. Added to an error bound, it covers the underflow of a few products.
 inline constexpr double kSmallestNormal = std::numeric_limits<double>::min();
 
 }  // namespace pcl_bv

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The directions of the paper's k-DOPs, in the one order that the whole library uses.
+// The directions of the k-DOPs of Karlsson, Winberg and Larsson 2010, in the order that the whole library
+// uses.
 #pragma once
 
 #include <array>
@@ -10,7 +11,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Taken from the unit cube and not normalised; all coefficients are -1, 0, 1.
+/// A direction through a face, corner or edge of the unit cube. Its components are -1, 0 or 1; it is not
+/// normalised.
 using CubeDirection = std::array<std::int8_t, 3>;
 // clang-format off
 inline constexpr std::array<CubeDirection, 13> kCubeDirections = {{
@@ -21,16 +23,16 @@ inline constexpr std::array<CubeDirection, 13> kCubeDirections = {{
 // clang-format on
 inline constexpr std::size_t kMaxDirections = kCubeDirections.size();
 
-/// A choice of kCubeDirections, in that order.
+/// A subset of kCubeDirections, in the same order. The number in the name counts both sides of each slab.
 enum class DirectionSet : std::uint8_t { dop6, dop14, dop18, dop26 };
 
-/// Number of directions of a set: 3, 7, 9 or 13.
+/// Returns the number of directions of a set: 3, 7, 9 or 13.
 constexpr std::size_t direction_count(DirectionSet set) {
   constexpr std::size_t counts[] = {3, 7, 9, 13};
   return counts[static_cast<std::size_t>(set)];
 }
 
-/// Position in kCubeDirections of the k-th direction of a set (dop18 skips the corners).
+/// Returns the index in kCubeDirections of the k-th direction of a set (dop18 skips the corners).
 constexpr std::size_t cube_direction(DirectionSet set, std::size_t k) {
   return set == DirectionSet::dop18 && k >= 3 ? k + 4 : k;
 }

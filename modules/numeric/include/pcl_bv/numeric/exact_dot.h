@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact values of n . p for any direction n: what decides where a slab of a user's own direction lies.
+// Exact projections n . p on any direction n. They decide the slabs of k-DOPs with user-defined directions.
 #pragma once
 
 #include <array>
@@ -13,13 +13,12 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A direction of any length.
 using Direction = std::array<double, 3>;
 
-/// -1, 0 or 1: the sign of n . p - n . q, exactly, whatever over- or underflows in between. Where plain
-/// doubles with a rigorous bound can tell they do; else expansions, and rationals where these are not exact.
-/// All components up to 1e150 in magnitude.
+/// Returns the sign (-1, 0 or 1) of n . p - n . q, exactly, even if intermediate results would over- or
+/// underflow. All components must be at most 1e150 in magnitude.
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q);
 
-/// The greatest double <= and the least double >= the exact n . p; equal if it is a double itself. Never -0.
-/// All components up to 1e150 in magnitude.
+/// Returns the largest double <= n . p or the smallest double >= n . p; n . p itself if it is a double. Never
+/// returns -0. All components must be at most 1e150 in magnitude.
 double project_down(const Direction& n, const Coordinates& p);
 double project_up(const Direction& n, const Coordinates& p);
 

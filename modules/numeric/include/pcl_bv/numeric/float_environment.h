@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Flush-to-zero set by a host program would turn coordinates of 1e-41 into 0: every public entry, every verb
-// of a volume and every worker thread runs under this guard.
+// A guard against hosts that set flush-to-zero, which would turn a coordinate of 1e-41 into 0. Every public
+// fit, every member function of a volume that computes, and every worker thread holds one.
 #pragma once
 
 #include <cstdint>
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ),
-/// rounding to nearest, no traps. The previous environment returns at destruction. Where it is the default
-/// already, nothing is written, and flags of exceptions that are raised meanwhile stay raised.
+/// Sets the calling thread's floating-point environment to the IEEE default while the object lives: denormals
+/// are preserved (no FTZ, no DAZ), rounding is to nearest, no exception traps. The destructor restores the
+/// previous environment. If the environment is the default already, the control register is only read, and
+/// exception flags raised meanwhile stay raised.
 class FloatEnvironment {
  public:
   FloatEnvironment();

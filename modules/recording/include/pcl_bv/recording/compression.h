@@ -7,6 +7,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// Compression of a recording's chunks.
 enum class Compression : std::uint8_t { none, lz4, zstd };
 
 }  // namespace pcl_bv

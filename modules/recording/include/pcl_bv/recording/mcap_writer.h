@@ -14,32 +14,33 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) that grows by chunks, each with its
-/// index and CRC. What was written before the process ends in any way can be read, but for the chunk it was
-/// in. close() adds the summary: schemas, channels, statistics, and an index of chunks and attachments.
+/// Writes an MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) chunk by chunk, each with its
+/// message indexes and CRC. If the process ends unexpectedly, all chunks except the unfinished one can be
+/// read. close() adds the summary: schemas, channels, statistics, and an index of chunks and attachments.
 class McapWriter final : public RecordingWriter {
  public:
   struct Options {
-    Compression compression = Compression::zstd;
-    std::size_t chunk_bytes =
-        1U << 20U;  ///< A chunk ends with the message that makes it so long, uncompressed.
+    Compression compression = Compression::zstd;  ///< Compression of the chunks.
+    /// Uncompressed size in bytes at which a chunk ends; the message that reaches it is included.
+    std::size_t chunk_bytes = 1U << 20U;
   };
 
-  /// Opens or makes the file. The first message or attachment, or close(), empties it. Throws IoError if it
-  /// cannot be opened.
+  /// Opens or creates the file. Its old content is discarded only at the first message or attachment, or at
+  /// close(). Throws IoError if the file cannot be opened.
   explicit McapWriter(const std::filesystem::path& file);
+  /// Like the other constructor, with options.
   McapWriter(const std::filesystem::path& file, const Options& options);
 
-  /// Closes what is open and reports no failure. Without a message, an attachment and close() the file is as
-  /// it was before, or is removed if the writer made it.
+  /// Calls close() if a message or attachment was written, and ignores errors. Otherwise the file keeps its
+  /// old content, or is removed if this object created it.
   ~McapWriter() override;
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
   std::size_t add_topic(const WrittenTopic& topic) override;
 
-  /// Negative times become 0, MCAP has no others. Where a chunk cannot be written, those before are in the
-  /// file.
+  /// Adds a message to the current chunk. Negative times become 0, since MCAP's times are unsigned. If a
+  /// chunk cannot be written, its messages are lost; all chunks before it stay readable.
   void write(std::size_t topic, std::int64_t log_time_ns, std::int64_t publish_time_ns, const std::byte* data,
              std::size_t size) override;
   void attach(const std::string& name, const std::string& media_type, const std::string& content,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Time-stamped messages of several topics in one file.
+// Reads recordings: files of time-stamped messages of several topics.
 #pragma once
 
 #include <cstddef>
@@ -13,30 +13,34 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Messages of one name and type.
+/// A topic of a recording: the messages of one name, type and encoding.
 struct RecordedTopic {
   std::string name;
-  std::string type;      ///< In the spelling of ROS 2, also of ROS 1's bags: "sensor_msgs/msg/PointCloud2".
-  std::string encoding;  ///< Of the messages: "cdr", "ros1", or what else the file says.
-  std::uint64_t messages = 0;  ///< Their number; 0 if the file does not say.
+  std::string type;            ///< In ROS 2's spelling, also for ROS 1 bags: "sensor_msgs/msg/PointCloud2".
+  std::string encoding;        ///< Encoding of the messages: "cdr", "ros1", or another name from the file.
+  std::uint64_t messages = 0;  ///< Number of messages; 0 if the file does not state it.
 };
 
+/// A message of a recording.
 struct RecordedMessage {
-  std::size_t topic = 0;             ///< Its place in RecordingReader::topics().
-  std::int64_t log_time_ns = 0;      ///< When it was recorded, nanoseconds since 1970.
-  std::int64_t publish_time_ns = 0;  ///< When it was sent, if the file says; else the same.
-  const std::byte* data = nullptr;   ///< Good until the next call; of any alignment.
-  std::size_t size = 0;
+  std::size_t topic = 0;             ///< Index in RecordingReader::topics().
+  std::int64_t log_time_ns = 0;      ///< Time of recording, nanoseconds since 1970.
+  std::int64_t publish_time_ns = 0;  ///< Time of sending, if the file states it; else log_time_ns.
+  const std::byte* data = nullptr;   ///< Valid until the reader's next call; not aligned.
+  std::size_t size = 0;              ///< Bytes of data.
 };
 
-/// Lines about what was damaged: the first ten, and in a last one the number of the others.
+/// A list of warnings, limited to eleven lines: the first ten, then a line with the number of all others.
 class WarningList {
  public:
+  /// Adds a warning.
   void add(std::string line);
 
-  /// Adds those of `other` beyond its first `added`, and sets `added` to their number.
-  void add_new_of(const WarningList& other, std::uint64_t& added, const std::string& prefix = {});
+  /// Adds the warnings of `other` except its first `added` ones, each behind `prefix`. Sets `added` to the
+  /// number of all warnings of `other`.
+  void append_new(const WarningList& other, std::uint64_t& added, const std::string& prefix = {});
 
+  /// Returns the warnings, at most eleven lines.
   const std::vector<std::string>& lines() const { return lines_; }
 
  private:
@@ -46,41 +50,49 @@ class WarningList {
   std::uint64_t unlisted_ = 0;
 };
 
-/// A recording that is read once, from its beginning to its end. Called by one thread.
+/// Reads the messages of a recording in sequence. Not thread-safe.
 class RecordingReader {
  public:
   virtual ~RecordingReader() = default;
 
-  /// All of the file. Where it has no index (a recorder that was killed): those found so far.
+  /// Returns all topics of the recording. If the file has no index (the recorder was killed), they are found
+  /// by scanning it.
   virtual const std::vector<RecordedTopic>& topics() const = 0;
 
-  /// next() gives messages of these topics only, from the beginning on; at first all. Throws
-  /// std::out_of_range for one that is not there.
+  /// Restricts next() to these topics (indices in topics()) and restarts it at the beginning. Initially all
+  /// topics are selected. Throws std::out_of_range for an invalid index.
   virtual void select(const std::vector<std::size_t>& topics) = 0;
 
-  /// In the order of log_time_ns, equal ones in that of the file; false at the end. What is damaged is passed
-  /// over, with a line in remarks(). Throws IoError where the file cannot be read any more.
+  /// Reads the next message, in the order of log_time_ns; equal times in the order of the file. The files of
+  /// a folder are read one after another. Returns false at the end. Damaged parts are skipped with a warning,
+  /// see warning_lines(). Throws IoError if the file cannot be read any more.
   virtual bool next(RecordedMessage& message) = 0;
 
-  /// What was damaged so far, a line each, without the file's name; at most eleven lines.
-  const std::vector<std::string>& remarks() const { return warnings_.lines(); }
+  /// Returns the warnings about damage so far, without the file's name; at most eleven lines.
+  const std::vector<std::string>& warning_lines() const { return warnings_.lines(); }
+  /// Returns the same warnings as a list that can be merged into another one.
   const WarningList& warnings() const { return warnings_; }
 
  protected:
-  void remark(std::string line) { warnings_.add(std::move(line)); }
-  void remark(const WarningList& other, std::uint64_t& added, const std::string& prefix = {}) {
-    warnings_.add_new_of(other, added, prefix);
+  /// Adds a warning.
+  void add_warning(std::string line) { warnings_.add(std::move(line)); }
+  /// Adds the new warnings of another list; see WarningList::append_new().
+  void add_warnings(const WarningList& other, std::uint64_t& added, const std::string& prefix = {}) {
+    warnings_.append_new(other, added, prefix);
   }
 
  private:
   WarningList warnings_;
 };
 
-/// Opens it by what is in it, not by its name. Throws IoError (io_error.h), without the file's name, if it
-/// cannot be read or is no recording that we know.
+/// Opens a recording: MCAP, ROS 1 bag, rosbag2's .db3, .db3.zstd or folder. The format is detected as in
+/// is_recording(). Throws IoError (io_error.h), without the file's name, if the file cannot be read or its
+/// format is unknown.
 std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& file);
 
-/// Whether it is one, by its first bytes; a folder by its metadata.yaml. False for what cannot be read.
+/// Returns whether the path is a recording of a known format, by its first bytes. The extension also counts
+/// for .zstd, and for a .db3 whose first page is damaged. A folder is a recording if it has rosbag2's
+/// metadata.yaml, or .db3 or .mcap files and no clouds. Returns false if the path cannot be read.
 bool is_recording(const std::filesystem::path& file);
 
 }  // namespace pcl_bv

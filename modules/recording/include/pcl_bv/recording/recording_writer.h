@@ -10,33 +10,35 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What messages of a topic are.
+/// A topic to be written.
 struct WrittenTopic {
-  std::string name;        ///< "/bv/objects"
-  std::string type;        ///< "vision_msgs/msg/Detection3DArray"
-  std::string definition;  ///< schema_of(type), for formats that hold it.
-  /// "offered_qos_profiles", as rosbag2 writes it, is in all formats, and empty if it is missing here.
+  std::string name;        ///< Such as "/bv/objects".
+  std::string type;        ///< Such as "vision_msgs/msg/Detection3DArray".
+  std::string definition;  ///< schema_of(type), for formats that store it.
+  /// Further properties by name. All formats store "offered_qos_profiles" (in rosbag2's YAML form), which is
+  /// empty if it is missing here.
   std::map<std::string, std::string> metadata;
 };
 
-/// A recording of messages in CDR that grows. Called by one thread.
+/// Writes a recording of messages in CDR. Not thread-safe.
 class RecordingWriter {
  public:
   virtual ~RecordingWriter() = default;
 
-  /// Returns its number for write(). Throws IoError, std::length_error after 65 535 topics.
+  /// Adds a topic and returns its index for write(). Throws IoError; std::length_error after 65 535 topics.
   virtual std::size_t add_topic(const WrittenTopic& topic) = 0;
 
-  /// Throws std::out_of_range for a topic that is not there, IoError if the message, or some before it,
-  /// cannot be written: what is in the file stays whole. Times are nanoseconds since 1970.
+  /// Writes a message. Times are nanoseconds since 1970. Throws std::out_of_range for an unknown topic, and
+  /// IoError if this message or buffered ones before it cannot be written; the file stays readable.
   virtual void write(std::size_t topic, std::int64_t log_time_ns, std::int64_t publish_time_ns,
                      const std::byte* data, std::size_t size) = 0;
 
-  /// A whole file in the recording. Throws IoError.
+  /// Adds a file with this content to the recording. Throws IoError.
   virtual void attach(const std::string& name, const std::string& media_type, const std::string& content,
                       std::int64_t log_time_ns) = 0;
 
-  /// Ends it; nothing is written afterwards. Throws IoError if it is not all there.
+  /// Finishes the recording; nothing can be written afterwards. Throws IoError if it could not be written
+  /// completely.
   virtual void close() = 0;
 };
 

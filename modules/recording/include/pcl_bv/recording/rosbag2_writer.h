@@ -10,17 +10,17 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A folder NAME as rosbag2 of Humble writes it: NAME_0.db3 (SQLite) and, with close(), metadata.yaml.
-/// Messages are safe from the death of the process some hundredths of a second after write(). attach() makes
-/// files beside them.
+/// Writes a folder NAME like rosbag2 of Humble: NAME_0.db3 (SQLite) and, at close(), metadata.yaml. Messages
+/// are committed by the first write() that comes 50 ms or more after the first uncommitted one, and by
+/// close(); committed messages survive a crash of the process. attach() writes a file into the folder.
 class Rosbag2Writer final : public RecordingWriter {
  public:
-  /// Makes the folder if it is not there; the first message or attachment, or close(), replaces a database
-  /// and metadata.yaml of those names. Throws IoError.
+  /// Creates the folder if it does not exist. An existing database and metadata.yaml of these names are
+  /// replaced only at the first message or attachment, or at close(). Throws IoError.
   explicit Rosbag2Writer(const std::filesystem::path& folder);
 
-  /// Closes what is open and reports no failure. Without a message, an attachment and close() what was in the
-  /// folder stays.
+  /// Calls close() if a message or attachment was written, and ignores errors. Otherwise the folder's content
+  /// stays unchanged.
   ~Rosbag2Writer() override;
   Rosbag2Writer(const Rosbag2Writer&) = delete;
   Rosbag2Writer& operator=(const Rosbag2Writer&) = delete;

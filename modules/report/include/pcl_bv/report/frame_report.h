@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What was found in one frame of a stream, as plain data, and its written form.
+// The result of one frame of a stream as plain data, and as JSON.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +15,25 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// One frame. If `error` is set it was not processed, and only seq, stamp_ns, frame_id, file and error
-/// mean anything.
+/// The result of one frame. If `error` is set, the frame was not processed, and only seq, stamp_ns, frame_id,
+/// file and error are valid.
 struct FrameReport {
-  std::uint64_t seq = 0;
-  std::int64_t stamp_ns = 0;
-  std::string frame_id;
-  std::string file;        ///< Where the cloud comes from; left out if empty.
-  std::size_t points = 0;  ///< All points, good or bad.
-  Counts counts;
+  std::uint64_t seq = 0;      ///< Number of the frame in the stream.
+  std::int64_t stamp_ns = 0;  ///< Time stamp, nanoseconds.
+  std::string frame_id;       ///< Name of the coordinate frame.
+  std::string file;           ///< Path of the cloud's file; left out of the JSON if empty.
+  std::size_t points = 0;     ///< Number of all points, valid or not.
+  Counts counts;              ///< Numbers of dropped points by reason.
   std::vector<ClusterEntry> clusters;
   std::vector<std::pair<std::string, double>> ms;  ///< Milliseconds by stage, in order.
-  std::optional<std::string> error;
+  std::optional<std::string> error;                ///< Reason of the failure, if any.
 };
 
-/// The frame as one JSON object on one line, without the line's end. Numbers as in report_json().
+/// Returns the frame as one JSON object on one line, without a line end. Numbers are as in report_json();
+/// `track` is null for a cluster without a track.
 std::string frame_json(const FrameReport& report);
 
-/// The same with these clusters instead of the report's.
+/// Like the other overload, with these clusters instead of the report's.
 std::string frame_json(const FrameReport& report, const ClusterSource& clusters);
 
 }  // namespace pcl_bv

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What was found in one input, as plain data, and its two written forms: JSON for programs, a table for
-// people.
+// The result of one input as plain data, as JSON for programs and as a table for people.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,25 +20,26 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// A fitted volume of a cluster.
 struct VolumeEntry {
-  std::string method;  ///< The canonical name, never an alias: "dop26".
+  std::string method;  ///< Canonical name, never an alias, such as "dop26".
   AnyVolume volume;
-  std::optional<std::size_t> outside;  ///< Points that exact arithmetic found outside, if it was asked.
-  std::string failed{};                ///< If the fit failed and left the volume empty, why; else nothing.
+  std::optional<std::size_t> outside;  ///< Number of points outside by exact arithmetic, if verified.
+  std::string failed{};                ///< Reason if the fit failed (the volume is then empty); else empty.
 };
 
-/// An object that is followed from frame to frame.
+/// A tracked object.
 struct TrackEntry {
-  std::uint32_t id = 0;  ///< Never given to another object.
-  std::size_t age = 0;   ///< Frames since the first sighting, that one included.
-  /// Units of the points a second: in the fixed frame where the sensor's pose is known, else relative to the
-  /// sensor, in its frame.
+  std::uint32_t id = 0;  ///< Unique: never reused for another object.
+  std::size_t age = 0;   ///< Frames since the first detection, that frame included.
+  /// In units of the points per second: in the fixed frame if the sensor's pose is known, else relative to
+  /// the sensor, in the sensor's frame.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  bool moving = false;  ///< Over the ground, where the sensor's motion is known; else relative to the sensor.
-  /// x, y, z of the centre and the yaw, in radians, of where it faces; in the frame of `velocity`. The yaw is
-  /// that of the motion over the ground; until it has moved, of the longer side.
+  bool moving = false;  ///< Moving over ground if the sensor's motion is known; else relative to the sensor.
+  /// x, y, z of the centre, and the heading (yaw) in radians, in the frame of `velocity`. The yaw is the
+  /// direction of motion over ground; before the object has moved, that of its longer side.
   std::array<double, 4> pose{};
-  /// Of x, y, z, yaw, vx, vy: the upper triangle, row by row, of a positive definite matrix.
+  /// Covariance of x, y, z, yaw, vx, vy, a positive definite matrix: its upper triangle, row by row.
   std::array<double, 21> covariance{};
 
   friend bool operator==(const TrackEntry& a, const TrackEntry& b) {
@@ -48,69 +48,71 @@ struct TrackEntry {
   }
 };
 
+/// A cluster with its volumes.
 struct ClusterEntry {
   std::size_t id = 0;
-  std::size_t points = 0;  ///< Valid points.
+  std::size_t points = 0;  ///< Number of valid points.
   std::vector<VolumeEntry> volumes;
-  std::optional<std::int64_t> class_value{};  ///< None unless points are told apart by class.
-  std::optional<TrackEntry> track{};          ///< None without tracking, and until the track is born.
+  std::optional<std::int64_t> class_value{};  ///< Class of its points, if points are segmented by class.
+  std::optional<TrackEntry> track{};          ///< Its track, if tracking is on and the track is confirmed.
 };
 
-/// Wall-clock time of each stage.
+/// Wall-clock time of each stage in seconds.
 struct Seconds {
   double read = 0;
   double segment = 0;
   double fit = 0;
 };
 
-/// What the cloud of an input is like. Organised clouds have height > 1.
+/// Statistics of an input's cloud. Organised clouds have height > 1.
 struct CloudInfo : CloudStatistics {
   std::size_t width = 0;
   std::size_t height = 1;
   std::vector<PointField> fields;
 };
 
-/// One input. If `error` is set the input failed and only `file` and `error` mean anything.
+/// The result of one input. If `error` is set, the input failed, and only `file` and `error` are valid.
 struct Report {
-  std::string file;                  ///< As the user named it; invalid UTF-8 is replaced where it is written.
-  std::optional<std::size_t> parts;  ///< Of how many inputs, if it is one cloud in several.
-  std::size_t points = 0;            ///< All points of the input, good or bad.
-  std::optional<Eigen::Vector3d> origin;  ///< What was subtracted from all coordinates, if something was.
-  Counts counts;
+  std::string file;                       ///< As the user named it. Writers replace invalid UTF-8.
+  std::optional<std::size_t> parts;       ///< Number of inputs, if several inputs are merged into one cloud.
+  std::size_t points = 0;                 ///< Number of all points of the input, valid or not.
+  std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
+  Counts counts;                          ///< Numbers of dropped points by reason.
   std::vector<ClusterEntry> clusters;
   std::optional<CloudInfo> info;
   std::optional<Seconds> seconds;
-  std::optional<std::string> error;
+  std::optional<std::string> error;  ///< Reason of the failure, if any.
 };
 
-/// Clusters one after another, each made when it is asked for: in a vector a million take 500 MB.
+/// A sequence of clusters that are created on demand: a vector of a million clusters takes 500 MB.
 struct ClusterSource {
   std::size_t count = 0;
-  std::function<const ClusterEntry&(std::size_t)> at;  ///< Valid until the next call.
+  std::function<const ClusterEntry&(std::size_t)> at;  ///< Returns a cluster, valid until the next call.
 };
 
-/// Those of a vector, which must outlive it.
-ClusterSource source_of(const std::vector<ClusterEntry>& clusters);
+/// Returns a source for the clusters of a vector, which must outlive the source.
+ClusterSource vector_source(const std::vector<ClusterEntry>& clusters);
 
-/// Takes a text piece by piece. It may leave the piece as it is; the next one is another text.
+/// Receives a text piece by piece. It may modify or move from `piece`; its content is not used afterwards.
 using TextSink = std::function<void(std::string& piece)>;
 
-/// The report as one JSON object on one line, without the line's end.
+/// Returns the report as one JSON object on one line, without a line end.
 ///
-/// Every number has the fewest digits that read back as exactly the same double, so that the volume read back
-/// holds every point that the stored one holds; there is no null, no NaN and no -0. An empty volume is
-/// `"empty":true`, one whose fit failed `"failed"` with the reason; both have no numbers. Throws
-/// std::domain_error if a number is not finite, which no fitted volume has.
+/// Every number has the fewest digits that read back as exactly the same double, so that the volume that is
+/// read back contains the same points. There is no null, NaN or -0. An empty volume has `"empty":true`, and a
+/// volume whose fit failed has `"failed"` with the reason; both have no numbers. Throws std::domain_error if
+/// a number is not finite, which does not occur in fitted volumes.
 std::string report_json(const Report& report);
 
-/// The same text in pieces of about a megabyte, with these clusters instead of the report's.
+/// Writes the same text in pieces of about a megabyte, with these clusters instead of the report's.
 void write_report_json(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
-/// The report as a table of at most 120 columns: a line on the file, then one row for each volume with its
-/// centre, size and volume in the unit of the points. The sizes of upright boxes are length, width and
-/// height, and they have a yaw, radians (Obb::yaw()). Rounded for reading: use JSON to compute. A failed
-/// report gives no text.
+/// Returns the report as a table of at most 120 columns: a line about the file, then a row for each volume
+/// with its centre, size and volume in the unit of the points. Upright boxes have length, width, height and
+/// the yaw (Obb::yaw()) in radians. Numbers are rounded for reading; use JSON for exact values. Returns an
+/// empty text for a failed report.
 std::string report_text(const Report& report);
+/// Writes the same text in pieces, with these clusters instead of the report's.
 void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 }  // namespace pcl_bv

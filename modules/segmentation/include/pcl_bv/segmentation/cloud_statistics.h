@@ -1,28 +1,35 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Extent, point spacing and invalid points of a cloud.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What a cloud is like, for those who have to choose a range, a tolerance or a reader.
+/// Statistics of a cloud, e.g. to choose a range, a tolerance or a file reader.
 struct CloudStatistics {
-  Aabb box;  ///< Of the finite points that are not exactly at 0,0,0; empty if there is none.
-  std::optional<double> spacing;  ///< Typical distance from a point to the nearest other one.
-  std::size_t nonfinite = 0;      ///< Points with a coordinate that is not finite.
-  std::size_t zero = 0;           ///< Points exactly at 0,0,0: dead beams, most likely.
+  /// Box around the valid points that are not exactly at (0, 0, 0); empty if there are none.
+  Aabb box;
+  /// Typical distance from a point to the nearest other point.
+  std::optional<double> spacing;
+  /// Number of points that are not valid (is_valid()).
+  std::size_t nonfinite = 0;
+  /// Number of points exactly at (0, 0, 0), most likely rays without a return.
+  std::size_t zero = 0;
 };
 
-/// Looks at every point, three times. Box and spacing are of the valid points that are no dead beams. The
-/// spacing is the median, over up to 1000 of them evenly taken, of the exact distance to the nearest other
-/// one; there is none of fewer than two. O(n) where spacings do not differ by much.
+/// Computes the statistics of a cloud, with three passes over all points.
+///
+/// The box and the spacing ignore invalid points and points at (0, 0, 0). The spacing is the median of the
+/// exact distances to the nearest other point, over up to 1000 evenly selected points. It is missing if there
+/// are fewer than two such points. O(n) if spacings do not differ by much.
 CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Euclidean clusters without PCL: the same partition as pcl::EuclideanClusterExtraction, two orders of
-// magnitude sooner, for commands and nodes that hold a PointView.
+// Euclidean clusters of a PointView, without PCL: the same partition as pcl::EuclideanClusterExtraction.
 #pragma once
 
 #include <cstddef>
@@ -11,90 +10,99 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What becomes of clusters above max_size.
+/// Treatment of clusters with more than max_size points.
 enum class Oversized : std::uint8_t {
-  drop,
-  keep,  ///< They are clusters as others: max_size means nothing.
-  /// Their points are clustered again with half the tolerance (and half of tolerance_per_metre), up to three times;
-  /// what is still too large is dropped. Parts below min_size are dropped as small.
+  drop,  ///< They are dropped.
+  keep,  ///< They stay; max_size is ignored.
+  /// Their points are clustered again with half the tolerance and half of tolerance_per_metre, up to three
+  /// times. Clusters that are then still too large are dropped as large, parts below min_size as small.
   split
 };
 
-/// What a cluster is.
+/// Settings of a clustering.
 struct ClusterSettings {
-  /// Points nearer to each other than this belong together; unit of the points. Finite and > 0.
+  /// Points nearer to each other than this are linked. Unit of the points; finite and > 0.
   float tolerance;
-  std::size_t min_size = 1;                                        ///< Smaller clusters are dropped; points.
-  std::size_t max_size = std::numeric_limits<std::size_t>::max();  ///< Larger clusters are dropped; points.
-  /// DBSCAN's core condition, >= 1: so many points, itself included, are nearer than the tolerance to a core
-  /// point. With 1 every point is core.
+  /// Clusters with fewer points are dropped.
+  std::size_t min_size = 1;
+  /// Clusters with more points are treated as `oversized` says.
+  std::size_t max_size = std::numeric_limits<std::size_t>::max();
+  /// Smallest number of points, itself included, nearer than the tolerance to a core point (DBSCAN); >= 1.
+  /// With 1 every point is a core point.
   std::size_t min_points = 1;
-  /// By how much the tolerance grows with the distance from the origin, for sensors whose points are farther apart the
-  /// farther out they are; finite and >= 0, and 0 with min_points above 1. A point at the distance d has the tolerance
-  /// tolerance * 2^(i/4), i being the greatest whole number with which that is at most
-  /// tolerance + tolerance_per_metre * d. Two points are linked where they are nearer than the smaller one's.
+  /// Growth of the tolerance for each unit of distance from the origin, for sensors whose points are sparser
+  /// farther out. Finite and >= 0; must be 0 if min_points is above 1.
+  ///
+  /// A point at the distance d has the tolerance tolerance * 2^(i/4), where i is the largest integer for
+  /// which this is at most tolerance + tolerance_per_metre * d. Two points are linked if they are nearer than
+  /// the smaller tolerance.
   float tolerance_per_metre = 0;
+  /// Treatment of clusters with more than max_size points.
   Oversized oversized = Oversized::drop;
 };
 
-/// Clusters of a cloud: the largest first, among equal sizes the one with the smallest point number first.
-/// Reuse keeps the capacity.
+/// The clusters of a cloud: the largest first, among equal sizes the one with the smallest point index.
+/// Reusing an object reuses its memory.
 struct Clusters {
-  std::vector<std::int32_t> indices;  ///< Point numbers of all clusters in turn; ascending inside a cluster.
-  std::vector<std::size_t> offsets{0};  ///< Where each cluster begins in `indices`; size() + 1 entries.
-  std::size_t small_points = 0;         ///< Points in clusters dropped for having fewer than min_size.
-  std::size_t large_points = 0;         ///< Points in clusters dropped for having more than max_size.
-  std::size_t noise_points = 0;         ///< Points that are neither core nor near to a core point.
-  std::size_t class_points = 0;         ///< Points of classes that are dropped: ClassSettings::drop.
+  /// Point indices of all clusters, concatenated; ascending within a cluster.
+  std::vector<std::int32_t> indices;
+  std::vector<std::size_t> offsets{0};  ///< Start of each cluster in `indices`; size() + 1 entries.
+  std::size_t small_points = 0;         ///< Number of points in clusters with fewer than min_size points.
+  std::size_t large_points = 0;         ///< Number of points in clusters with more than max_size points.
+  std::size_t noise_points = 0;         ///< Number of points that are neither core points nor linked to one.
+  std::size_t class_points = 0;         ///< Number of points in dropped classes: ClassSettings::drop.
 
+  /// Returns the number of clusters.
   std::size_t size() const { return offsets.size() - 1; }
+  /// Returns the number of points in cluster i.
   std::size_t cluster_size(std::size_t i) const { return offsets[i + 1] - offsets[i]; }
+  /// Returns the indices of the points of cluster i.
   const std::int32_t* cluster(std::size_t i) const { return indices.data() + offsets[i]; }
 };
 
-/// Finds the connected components of the graph that joins two points when their distance is below the
-/// tolerance.
+/// Finds Euclidean clusters: the connected components of the graph that links two points if their distance is
+/// below the tolerance.
 ///
-/// The decision for a pair is PCL's to the last bit: d2 < r2, strictly, where d2 = (dx*dx + dy*dy) + dz*dz
-/// and r2 = tolerance * tolerance are rounded to the scalar of the points (float32 or float64) after each
-/// operation. So points at exactly the tolerance are apart, and a tolerance whose square is 0 in float joins
-/// not even duplicates.
+/// The decision for a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2, where d2 = (dx*dx + dy*dy) +
+/// dz*dz and r2 = tolerance * tolerance are rounded to the scalar type of the points after each operation. So
+/// points at exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even
+/// duplicates are linked.
 ///
-/// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996): core points that are linked
-/// belong together; another point that is linked to core points belongs to the nearest of them (by d2; of
-/// several the one of the smallest number), so that the result does not depend on the order in which points
-/// are visited; the rest is noise. A cluster's size counts all its points, core or not.
+/// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996). Linked core points are in one
+/// cluster. A border point, which is linked to core points but is none itself, belongs to the nearest core
+/// point (by d2; among equals to the one with the smallest index), so the result does not depend on the order
+/// of the points. All other points are noise. The size of a cluster includes border points.
 ///
-/// Method: cells of side just under tolerance / sqrt(3), whose points always belong together, joined by
-/// union-find with the cells at most two away (exact grid DBSCAN: Gunawan 2013, Gan and Tao 2015); here by
-/// blocks of 64 cells, so that one comparison settles most neighbours. O(n) for points as a sensor sees them,
-/// whatever the number of neighbours, and O(n^1.5) where dense sheets lie just out of each other's reach. A
-/// cell of min_points points is core without a test; points of others ask the cells around until they have
-/// enough: at most O(n * min_points) tests.
-///
-/// A tolerance that grows with the range is one pass for each quarter octave of its growth, over the points that reach
-/// it: from 0.3 m with 0.01 m a metre, nine within 110 m.
+/// Method: exact grid DBSCAN (Gunawan 2013, Gan and Tao 2015). Points of a cell of side just under tolerance
+/// / sqrt(3) are always linked; union-find joins cells that are at most two cells apart. O(n) for usual
+/// sensor data, whatever the number of neighbours; O(n^1.5) if dense sheets are just farther apart than the
+/// tolerance. With min_points > 1 there are at most O(n * min_points) more distance tests. A growing
+/// tolerance takes one pass for each factor of 2^(1/4), over the points that reach it: from 0.3 m with 0.01 m
+/// a metre, nine passes within 110 m.
 class EuclideanClusterer {
  public:
+  /// Allocates nothing until the first extract().
   EuclideanClusterer();
   ~EuclideanClusterer();
   EuclideanClusterer(EuclideanClusterer&&) noexcept;
   EuclideanClusterer& operator=(EuclideanClusterer&&) noexcept;
 
-  /// Replaces `clusters` with those of `points`. Points that are not valid (is_valid()) are skipped; a point
-  /// named twice by the index list counts once. No valid point: no clusters. A lone point is a cluster of
-  /// one.
+  /// Replaces `clusters` by the clusters of `points`. A point without neighbours is a cluster of one. Points
+  /// that are not valid (is_valid()) are ignored, and a point that is twice in the index list counts once.
+  /// Without valid points there are no clusters.
   ///
-  /// Throws std::invalid_argument if a setting is not what ClusterSettings says or min_size > max_size,
-  /// std::length_error if a point number exceeds 2^31 - 1. Threads never change the result, and none
-  /// are used for fewer than 16 384 points or 512 blocks of 64 cells. Memory is kept for the next call, which
-  /// needs no more for a cloud like this one: about 50 bytes a point and 150 a block; with min_points > 1, 9
-  /// and 16 more. From 2^18 blocks on, most of what belongs to blocks is given back at once.
+  /// The number of threads never changes the result; fewer than 16 384 points or 512 blocks of 64 cells use
+  /// one thread. The memory is retained for later calls: about 50 bytes a point and 150 a block of 64 cells;
+  /// with min_points > 1, 9 and 16 bytes more. From 2^18 blocks on, most memory of the blocks is freed at
+  /// once.
+  ///
+  /// Throws std::invalid_argument if a setting is outside its range or min_size > max_size, and
+  /// std::length_error if a point index exceeds 2^31 - 1.
   void extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
                const ParallelPolicy& policy = Serial{});
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The clusterer as a PCL class: change the namespace, get the same clusters sooner.
+// Euclidean clusters as a PCL class: a drop-in replacement of pcl::EuclideanClusterExtraction.
 #pragma once
 
 #include <pcl/PointIndices.h>
@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pcl_bv/kernels/point_records.h"
+#include "pcl_bv/points/point_records.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 
 namespace pcl::search {
@@ -25,12 +25,13 @@ class Search;
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Drop-in for pcl::EuclideanClusterExtraction: the same partition (see EuclideanClusterer), the same setters
-/// and defaults. Any point type with x, y, z of float or double in a row works, without instantiation.
+/// Drop-in replacement of pcl::EuclideanClusterExtraction: the same partition (see EuclideanClusterer),
+/// setters and defaults. Takes any point type whose x, y, z are consecutive floats or doubles, without
+/// instantiation.
 ///
-/// Different from PCL: points that are not finite are skipped, instead of being undefined behaviour; clusters
-/// of equal size come in the order of their smallest index; the result replaces what the vector held, where
-/// PCL appends; no search tree is needed or used; errors are exceptions.
+/// Differences from PCL: points that are not finite are ignored instead of being undefined behaviour.
+/// Clusters of equal size are in the order of their smallest index. extract() replaces the vector's contents,
+/// where PCL appends. No search tree is needed or used. Errors are exceptions.
 template <typename PointT>
 class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
  public:
@@ -40,8 +41,8 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   using KdTree = pcl::search::Search<PointT>;
   using KdTreePtr = std::shared_ptr<KdTree>;
 
-  /// Restricts the clusters to some points, or, with a null pointer of any kind, lifts the restriction (PCL's
-  /// base class dereferences some of these).
+  /// Restricts the clusters to the points with these indices. A null pointer of any of these types removes
+  /// the restriction (PCL's base class dereferences some null pointers).
   void setIndices(const pcl::IndicesPtr& indices) override { indices_ = indices; }
   void setIndices(const pcl::IndicesConstPtr& indices) override {
     indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
@@ -52,50 +53,51 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setIndices(std::nullptr_t) { indices_.reset(); }
   using pcl::PCLBase<PointT>::setIndices;
 
-  /// Kept for getSearchMethod(), so that code written for PCL compiles; never used.
+  /// Ignored; stored only for getSearchMethod(), so that code written for PCL compiles.
   void setSearchMethod(const KdTreePtr& tree) { tree_ = tree; }
   KdTreePtr getSearchMethod() const { return tree_; }
 
-  /// Points nearer to each other than this belong together; unit of the points, used as float like PCL does.
+  /// Sets the tolerance: points nearer to each other than this are linked. Unit of the points; converted to
+  /// float as in PCL.
   void setClusterTolerance(double tolerance) { tolerance_ = tolerance; }
   double getClusterTolerance() const { return tolerance_; }
 
-  /// Clusters of fewer points are dropped. Default 1.
+  /// Sets the smallest size: clusters with fewer points are dropped. Default 1.
   void setMinClusterSize(pcl::uindex_t size) { min_size_ = size; }
   pcl::uindex_t getMinClusterSize() const { return min_size_; }
 
-  /// Clusters of more points are dropped. Default: no limit.
+  /// Sets the largest size: clusters with more points are dropped. Default: no limit.
   void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
   pcl::uindex_t getMaxClusterSize() const { return max_size_; }
 
-  /// DBSCAN (Ester et al. 1996) with more than 1: points are core that have so many, themselves included, nearer
-  /// than the tolerance; linked core points are a cluster, with the points nearest to them, and the rest is
-  /// noise. Default 1: every point is core.
+  /// Sets the number of points of DBSCAN's core condition (ClusterSettings::min_points). Default 1: every
+  /// point is a core point.
   void setMinPoints(pcl::uindex_t points) { min_points_ = points; }
   pcl::uindex_t getMinPoints() const { return min_points_; }
 
-  /// By how much the tolerance grows with the distance from the origin (ClusterSettings::tolerance_per_metre).
-  /// Default 0: not at all.
+  /// Sets the growth of the tolerance with the distance from the origin
+  /// (ClusterSettings::tolerance_per_metre). Default 0.
   void setToleranceGrowth(double per_metre) { per_metre_ = per_metre; }
   double getToleranceGrowth() const { return per_metre_; }
 
-  /// What becomes of clusters above the maximum size (Oversized). Default: they are dropped.
+  /// Sets the treatment of clusters above the largest size. Default Oversized::drop.
   void setOversized(Oversized rule) { oversized_ = rule; }
   Oversized getOversized() const { return oversized_; }
 
-  /// Threads for extract(): 0 means all processors, 1 (the default) the calling thread. Never changes the
-  /// result.
+  /// Sets the number of threads of extract(). 0 means all processors; default 1, the calling thread. Never
+  /// changes the result.
   void setNumberOfThreads(unsigned threads) { policy_ = Threads{threads}; }
 
-  /// Replaces `clusters` with those of the input cloud, or of its points in setIndices() (null: the whole
-  /// cloud): largest first, indices ascending, each with the cloud's header. No finite point: no clusters.
+  /// Replaces `clusters` by the clusters of the input cloud, or of its points in setIndices(). The largest
+  /// are first; indices are ascending; each has the header of the cloud. Without finite points there are no
+  /// clusters.
   ///
-  /// Throws std::logic_error without an input cloud, std::out_of_range for an index outside it,
-  /// std::invalid_argument if the tolerance is not finite and > 0 as a float, the minimum size exceeds the
-  /// maximum, or the growth is not finite and >= 0, or not 0 with more than one minimum point.
+  /// Throws std::logic_error without an input cloud and std::out_of_range for an index outside of it. Throws
+  /// std::invalid_argument if the tolerance is not finite and > 0 as a float, if the smallest size exceeds
+  /// the largest, and if the growth is not finite and >= 0, or not 0 with more than one point in
+  /// setMinPoints().
   void extract(std::vector<pcl::PointIndices>& clusters) {
-    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_,
-                                   max_size_, min_points_,
+    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_, min_points_,
                                    static_cast<float>(per_metre_), oversized_};
     clusterer_.extract(view(), settings, found_, policy_);
     clusters.resize(found_.size());
@@ -107,8 +109,9 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
 
  private:
   PointView view() const {
-    static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with another index type");
-    if (!input_) throw std::logic_error("EuclideanClusterExtraction: extract() before setInputCloud()");
+    static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t),
+                  "PCL is built with an index type other than 32-bit integers");
+    if (!input_) throw std::logic_error("EuclideanClusterExtraction: call setInputCloud() before extract()");
     const PointView cloud = view_records(input_->points.data(), input_->size());
     return indices_ ? select_points(cloud, indices_->data(), indices_->size()) : cloud;
   }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ground removal by one plane, without PCL: what has to go before clustering, since the ground touches
-// everything that stands on it.
+// Ground removal by one plane, without PCL. Without it the ground would connect all objects in a clustering.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,75 +9,79 @@
 #include <optional>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What counts as ground.
+/// Settings of split_ground().
 struct GroundPlaneSettings {
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
-  double distance = 0.2;          ///< Points at most this far above the plane are ground, metres; > 0.
-  double max_slope_degrees = 15;  ///< Greatest angle between the plane's normal and up, 0 to 89.
-  /// Height of the cloud's origin above the ground, along up, metres; >= 0. If given, planes that pass below
-  /// the origin at a height that differs by more than ground_height_tolerance are out of the question.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
+  /// Points at most this far above the plane are ground; metres, > 0.
+  double distance = 0.2;
+  double max_slope_degrees = 15;  ///< Largest angle between the plane's normal and up, 0 to 89.
+  /// Height of the cloud's origin above the ground, along up; metres, >= 0. If given, the plane must pass
+  /// below the origin at this height, to within ground_height_tolerance.
   std::optional<double> sensor_height;
-  std::uint32_t seed = 1;      ///< Of the search. Another seed may move the plane by millimetres.
-  unsigned iterations = 1000;  ///< Planes tried, 1 to 1000000.
+  std::uint32_t seed = 1;      ///< Seed of the random search. Another seed may move the plane by millimetres.
+  unsigned iterations = 1000;  ///< Number of planes tried, 1 to 1000000.
 };
 
-/// Metres. A vehicle pitches, and its ground is no plane; car bonnets and tables are 0.7 m up and more.
+/// Largest error of a given sensor height, metres. It allows for pitching vehicles and uneven ground, but
+/// excludes car bonnets and tables, which are 0.7 m high and more.
 inline constexpr double ground_height_tolerance = 0.5;
 
-/// Memory that calls of split_ground share.
+/// Buffers that calls of split_ground() reuse.
 struct GroundScratch {
   std::vector<Eigen::Vector3d> sample, support, lowest;
 };
 
-/// Where a cloud's sensor is (find_sensor() of sensor_place.h).
-struct SensorPlace {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< In the frame of the cloud, metres.
-  bool around = true;  ///< Whether the points lie around the place that was said; if not, `at` is estimated.
-  double far_share = 0;  ///< Share of the points that are 100 m or more from `at`, 0 to 1.
+/// Position of the sensor of a cloud: see find_sensor() in sensor_position.h.
+struct SensorPosition {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< In the frame of the cloud, metres.
+  /// Whether the points lie around the assumed position. If not, `position` is estimated.
+  bool confirmed = true;
+  double far_share = 0;  ///< Share of points that are 100 m or farther from `position`, 0 to 1.
 };
 
-/// A cloud split into ground and rest. Reuse keeps the capacity.
+/// A cloud split into ground and other points. Reusing an object reuses its memory.
 struct GroundSplit {
-  bool found = false;  ///< Whether there is a plane; if not, all valid points are `rest`.
-  /// Unit normal on the upper side; the height of p above the plane is normal.p - offset. 0 if not found.
+  bool found = false;  ///< Whether there is a plane. If not, all valid points are in `rest`.
+  /// Unit normal of the plane, pointing up; 0 if not found. The height of p above the plane is normal.p -
+  /// offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double offset = 0;     ///< Metres, in the frame of the cloud.
-  SensorPlace sensor{};  ///< Of zones: where they are centred; a place that is given is not checked.
-  bool level = false;    ///< Of zones: no plane was found, and level ground at sensor_height was assumed.
-  std::vector<std::int32_t> ground;  ///< Numbers in the cloud (PointView::index) of the ground's points, in
-                                     ///< the order of the view.
-  std::vector<std::int32_t> rest;    ///< Those of the other valid points.
-  GroundScratch scratch;             ///< Of no meaning to the caller.
+  double offset = 0;  ///< Metres, in the frame of the cloud.
+  /// Only from GroundZones: the centre of its rings. A given position is not checked.
+  SensorPosition sensor{};
+  /// Only from GroundZones: no plane was found, and level ground at sensor_height was assumed.
+  bool assumed_level = false;
+  /// Indices of the ground points in the cloud (PointView::index()), in the order of the view.
+  std::vector<std::int32_t> ground;
+  std::vector<std::int32_t> rest;  ///< Indices of the other valid points.
+  GroundScratch scratch;           ///< Internal buffers.
 };
 
 /// Finds the ground as one plane and splits the points by it.
 ///
-/// Ground is every point with (nx*x + ny*y) + nz*z - offset <= distance in double. So it includes what lies
-/// below the plane, however deep: reflections from puddles and windows must not become objects, nor must a
-/// ground that falls away. Beware that things standing down there are lost with it; a hilly scene wants a
-/// ground of many planes.
+/// Ground is every point with (nx*x + ny*y) + nz*z - offset <= distance in double. So all points below the
+/// plane are ground, however deep, such as reflections from puddles and windows or ground that slopes down.
+/// Objects below the plane are lost with them. For hilly scenes use GroundZones.
 ///
-/// Among the planes within the limits the one with most points near it wins, but a point clearly below it
-/// weighs as much as four above it: the floor is preferred to the tables and the road to the roofs, as long
-/// as it has a quarter of their points. For this choice points count by area seen from above, so that dense
-/// rings near the sensor do not outvote the road far off; then least squares over the points near the plane,
-/// by number, say where exactly it is. Nothing else is asked of a ground: three points are one, if their
-/// plane is within the limits.
+/// The plane is the one within the limits that has most points near it. A point clearly below a plane costs
+/// as much as four points clearly above it, so a floor is preferred to tables, and a road to roofs, if it has
+/// a quarter of their points. The search weights points by the area that they cover seen from above, so that
+/// dense rings near the sensor do not outvote the distant road. Least squares over all points near the plane
+/// then refine it. Three points are enough if their plane is within the limits.
 ///
-/// Points that are not valid (is_valid()) are in neither list. Not found: fewer than three valid points, all
-/// points on a line, no plane within the limits, or only such as have a third as many points below them as
-/// near them.
+/// Points that are not valid (is_valid()) are in neither list. No plane is found for fewer than three valid
+/// points, if all points are on a line, if no plane is within the limits, or if each plane has a third as
+/// many points below it as near it.
 ///
-/// Same points, settings and seed give the same bits. Throws std::invalid_argument for a setting outside its
-/// range, std::length_error if a point number exceeds 2^31 - 1. O(n) beyond a search of constant cost; keeps
-/// 8 bytes a point for the next call.
+/// The same points, settings and seed give the same bits. O(n) in addition to a search of constant cost;
+/// retains 8 bytes a point for the next call. Throws std::invalid_argument for a setting outside its range
+/// and std::length_error if a point index exceeds 2^31 - 1.
 ///
-/// Source: RANSAC (Fischler and Bolles 1981) with the truncated cost MSAC (Torr and Zisserman 2000), then
-/// least squares.
+/// Source: RANSAC (Fischler, Bolles 1981) with the truncated cost MSAC (Torr, Zisserman 2000), then least
+/// squares.
 void split_ground(const PointView& points, const GroundPlaneSettings& settings, GroundSplit& split);
 
 }  // namespace pcl_bv

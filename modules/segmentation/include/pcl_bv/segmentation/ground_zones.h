@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ground removal for outdoor scenes: roads climb, sink and have curbs, verges are rough, so that one plane
-// (ground_plane.h) holds only near the sensor.
+// Ground removal for outdoor scenes, where roads climb, sink and have curbs, and roadsides are rough. One
+// plane (ground_plane.h) fits such ground only near the sensor.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,59 +10,64 @@
 #include <memory>
 #include <optional>
 
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/ground_plane.h"
-#include "pcl_bv/segmentation/sensor_place.h"
+#include "pcl_bv/segmentation/sensor_position.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What counts as ground.
+/// Settings of GroundZones.
 struct GroundZonesSettings {
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
-  /// Where the rings are centred, in the cloud's frame, metres. If not given, in the origin, or where the
-  /// points are densest if they do not lie around the origin (find_sensor()).
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
+  /// Centre of the rings in the frame of the cloud, metres. If not given, it is the origin, or the estimate
+  /// of find_sensor() if the points do not lie around the origin.
   std::optional<Eigen::Vector3d> sensor;
-  /// Height of `sensor` above the ground, along up, metres; >= 0. Learnt from the cloud if not given; if
-  /// given, a guess good to ground_height_tolerance. Ignored where the sensor's place is estimated.
+  /// Height of `sensor` above the ground, along up; metres, >= 0. Needs to be right to
+  /// ground_height_tolerance only. If not given, it is estimated from the cloud. Ignored if the sensor's
+  /// position is estimated.
   std::optional<double> sensor_height;
-  double distance = 0.15;  ///< Points at most this far above the ground's surface are ground, metres; > 0.
-  double max_slope_degrees = 20;  ///< Greatest angle between the ground and the horizontal, 0 to 89.
-  std::uint32_t seed = 1;         ///< Of the search for the first plane.
+  /// Points at most this far above the surface of the ground are ground; metres, > 0.
+  double distance = 0.15;
+  double max_slope_degrees = 20;  ///< Largest angle between the ground and the horizontal, 0 to 89.
+  std::uint32_t seed = 1;         ///< Seed of the random search for the first plane.
 };
 
-/// Splits clouds of a sensor that stands or drives on the ground into ground and rest.
+/// Splits clouds of a sensor that stands or drives on the ground into ground and other points.
 ///
-/// Space around the sensor is cut into cells: rings of half a metre, each in 256 sectors. The plane around
-/// the sensor comes first, found like that of split_ground() among the points within 12.5 m. Then all sectors
-/// walk outwards ring by ring: a cell's lowest point is ground if it lies near the height that its sector
-/// expects there, the nearer the more lately ground was seen; a sector that has lost sight of the ground
-/// hears from those beside it. Between two places of a sector where the ground is seen it is the line that
-/// connects them. The surface found is lowered to the highest one that is nowhere steeper than allowed. So
-/// the ground may rise and fall, reflections below it do not draw it down, and roofs and bonnets do not pass
-/// for it.
+/// Space around the sensor is divided into cells: rings of 0.5 m, each with 256 sectors. The first step finds
+/// the plane around the sensor as split_ground() does, among the points within 12.5 m. Then all sectors are
+/// traversed outwards, ring by ring. The lowest point of a cell is ground if it is near the height that is
+/// expected in its sector; the tolerance grows with the distance since ground was last seen. A sector that
+/// has not seen the ground for some distance takes its state from its neighbours. Between two cells of a
+/// sector with visible ground the surface is interpolated linearly. Finally the surface is lowered to the
+/// highest surface that is nowhere steeper than allowed. So the ground may rise and fall, reflections below
+/// it do not lower it, and roofs and bonnets are not ground.
 ///
-/// Ground is every point at most `distance` above that surface, however deep it lies below, as with
-/// split_ground(): reflections from puddles must not become objects. In cells where something stands, with
-/// points 0.3 to 2 m above the lowest one, it is a fifth of `distance`: feet of walls and cars are no ground.
+/// Ground is every point at most `distance` above the surface, however deep below it, as with split_ground().
+/// In cells with an object (points 0.3 to 2 m above the lowest one) the limit is a fifth of `distance`, so
+/// that the feet of walls and cars are not ground.
 ///
-/// Source: the slope of what is above the lowest points tells ground from objects in Vosselman 2000, there by
-/// all pairs of points, here by distances that grow from cell to cell (Borgefors 1986).
+/// Source: the slope criterion of Vosselman 2000, which compares all pairs of points; here with distances
+/// that are propagated from cell to cell (Borgefors 1986).
 class GroundZones {
  public:
+  /// Allocates nothing until the first split().
   GroundZones();
   ~GroundZones();
   GroundZones(GroundZones&&) noexcept;
   GroundZones& operator=(GroundZones&&) noexcept;
 
-  /// Replaces `split`; its plane is the one around the sensor. Points that are not valid (is_valid()) are in
-  /// neither list. Not found, and all valid points `rest`: there is no such plane, as in split_ground(), and
-  /// no sensor height is given either (with it, level ground at that height is where the search begins:
-  /// GroundSplit::level).
+  /// Replaces `split` by the split of `points`. Its plane is the plane around the sensor.
   ///
-  /// Same points and settings give the same bits, on however many threads. Throws std::invalid_argument for a
-  /// setting outside its range, std::length_error if a point number exceeds 2^31 - 1. O(n); memory is kept
-  /// for the next call, about 40 bytes a point, and a cloud like the last one needs no more.
+  /// Points that are not valid (is_valid()) are in neither list. If there is no plane around the sensor, as
+  /// in split_ground(), but a sensor height is given, level ground at that height is assumed
+  /// (GroundSplit::assumed_level). Without a height nothing is found and all valid points are in `rest`.
+  ///
+  /// The same points and settings give the same bits for any number of threads. O(n). Memory of about 40
+  /// bytes a point is retained for the next call, which does not allocate for a similar cloud. Throws
+  /// std::invalid_argument for a setting outside its range and std::length_error if a point index exceeds
+  /// 2^31 - 1.
   void split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split,
              const ParallelPolicy& policy = Serial{});
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Many questions at once, over all cores: each answer is that of the one question.
+// Many queries to a PointTree in one call, in parallel. The results are those of the single queries.
 #pragma once
 
 #include <cstddef>
@@ -14,28 +14,30 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Lists of neighbours, one after another: those of place i are neighbors[first[i]] to neighbors[first[i + 1]
-/// - 1].
+/// Lists of neighbours, concatenated. Query point i has neighbors[j] for first[i] <= j < first[i + 1].
 struct NeighborLists {
+  /// The neighbours of all query points.
   std::vector<Neighbor> neighbors;
+  /// Start of each query point's list, then the total: one entry more than query points.
   std::vector<std::size_t> first;
 };
 
-/// The nearest point of each place, as PointTree::nearest(); index -1 and distance infinity where there is
-/// none. Replaces the contents of `found`. Throws std::invalid_argument unless the places are in memory, and
-/// what nearest() throws.
-void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
+/// Sets found[i] to PointTree::nearest() of the i-th query point, or to index -1 and distance infinity if
+/// there is none. Resizes `found` to the number of query points. Throws std::invalid_argument unless the
+/// query points are in memory, and if max_distance is negative or NaN.
+void nearest(const PointTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
-/// The k nearest points of each place, ascending. Throws likewise.
-void nearest(const PointTree& tree, const PointView& places, std::size_t k, NeighborLists& found,
+/// Lists the k nearest points of each query point, ascending. Throws likewise.
+void nearest(const PointTree& tree, const PointView& query_points, std::size_t k, NeighborLists& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
-/// All points within a distance of each place, ascending (Neighbor's order). Throws likewise.
-void near(const PointTree& tree, const PointView& places, double distance, NeighborLists& found,
+/// Lists all points within `distance` of each query point, in ascending order of Neighbor. Throws likewise.
+void near(const PointTree& tree, const PointView& query_points, double distance, NeighborLists& found,
           const Execution& execution = {});
 
-/// Sets inside[i] to 1 where any_inside() of volume i holds, else to 0.
+/// Sets inside[i] to 1 if PointTree::any_inside() holds for volume i, else to 0. Resizes `inside` to the
+/// number of volumes.
 void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution = {});
 void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Do clouds touch, does a robot touch a cloud: questions to two trees, one of which has moved.
+// Collision checks between point clouds and volumes, one of which has moved.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,15 +15,19 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Volumes that move together, as the links of an arm in one posture do, made ready to be asked where they
-/// are then: some 50 us for each k-DOP and hull, less for others. Named by their numbers in the list; empty
-/// ones touch nothing. Cheap to copy.
+/// Volumes that move together, such as the links of an arm in one posture, prepared for collision checks.
+///
+/// Preparing takes about 50 us for each k-DOP and hull, less for other types. Volumes are identified by their
+/// index in the list. Empty volumes touch nothing. Copies are cheap and share the data.
 class MovingVolumes {
  public:
+  /// Prepares the volumes.
   explicit MovingVolumes(std::vector<AnyVolume> volumes);
 
+  /// Returns the volumes as given.
   const std::vector<AnyVolume>& volumes() const;
 
+  // Internal: the prepared volumes.
   struct State;
   const State& state() const { return *state_; }
 
@@ -31,28 +35,35 @@ class MovingVolumes {
   std::shared_ptr<const State> state_;
 };
 
-/// Whether a point of one cloud is within `margin` of a point of the other, which `pose` leads to the frame
-/// of the first: of p and the image of q by exact arithmetic on the stored matrix. Never false for two that
-/// are; errs only towards true, by some 1e-15 of the coordinates. False if either has no points. All of these
-/// throw std::invalid_argument for a margin that is not from 0 to 1e100 and for a pose that is not finite.
+/// Returns whether any point of one cloud is within `margin` of a point of the other.
+///
+/// `pose` transforms `others` to the frame of `points`. The result is never false for a point p and the image
+/// of a point q that are within the margin by exact arithmetic on the stored matrix. It may be true for
+/// points that are farther apart by about 1e-15 of the coordinates. It is false if either tree has no points.
+/// All functions here throw std::invalid_argument unless the margin is from 0 to 1e100 and the pose is
+/// finite.
 bool within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// Whether a point is within `margin` of a volume. Likewise never false for two that are. Where a point is
-/// near, distance() of the volume's ConvexBody, moved, decides, and errs towards true as pairs.h says.
+/// Returns whether any point is within `margin` of a volume that `pose` has moved.
+///
+/// The distance of a near point is distance() from the moved ConvexBody. So the result is never false for a
+/// point within the margin, and it may be true for a point that is farther by the rounding that
+/// pair_queries.h states.
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// The numbers of the volumes for which that is so, ascending: replaces what is in `touched`.
+/// Replaces `indices` by the indices of the volumes within `margin` of a point, ascending.
 void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
-                 double margin, std::vector<std::int32_t>& touched);
+                 double margin, std::vector<std::int32_t>& indices);
 
-/// Whether two volumes, of which those of `others` have moved, are within `margin`: within() of their
-/// ConvexBodies, which is never false for two that are.
+/// Returns whether a volume of `volumes` is within `margin` of a volume of `others` that `pose` has moved.
+/// within() of their ConvexBodies decides; it is never false for two volumes within the margin.
 bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// The numbers of all such pairs, ascending.
+/// Replaces `pairs` by the pairs of indices (in `volumes`, in `others`) of all volumes within `margin`,
+/// ascending.
 void list_within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                  double margin, std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Questions to points that come batch by batch: a map that grows, or the last sweeps.
+// Search trees over points that arrive batch by batch, e.g. a growing map or the last sweeps.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,50 +16,56 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A point of a forest and how far it is, as Neighbor says.
+/// A point of a forest and its squared distance, computed as in Neighbor.
 struct ForestNeighbor {
+  /// Number of the point in the forest.
   std::uint64_t number;
   double squared_distance;
 };
 
-/// The nearer one first; of equal ones that with the smaller number.
+/// Orders by distance, then by number.
 inline bool operator<(const ForestNeighbor& a, const ForestNeighbor& b) {
   return a.squared_distance < b.squared_distance ||
          (a.squared_distance == b.squared_distance && a.number < b.number);
 }
 
+/// How the batches of a PointForest are stored.
 enum class ForestTrees : std::uint8_t {
-  merged,  ///< O(log n) trees (Bentley, Saxe 1980): batches that came one after another share one.
-  kept     ///< One for each batch, which can leave again.
+  merged,  ///< O(log n) trees (Bentley, Saxe 1980): successive batches share a tree.
+  kept     ///< One tree for each batch; drop_oldest() removes the oldest.
 };
 
-/// Several PointTrees, asked as one. Points are numbered from 0 as they come, whatever they are called in
-/// their view, those that are not valid too; numbers are never used again. Answers are those of one PointTree
-/// of all points.
+/// Several PointTrees that are queried as one; queries give the same results as one PointTree of all points.
 ///
-/// `merged`: a batch becomes a tree; as long as the tree before is less than twice as large as all after it,
-/// they are built anew as one. So there are at most log2(n) + 1 trees, each twice as large as the next, and a
-/// point is built into a tree that is half as large again each time. `kept`: as many trees as batches; a
-/// question asks them all.
+/// Points are numbered from 0 in the order of insertion, including invalid points; the indices of the views
+/// are ignored. Numbers are never reused.
 ///
-/// Const calls may run side by side.
+/// `merged`: insert() rebuilds the newest trees and the new batch as one tree until each tree has at least
+/// twice as many points as the next. So there are at most log2(n) + 1 trees. A rebuild puts the points of an
+/// older tree into a tree at least 1.5 times as large. `kept`: there are as many trees as batches, and a
+/// query visits them all.
+///
+/// Const member functions may be called from several threads at once.
 class PointForest {
  public:
+  /// A forest without points.
   explicit PointForest(ForestTrees trees = ForestTrees::merged) : kind_(trees) {}
 
-  /// Adds the visited points, with an index list or without. O(n), or amortised O(n log(N)) where trees are
-  /// merged. Throws std::invalid_argument as PointTree's constructor does, and where trees would be merged to
-  /// more than 2^31 - 1 points; then nothing is changed.
+  /// Adds the n visited points of a view, with or without an index list, and builds a tree of them. With
+  /// `merged`, each of N points is rebuilt O(log N) times in all. Throws std::invalid_argument, and changes
+  /// nothing, as the constructor of PointTree does, and if a merged tree would have more than 2^31 - 1
+  /// points.
   void insert(const PointView& points, const Execution& execution = {});
 
-  /// The oldest batch leaves, if there is one. Throws std::logic_error where trees are merged.
+  /// Removes the oldest batch, if there is one. Throws std::logic_error for ForestTrees::merged.
   void drop_oldest();
 
-  std::size_t size() const;                         ///< Points in the trees, valid ones.
-  std::uint64_t inserted() const { return next_; }  ///< Points that ever came: the number of the next one.
+  std::size_t size() const;                         ///< Number of valid points in the trees.
+  std::uint64_t inserted() const { return next_; }  ///< Number of points ever inserted.
+  /// Number of trees.
   std::size_t trees() const { return trees_.size(); }
 
-  /// As PointTree's, but for the numbers.
+  /// As the PointTree member functions of the same name, with forest numbers instead of indices.
   std::optional<ForestNeighbor> nearest(const Eigen::Vector3d& place,
                                         double max_distance = std::numeric_limits<double>::infinity()) const;
   void nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<ForestNeighbor>& found,
@@ -69,15 +75,15 @@ class PointForest {
 
  private:
   struct Tree {
-    PointTree tree;       // which calls its first point 0
-    std::uint64_t first;  // what it is here
-    std::uint64_t count;  // numbers, also of points that are not valid
+    PointTree tree;       // with its own indices from 0
+    std::uint64_t first;  // forest number of its first point
+    std::uint64_t count;  // number of points, including invalid ones
   };
 
   static Tree joined(const Tree* trees, std::size_t count, const Execution& execution);
 
   ForestTrees kind_;
-  std::deque<Tree> trees_;  // from the oldest to the newest
+  std::deque<Tree> trees_;  // oldest first
   std::uint64_t next_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Questions to a cloud: what is near, what is inside, what does a ray hit.
+// A search tree over the points of a cloud: nearest neighbours, points in volumes, first hit of a ray.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,111 +13,132 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/packed_tree.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Where a ray first comes as near to a point as it was asked: at origin + t direction.
+/// The first point that a moving sphere touches: the centre is then at origin + t direction.
 struct PointHit {
+  /// Index of the point in the cloud.
   std::int32_t index;
+  /// Parameter along the direction, in multiples of its length; 0 or more.
   double t;
 };
 
-/// How far a point is from what was asked about.
+/// A point of the cloud and its distance from a volume.
 struct PointDistance {
   std::int32_t index;
   double distance;
 };
 
-/// A copy of a cloud's valid points in the order of a balanced k-d tree, 16 to a packet, with boxes around
-/// packets, and around 16 of those and so on: a packed R-tree (Roussopoulos, Leifker 1985). Building takes
-/// some 30 ns a point on one thread, so a tree may serve one sweep. 18 bytes a point of float, 30 of double,
-/// and as much again for building.
+/// A copy of a cloud's valid points for spatial queries: a packed R-tree (Roussopoulos, Leifker 1985).
 ///
-/// Points are named by their numbers in the cloud (PointView::index()). Each question is decided for every
-/// point by the stated double expression, as if all were asked one after another: boxes only spare points
-/// which the answer cannot depend on. So a tree gives the same answers for every Execution, and misses no
-/// point. Places and distances are in the points' frame and unit. A tree of no points has nothing near or
-/// inside.
+/// The points are in the order of a balanced k-d tree, 16 to a packet. Each packet has a box, each 16 boxes
+/// have a common box, and so on. Building takes about 30 ns a point on one thread, so a tree can be built for
+/// every sweep. The tree takes 18 bytes a float point or 30 bytes a double point, and the same again while it
+/// is built.
 ///
-/// Const calls may run side by side.
+/// Points are identified by their index in the cloud (PointView::index()). Coordinates and distances are in
+/// the frame and unit of the points. Every query gives the result of testing all points one by one with the
+/// double expression that its documentation states; boxes only skip points that cannot change the result. So
+/// the result is the same for every Execution, and no point is missed. A tree without points finds nothing.
+///
+/// Const member functions may be called from several threads at once.
 class PointTree {
  public:
+  /// An empty tree.
   PointTree() = default;
 
-  /// The view's valid points; others are counted. O(n log n). Throws std::invalid_argument unless the points
-  /// are in memory and at most 2^31 - 1, and for Execution::supports.
+  /// Builds the tree of the view's valid points; dropped() is the number of the others. O(n log n). Throws
+  /// std::invalid_argument unless the points are in memory, their number is at most 2^31 - 1, their indices
+  /// are at most 2^31 - 2 and Execution::supports is null.
   explicit PointTree(const PointView& points, const Execution& execution = {}) { assign(points, execution); }
 
-  /// Replaces the contents; allocates only if more points come than ever before. Throws as the constructor
-  /// does, and then the tree is as it was, or, if there is no memory, empty.
+  /// Replaces the points, as the constructor. Allocates only if there are more points than in any earlier
+  /// call. Throws as the constructor does and then leaves the tree unchanged; if memory runs out, the tree is
+  /// empty.
   void assign(const PointView& points, const Execution& execution = {});
 
-  /// The same points, moved: takes new coordinates from a cloud in which they have the same numbers (a view
-  /// without indices). Answers are as those of a new tree, which is faster to ask if they moved far. A point
-  /// that is not valid there is near nothing and inside nothing, until it is moved back. O(n), and needs no
-  /// memory. Throws std::invalid_argument for a view that lacks a number or has another scalar type, and then
-  /// nothing is changed.
+  /// Moves the points: reads new coordinates of the same indices from `cloud` (a view without indices). O(n),
+  /// without allocation.
+  ///
+  /// Queries give the same results as on a new tree, which is faster to query if the points have moved far. A
+  /// point that is not valid in `cloud` is not found by any query until a later refit() gives it valid
+  /// coordinates. Throws std::invalid_argument, and changes nothing, if `cloud` lacks one of the indices, has
+  /// an index list or another scalar type.
   void refit(const PointView& cloud, const Execution& execution = {});
 
-  std::size_t size() const { return tree_.count; }  ///< Points in the tree.
-  std::size_t dropped() const { return dropped_; }  ///< Points of the view that were not valid.
+  std::size_t size() const { return tree_.count; }  ///< Number of points in the tree.
+  std::size_t dropped() const { return dropped_; }  ///< Number of points of the view that were not valid.
+  /// Whether the tree has no points.
   bool empty() const { return tree_.count == 0; }
 
-  /// The point nearest a place, of equally near ones that with the smallest number, if it is within
-  /// max_distance: Neighbor::squared_distance is at most max_distance^2, rounded. None for a place that
-  /// is_valid() does not count.
-  std::optional<Neighbor> nearest(const Eigen::Vector3d& place,
+  /// Returns the point of the tree nearest to the query point, if it is within `max_distance`.
+  ///
+  /// Of equally near points it returns the one with the smallest index. "Within" means that
+  /// Neighbor::squared_distance is at most max_distance * max_distance, rounded. Returns nothing if
+  /// is_valid() does not hold for the query point. Throws std::invalid_argument if max_distance is negative
+  /// or NaN.
+  std::optional<Neighbor> nearest(const Eigen::Vector3d& point,
                                   double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// The k nearest of them, ascending (Neighbor's order): replaces what is in `found`.
-  void nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,
+  /// Replaces `found` by the k nearest points within `max_distance`, in ascending order of Neighbor.
+  /// Otherwise as nearest().
+  void nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
                double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// All points within a distance, in no order that means something: replaces what is in `found`.
-  void near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const;
+  /// Replaces `found` by all points within `distance` of the query point, in unspecified order. Otherwise as
+  /// nearest().
+  void near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const;
 
-  /// Whether there is any point within a distance.
-  bool any_near(const Eigen::Vector3d& place, double distance) const;
+  /// Returns whether any point is within `distance` of the query point. Otherwise as nearest().
+  bool any_near(const Eigen::Vector3d& point, double distance) const;
 
-  /// Whether contains() of the volume holds for any point. A view frustum is a Hull: frustum.h.
+  /// Returns whether any point is inside the volume: contains() of the volume decides. False for an empty
+  /// volume. frustum.h makes a Hull of a view frustum.
   bool any_inside(const Sphere& sphere) const;
   bool any_inside(const AnyVolume& volume) const;
 
-  /// Of how many points it holds.
+  /// Returns the number of points inside the volume. 0 for an empty volume.
   std::size_t count_inside(const AnyVolume& volume) const;
 
-  /// Their numbers, ascending: replaces what is in `indices`.
+  /// Replaces `indices` by the indices of the points inside the volume, ascending.
   void all_inside(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
 
-  /// The point with the least distance() from the volume's ConvexBody (pairs.h), 0 inside; of equal ones that
-  /// with the smallest number, if it is within max_distance. Throws std::invalid_argument for one that is
-  /// below 0 or NaN.
+  /// Returns the point nearest to the volume, if its distance is at most `max_distance`.
+  ///
+  /// The distance is distance() of the point from the volume's ConvexBody (pair_queries.h); it is 0 inside.
+  /// Of equally near points it returns the one with the smallest index. Returns nothing for an empty volume.
+  /// Throws std::invalid_argument if max_distance is negative or NaN.
   std::optional<PointDistance> nearest_to(
       const AnyVolume& volume, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Where a sphere whose centre moves along origin + t direction, t >= 0, first touches a point: the least
-  /// enter of Sphere(point, radius).intersect(origin, direction), of equal ones that of the smallest number.
-  /// A ray is a sphere of a small radius. None for numbers that are not finite. Throws std::invalid_argument
-  /// for a radius that is not from 0 to 1e100.
+  /// Returns the first point that a moving sphere touches. The centre of the sphere moves along origin + t
+  /// direction, t >= 0.
+  ///
+  /// It is the point with the smallest `enter` of Sphere(point, radius).intersect(origin, direction), and the
+  /// smallest index among equals. For a ray, use a small radius. A zero direction tests the sphere at the
+  /// origin. Returns nothing if the origin or the direction is not finite. Throws std::invalid_argument
+  /// unless the radius is from 0 to 1e100.
   std::optional<PointHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     double radius) const;
 
-  /// What the tree is made of, and the instruction set of its questions, for those who walk it themselves.
+  /// Returns the points and boxes, for callers that traverse the tree themselves.
   const PackedTree& packed() const { return tree_; }
+  /// Returns the instruction set of the queries: that of the last build.
   UsableIsa isa() const { return isa_; }
 
  private:
-  // What building needs, kept for the next cloud; not copied.
+  // Buffers for building, retained for the next cloud. A copy of a tree has buffers of its own.
   struct Scratch;
-  struct KeptScratch {
-    KeptScratch() = default;
-    KeptScratch(const KeptScratch&) {}
+  struct ReusedScratch {
+    ReusedScratch() = default;
+    ReusedScratch(const ReusedScratch&) {}
     // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): each keeps its own.
-    KeptScratch& operator=(const KeptScratch&) { return *this; }
-    KeptScratch(KeptScratch&&) = default;
-    KeptScratch& operator=(KeptScratch&&) = default;
+    ReusedScratch& operator=(const ReusedScratch&) { return *this; }
+    ReusedScratch(ReusedScratch&&) = default;
+    ReusedScratch& operator=(ReusedScratch&&) = default;
     std::shared_ptr<Scratch> scratch;
   };
 
@@ -126,7 +147,7 @@ class PointTree {
   PackedTree tree_;
   UsableIsa isa_ = Isa::scalar;
   std::size_t dropped_ = 0;
-  KeptScratch kept_;
+  ReusedScratch scratch_;
 };
 
 }  // namespace pcl_bv

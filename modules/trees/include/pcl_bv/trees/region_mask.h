@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which points of a cloud are inside volumes: a robot's own links, which its sensors see, or a region to
-// crop.
+// Finds the points of a cloud that are inside given volumes, e.g. a robot's own links or a region to crop.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,58 +10,65 @@
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/kernels/region_states.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 class VolumeBoxes;
 
-/// A volume, grown by `padding` (in the points' unit, 0 to 1e100) in every direction. Empty ones stay empty.
+/// A volume inflated by `padding` in every direction. The padding is in the unit of the points, 0 to 1e100.
 ///
-/// It keeps its kind, and holds every point within `padding` of a point of the volume, by exact arithmetic:
-/// - Sphere, Capsule: the radius grows. Nothing else is inside.
-/// - Aabb, Obb: the half extents grow; so the corners stay sharp. Cylinder: radius and half height.
-/// - Kdop, Hull: each plane moves outward. A corner reaches farther the sharper it is: between two planes at
-///   an angle a, by padding / sin(a / 2).
-/// - Ellipsoid: radius r becomes sqrt(r^2 + padding^2 + padding (r^2 / m + m)) for an m between the least and
-///   the greatest of the three, that which makes the volume nearly least (Kurzhanski, Valyi 1997). Radii
-///   greater by the padding would not hold all of that; equal ones do become so.
-/// Each number is rounded up.
+/// The inflated volume has the same type and holds, by exact arithmetic, every point within `padding` of the
+/// volume. Each number is rounded up. An empty volume stays empty.
+/// - Sphere, Capsule: the radius grows by the padding. The result holds no other points.
+/// - Aabb, Obb: the half extents grow, so corners stay sharp. Cylinder: radius and half height grow.
+/// - Kdop, Hull: each plane moves outward. The edge between two planes at an interior angle a moves by
+///   padding / sin(a / 2), so sharp edges move farther.
+/// - Ellipsoid: a radius r becomes sqrt(r^2 + padding^2 + padding (r^2 / m + m)). The m between the smallest
+///   and the largest radius is chosen so that the volume is nearly minimal (Kurzhanski, Valyi 1997). Equal
+///   radii become r + padding; unequal radii have to grow by more.
 struct Region {
+  /// The volume before inflation.
   AnyVolume volume;
+  /// Distance by which the volume is inflated.
   double padding = 0;
 };
 
-/// The union of some regions. Const calls may run side by side; copies are independent.
+/// Tests points against the union of inflated volumes.
+///
+/// Const member functions may be called from several threads at once. Copies are independent.
 class RegionMask {
  public:
-  /// No regions: nothing is inside. Throws std::invalid_argument, naming value and range, for a padding that
-  /// is not from 0 to 1e100.
+  /// Inflates the volumes. Without regions nothing is inside. Throws std::invalid_argument, with the value
+  /// and the range, for a padding outside 0 to 1e100.
   explicit RegionMask(const std::vector<Region>& regions);
 
-  /// Whether contains() of one of the grown volumes holds: with padding 0, of the volumes themselves. So it
-  /// errs only towards true, and by no more than they say. False for a point that is_valid() does not count.
+  /// Returns whether contains() holds for any of the inflated volumes; with padding 0, of the volumes
+  /// themselves. Points within rounding of a surface may be taken as inside, as contains() of each type says.
+  /// Returns false if is_valid() does not hold for the point.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// Sets inside[i] to 1 where contains() holds for the i-th visited point, else to 0, and its size to
-  /// points.count; a NaN or an infinity is inside nothing. The same for every Execution, whose supports are
-  /// not asked. Throws what a PointSource throws. Up to kFewRegions every point is tested against all of
-  /// them, where those whose boxes are elsewhere cost little, and nothing is allocated but what `inside`
-  /// lacks. More of them are in a tree, which runs of points are looked up in.
+  /// Resizes `inside` to points.count and sets inside[i] to 1 where contains() holds for the i-th visited
+  /// point, else to 0. Points with a NaN or an infinity get 0.
+  ///
+  /// The result is the same for every Execution; Execution::supports is ignored. Exceptions of a PointSource
+  /// pass through. Up to kFewRegions regions each point is tested against all of them, which is cheap for
+  /// those whose boxes are far away, and only `inside` is allocated. More regions are looked up in a tree for
+  /// each run of points.
   void mark(const PointView& points, std::vector<std::uint8_t>& inside,
             const Execution& execution = {}) const;
 
-  /// Regions from which on a tree is faster.
+  /// Largest number of regions that are tested without a tree.
   static constexpr std::size_t kFewRegions = 12;
 
  private:
   void mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const;
 
-  std::vector<AnyVolume> volumes_;  // grown
+  std::vector<AnyVolume> volumes_;  // inflated, without the empty ones
   RegionTests tests_;
-  std::shared_ptr<const VolumeBoxes> boxes_;  // null if there are few
+  std::shared_ptr<const VolumeBoxes> boxes_;  // null for at most kFewRegions volumes
 };
 
 }  // namespace pcl_bv

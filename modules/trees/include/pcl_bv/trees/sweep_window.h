@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes around all points of a sensor's last sweeps, without starting over with each.
+// Bounding volumes of a sensor's last sweeps, updated sweep by sweep.
 #pragma once
 
 #include <cstddef>
@@ -11,61 +11,65 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The last sweeps of a sensor, each as a Partial: what it adds to volumes around all of them. Points
-/// themselves are not kept, but for what a Partial keeps.
+/// A sliding window over a sensor's last sweeps, for bounding volumes of all points in the window.
 ///
-/// A sweep that leaves cannot be taken out of a merged Partial. So there are two stacks: one that sweeps come
-/// to, of which all are merged, and one that they leave from, where each is merged with all that came after
-/// it. When the latter is empty, the former is turned over into it. So a sweep is merged twice in its life,
-/// and once more where all() is asked for, whatever the size of the window.
+/// It stores a Partial for each sweep, not the points themselves. Adding a sweep costs a Partial of it and
+/// two merges on average, whatever the size of the window.
 ///
-/// Volumes are as Partial says for these points by these numbers: the bits of a Partial of them all, and but
-/// for the methods named there, and those that begin with moments, of a fit of them all.
+/// The volumes are bit by bit those of one Partial of all points in the window, with the indices that add()
+/// gives them. They are also bit by bit those of a fit of all these points, except for the methods that
+/// Partial names and the methods that begin with moments.
 ///
-/// Not to be used by several threads at a time.
+/// Not thread-safe: merged() also changes the object.
 class SweepWindow {
  public:
-  /// Of the last `sweeps` (at least 1, or std::invalid_argument).
+  /// An empty window for the last `sweeps` sweeps. Throws std::invalid_argument for 0.
   explicit SweepWindow(std::size_t sweeps);
 
-  /// The newest sweep; the oldest leaves if there are more than the window holds. Points are numbered as they
-  /// come: this sweep's follow the last one's, whatever they are called in their view. Costs a Partial of the
-  /// sweep and, on average, two merges. Throws what Partial does, for a view with an index list among others,
-  /// and std::invalid_argument for floats among doubles and the other way round; then nothing is changed.
+  /// Adds the newest sweep, and drops the oldest if the window is full.
+  ///
+  /// Points are numbered as they arrive: the indices continue those of the sweep before, and the indices of
+  /// the view are ignored. Throws as Partial does (for example for a view with an index list), and
+  /// std::invalid_argument if the window has points of the other scalar type. Then nothing is changed.
   void add(const PointView& points, const Execution& execution = {});
 
-  /// The oldest sweep leaves, if there is one.
+  /// Drops the oldest sweep. Without sweeps it does nothing.
   void drop_oldest();
 
-  std::size_t capacity() const { return capacity_; }                    ///< Sweeps that the window holds.
-  std::size_t size() const { return oldest_.size() + newest_.size(); }  ///< Sweeps in it.
-  std::size_t points() const { return points_; }  ///< Of the sweeps in it, valid or not.
-  std::uint64_t first() const { return first_; }  ///< Number of the first point in it.
+  std::size_t capacity() const { return capacity_; }                    ///< Largest number of sweeps.
+  std::size_t size() const { return oldest_.size() + newest_.size(); }  ///< Number of sweeps.
+  std::size_t point_count() const { return points_; }   ///< Number of points of these sweeps, valid or not.
+  std::uint64_t first_index() const { return first_; }  ///< Index of the first point in the window.
 
-  /// What all points in the window contribute: with fit() for any method that Partial::serves(). Of no points
-  /// if there is no sweep. Merged when asked for first after a change: one merge.
-  const Partial& all() const;
+  /// Returns the Partial of all points in the window: fit() takes any method for which Partial::can_fit()
+  /// holds. It has no points if there is no sweep. The first call after a change costs one merge, later calls
+  /// nothing. The reference is valid until the window changes.
+  const Partial& merged() const;
 
  private:
+  // A queue of two stacks, as a sweep cannot be taken out of a merged Partial. add() pushes to newest_ and
+  // merges into newest_merged_. drop_oldest() pops from oldest_, in which each entry is merged with all that
+  // are newer. If oldest_ is empty, refill_oldest() moves all of newest_ there. So each sweep is merged
+  // twice.
   struct Sweep {
-    Partial merged;  // in oldest_: with all that came after it to there
+    Partial merged;  // in oldest_: merged with all newer sweeps in oldest_
     std::size_t points;
   };
 
-  void turn_over();
+  void refill_oldest();
 
   std::size_t capacity_;
-  std::vector<Sweep> oldest_;  // the next to leave is the last
-  std::vector<Sweep> newest_;  // the last is the newest
+  std::vector<Sweep> oldest_;  // the last entry is the oldest sweep
+  std::vector<Sweep> newest_;  // the last entry is the newest sweep
   Partial newest_merged_;
   std::uint64_t first_ = 0;
   std::size_t points_ = 0;
-  ScalarType scalar_ = ScalarType::float32;  // of those, if there are any
-  mutable std::optional<Partial> all_;
+  ScalarType scalar_ = ScalarType::float32;  // of all points in the window
+  mutable std::optional<Partial> merged_;
 };
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Questions to many volumes at a time: which of them hold a point, does a ray hit, is another one near.
+// A search tree over volumes: which of them hold a point, are hit by a ray or are near another volume.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,96 +12,112 @@
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What a tree's nodes are compared by. All have boxes, which sixteen at a time are looked at; the others are
-/// asked about where boxes do not tell. No choice changes an answer.
+/// Bounds of the tree's nodes. Every node has an axis-aligned box; 16 boxes are tested at a time. The other
+/// bounds are tested only where the boxes do not decide. The choice changes no result.
 enum class NodeBounds : std::uint8_t {
-  aabb,   ///< Boxes alone: the cheapest to build and to refit.
-  dop14,  ///< And slabs along the cube's diagonals (Klosowski et al. 1998); five times as long to build.
-  sphere  ///< And spheres; twice as long to build.
+  aabb,  ///< Boxes only: the cheapest to build and to refit.
+  /// Boxes, and slabs along the diagonals of the cube (Klosowski et al. 1998). Building takes five times as
+  /// long as with boxes only.
+  dop14,
+  sphere  ///< Boxes, and spheres. Building takes twice as long as with boxes only.
 };
 
-/// A volume of a tree that a ray hits, and where.
+/// A volume of a tree and the part of a ray inside of it.
 struct VolumeHit {
+  /// Index of the volume.
   std::int32_t index;
   RayInterval interval;
 };
 
-/// A volume of a tree and how far it is from a place.
+/// A volume of a tree and its distance from a query point.
 struct VolumeDistance {
+  /// Index of the volume.
   std::int32_t index;
   double distance;
 };
 
+/// A ray: origin + t direction, t >= 0.
 struct Ray {
   Eigen::Vector3d origin;
-  Eigen::Vector3d direction;  ///< Of any length, which is the unit of where a hit is.
+  Eigen::Vector3d direction;  ///< Of any length; t counts multiples of it.
 };
 
-/// Volumes of any kinds in the order of a balanced k-d tree of their middles, with boxes around 16, around 16
-/// of those and so on.
+/// A search tree over volumes of any types.
 ///
-/// Volumes are named by their numbers in the list that they came in. Each question is decided by the volumes'
-/// own verbs, as if all were asked one after another: bounds only spare those on which the answer cannot
-/// depend. Lists are ascending and replace what was in them. Empty volumes are never found. Volumes that no
-/// box is known for, such as hulls whose planes enclose nothing, are asked each time, and so are ellipsoids
-/// about rays of which one radius is more than 2^20 times another. Frame and unit are the volumes' own.
+/// Volumes are identified by their index in the list that the tree was built from; frame and unit are those
+/// of the volumes. Every query gives the result of calling the volumes' own member functions one after
+/// another; bounds only skip volumes that cannot change the result. Output lists are replaced and in
+/// ascending order of index. Empty volumes are never found.
 ///
-/// Const calls may run side by side; copies are independent.
+/// The volumes are in the order of a balanced k-d tree of their centres. Each 16 volumes have a box, each 16
+/// boxes have a common box, and so on. Volumes without a known box, such as hulls whose planes bound no body,
+/// are tested in every query. Ellipsoids with one radius more than 2^20 times another are tested for every
+/// ray.
+///
+/// Const member functions may be called from several threads at once. Copies are independent.
 class VolumeTree {
  public:
-  /// Of no volumes.
+  /// A tree without volumes.
   VolumeTree();
 
-  /// O(n log n); 0.2 us for each sphere with boxes, 2.5 us for an Obb, whose aabb() is exact. The same tree
-  /// for every Execution. Throws std::invalid_argument for more than 2^31 - 1 volumes and for
-  /// Execution::supports.
+  /// Builds the tree. O(n log n): 0.2 us for each sphere with boxes only, 2.5 us for an Obb, whose aabb() is
+  /// exact. The tree is the same for every Execution. Throws std::invalid_argument for more than 2^31 - 1
+  /// volumes and unless Execution::supports is null.
   explicit VolumeTree(std::vector<AnyVolume> volumes, NodeBounds bounds = NodeBounds::aabb,
                       const Execution& execution = {});
 
-  /// Other volumes in place of the same numbers: those of a next frame, that moved. Answers are as those of a
-  /// new tree, which is faster to ask if they moved far. O(n). Throws std::invalid_argument for another
-  /// number of them, and then nothing is changed.
+  /// Replaces each volume by the volume of the same index, e.g. after they have moved. O(n).
+  ///
+  /// Queries give the same results as on a new tree, which is faster to query if the volumes have moved far.
+  /// Throws std::invalid_argument, and changes nothing, if the number of volumes differs or
+  /// Execution::supports is not null.
   void refit(std::vector<AnyVolume> volumes, const Execution& execution = {});
 
-  std::size_t size() const;  ///< Volumes, empty ones among them.
+  std::size_t size() const;  ///< Number of volumes, including empty ones.
+  /// Returns the volumes in the order of their indices.
   const std::vector<AnyVolume>& volumes() const;
+  /// Returns the bounds of the nodes.
   NodeBounds node_bounds() const;
 
-  /// Whether contains() holds for any volume, and for which.
+  /// Returns whether contains() holds for any volume.
   bool any_containing(const Eigen::Vector3d& point) const;
+  /// Lists the volumes for which contains() holds.
   void all_containing(const Eigen::Vector3d& point, std::vector<std::int32_t>& indices) const;
 
-  /// The volume that a ray enters first: of those that intersect() says it hits the one with the least enter,
-  /// of equal ones the first.
+  /// Returns the volume that the ray origin + t direction, t >= 0, enters first: of the volumes for which
+  /// intersect() gives an interval the one with the smallest `enter`, and the smallest index among equals.
   std::optional<VolumeHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// All that it hits.
+  /// Lists all volumes that the ray hits.
   void all_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                std::vector<VolumeHit>& hits) const;
 
-  /// Those whose aabb() overlaps the box.
-  void all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const;
+  /// Lists the volumes whose aabb() overlaps the box.
+  void all_with_box_overlapping(const Aabb& box, std::vector<std::int32_t>& indices) const;
 
-  /// Those that overlap it, as overlaps() of pairs.h says; each whose box is near is made ready for that
-  /// first.
+  /// Lists the volumes that overlap `volume`, as overlaps() of pair_queries.h decides. Makes a ConvexBody of
+  /// each volume whose box overlaps.
   void all_overlapping(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
 
-  /// That with the least distance() from the point, of equal ones the first, if it is at most max_distance.
-  /// None for a point with a NaN. Throws std::invalid_argument for a max_distance below 0 or NaN.
+  /// Returns the volume nearest to the point, if its distance() is at most `max_distance`; the smallest index
+  /// among equals. Returns nothing for a point with a NaN. Throws std::invalid_argument if max_distance is
+  /// negative or NaN.
   std::optional<VolumeDistance> nearest(const Eigen::Vector3d& point,
                                         double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// For each visited point the number of the first volume that contains() it, or -1: labels, to set first[0]
-  /// to first[points.count - 1]. The same for every Execution. Throws what a PointSource throws.
+  /// Sets first[i] to the smallest index of the volumes that contain the i-th visited point, or to -1 if
+  /// there is none. Resizes `first` to points.count. The result is the same for every Execution. Exceptions
+  /// of a PointSource pass through.
   void first_containing(const PointView& points, std::vector<std::int32_t>& first,
                         const Execution& execution = {}) const;
 
-  /// For each ray its first_hit(), with index -1 where there is none.
+  /// Sets hits[i] to first_hit() of rays[i], with index -1 if it hits nothing. Resizes `hits`. The result is
+  /// the same for every Execution.
   void first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,
                   const Execution& execution = {}) const;
 

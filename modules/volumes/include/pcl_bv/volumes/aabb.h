@@ -13,77 +13,83 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A copy of an Aabb for float consumers, rounded outward: it encloses the box. Beyond the range of float:
-/// infinite.
+/// A float copy of an Aabb, rounded outward so that it encloses the box. Bounds beyond the range of float are
+/// rounded outward, too: to infinity if necessary.
 struct FloatAabb {
   Eigen::Vector3f min;
   Eigen::Vector3f max;
 };
 
-/// An axis-aligned box in the frame and unit of its points: min <= p <= max in each coordinate, a closed set.
+/// An axis-aligned box in the frame and unit of its points: the closed set of all p with min <= p <= max in
+/// each coordinate.
 ///
-/// The empty box (the identity of merge) has min = +infinity and max = -infinity. Flat boxes (min equal to
-/// max along one, two or all three axes) are volumes like any other. Coordinates beyond 1e100 overflow in
-/// volume() and the like.
+/// The empty box has min = +infinity and max = -infinity; merging it into another box changes nothing. A flat
+/// box (min equal to max along one, two or all three axes) is a valid volume. Coordinates beyond 1e100 may
+/// overflow in functions that multiply them, such as volume().
 class Aabb {
  public:
-  /// The empty box.
+  /// Makes the empty box.
   Aabb();
 
-  /// The box between two corners. Any min above its max: the empty box. Otherwise all six must be finite, or
-  /// std::invalid_argument. A -0 is stored as 0.
+  /// Makes the box between two corners. If any min exceeds its max, the box is empty. Otherwise throws
+  /// std::invalid_argument unless all six numbers are finite. Stores -0 as 0.
   Aabb(const Eigen::Vector3d& min, const Eigen::Vector3d& max);
 
-  const Eigen::Vector3d& min() const { return min_; }
-  const Eigen::Vector3d& max() const { return max_; }
+  const Eigen::Vector3d& min() const { return min_; }  ///< Minimum coordinates; +infinity if empty.
+  const Eigen::Vector3d& max() const { return max_; }  ///< Maximum coordinates; -infinity if empty.
 
+  /// Returns whether the box has no point.
   bool empty() const;
 
-  /// Exact comparison: min <= point <= max. False for an empty box and for a point that is not finite.
+  /// Returns whether min <= point <= max in each coordinate, compared exactly. False for an empty box and for
+  /// a point with a coordinate that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// In cubed units; 0 for an empty or a flat box.
+  /// Returns the volume in cubed units; 0 for an empty or flat box.
   double volume() const;
 
-  /// In squared units; both sides of a flat box count. 0 for an empty box.
+  /// Returns the surface area in squared units. Both sides of a flat box count. 0 for an empty box.
   double surface_area() const;
 
-  /// The centre of mass. NaN for an empty box.
+  /// Returns the centre of the box. NaN if empty.
   Eigen::Vector3d center() const;
 
-  /// A corner of the box farthest along `direction` (any length). NaN for an empty box.
+  /// Returns a corner that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point to the box, 0 inside. Infinity for an empty box, NaN for a point with a NaN.
+  /// Returns the distance from the point to the box; 0 if the point is inside. Infinity if the box is empty
+  /// or a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says. Each end is off by no more than 2^-50
-  /// of itself, plus 2^-1021.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. The error
+  /// of `enter` and `exit` is at most 2^-50 of their magnitude plus 2^-1021.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Whether the two have a point in common: exact comparison. False if either is empty.
+  /// Returns whether the boxes have a point in common, compared exactly. False if either box is empty.
   bool overlaps(const Aabb& other) const;
 
-  /// The eight corners: corner i has max x where bit 0 of i is set, max y for bit 1, max z for bit 2. Those
-  /// of an empty box are meaningless (infinite).
+  /// Returns the eight corners. Corner i has max x if bit 0 of i is set, max y if bit 1 is set and max z if
+  /// bit 2 is set, else min. The corners of an empty box are infinite and meaningless.
   std::array<Eigen::Vector3d, 8> corners() const;
 
+  /// Returns the box itself.
   Aabb aabb() const { return *this; }
 
-  /// corners() and six quadrilaterals; nothing for an empty box.
+  /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// The box of the moved box: the image of every point of this box, by exact arithmetic on the stored
-  /// matrix, is inside; each side is the smallest double (greatest, for min) that does so, unless a product
-  /// is below 1e-289, where some 1e-307 is added.
+  /// Returns the axis-aligned box of the transformed box. It contains every transformed point of this box, by
+  /// exact arithmetic on the stored matrix. Each max is the smallest such double and each min the largest;
+  /// if a product is below 1e-289, the box may be larger by about 1e-307.
   Aabb transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Grows to hold the point. A point with a coordinate that is not finite is ignored.
+  /// Enlarges the box to contain the point. A point with a coordinate that is not finite is ignored.
   Aabb& extend(const Eigen::Vector3d& point);
 
-  /// Grows to hold the other box: exact, commutative and associative.
+  /// Enlarges the box to contain the other box. Exact, commutative and associative.
   Aabb& merge(const Aabb& other);
 
+  /// Returns a float copy that encloses the box.
   FloatAabb cast_float() const;
 
  private:
@@ -91,7 +97,7 @@ class Aabb {
   Eigen::Vector3d max_;
 };
 
-/// The same numbers.
+/// Returns whether the boxes have equal min and max.
 bool operator==(const Aabb& a, const Aabb& b);
 inline bool operator!=(const Aabb& a, const Aabb& b) {
   return !(a == b);

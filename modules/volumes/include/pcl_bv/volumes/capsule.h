@@ -13,53 +13,57 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A capsule in the frame and unit of its points: all p with a distance from the segment a b of at most the
-/// radius, a closed set.
+/// A capsule in the frame and unit of its points: the closed set of all p whose distance from the segment
+/// from a to b is at most the radius.
 ///
-/// The empty capsule has radius -1 and ends NaN. Equal ends: a sphere; radius 0: a segment. Coordinates
-/// beyond 1e100 are not supported.
+/// The empty capsule has radius -1 and ends NaN. A capsule with equal ends is a sphere, one with radius 0 a
+/// segment. Coordinates beyond 1e100 are not supported.
 class Capsule {
  public:
-  /// The empty capsule.
+  /// Makes the empty capsule.
   Capsule();
 
-  /// A negative radius: the empty capsule. Otherwise all must be finite, or std::invalid_argument. A -0 is
-  /// stored as 0.
+  /// Makes a capsule around the segment from a to b. A negative radius gives the empty capsule. Otherwise
+  /// throws std::invalid_argument unless all numbers are finite. Stores -0 as 0.
   Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius);
 
-  const Eigen::Vector3d& a() const { return a_; }
-  const Eigen::Vector3d& b() const { return b_; }
-  double radius() const { return radius_; }
+  const Eigen::Vector3d& a() const { return a_; }  ///< First end of the segment; NaN if empty.
+  const Eigen::Vector3d& b() const { return b_; }  ///< Second end of the segment; NaN if empty.
+  double radius() const { return radius_; }        ///< Radius; -1 if empty.
 
+  /// Returns whether the capsule has no point.
   bool empty() const { return radius_ < 0; }
 
-  /// The definition in double, give or take 2^-48 (|p - a|_1 + |b - a|_1 + radius) for its own rounding:
-  /// every point inside by exact arithmetic is contained; it errs only towards true. False for an empty
-  /// capsule and a point that is not finite.
+  /// Returns whether the capsule contains the point. Conservative: true for every point that is inside by
+  /// exact arithmetic. False for an empty capsule and for a point with a coordinate that is not finite.
+  /// Computed in double, with a tolerance of 2^-48 (|p - a|_1 + |b - a|_1 + radius) + 2^-1022 for rounding.
   bool contains(const Eigen::Vector3d& point) const;
 
-  double volume() const;           ///< In cubed units; 0 if empty.
-  double surface_area() const;     ///< In squared units; 0 if empty.
-  Eigen::Vector3d center() const;  ///< The middle of the segment. NaN if empty.
+  double volume() const;           ///< Volume in cubed units; 0 if empty.
+  double surface_area() const;     ///< Surface area in squared units; 0 if empty.
+  Eigen::Vector3d center() const;  ///< Middle of the segment. NaN if empty.
 
-  /// The point farthest along `direction` (any length; the centre for 0). NaN if empty.
+  /// Returns the point that is farthest along `direction` (any length; for a zero direction the centre). NaN
+  /// if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
+  /// Returns the distance from the point to the capsule; 0 if contains() is true. Infinity if the capsule is
+  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says: made of Sphere::intersect() and
-  /// Cylinder::intersect().
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the capsule; see RayInterval.
+  /// Computed by Sphere::intersect() and Cylinder::intersect(), with their error bounds.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// The smallest box in double around the capsule: encloses it by exact arithmetic.
+  /// Returns the smallest box of doubles that encloses the capsule by exact arithmetic.
   Aabb aabb() const;
 
-  /// Two half spheres and what is between them, with 24 sides, vertices on the surface. Nothing if empty.
+  /// Returns two half spheres and the tube between them, with 24 sides and vertices on the surface. An empty
+  /// mesh if empty.
   Mesh mesh() const;
 
-  /// The moved capsule. The radius grows by the rounding of the ends and by what the stored matrix stretches,
-  /// so that the image of every point, by exact arithmetic, is inside.
+  /// Returns the transformed capsule. It contains every transformed point of this capsule, by exact
+  /// arithmetic. The radius grows by the rounding error of the ends and by the stretch of the stored matrix.
   Capsule transformed(const Eigen::Isometry3d& transform) const;
 
  private:
@@ -67,7 +71,7 @@ class Capsule {
   double radius_;
 };
 
-/// The same numbers, or both empty.
+/// Returns whether ends and radius are equal, or both capsules are empty.
 bool operator==(const Capsule& a, const Capsule& b);
 inline bool operator!=(const Capsule& a, const Capsule& b) {
   return !(a == b);

@@ -13,54 +13,60 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A cylinder in the frame and unit of its points: with q = p - center, |q x axis| <= radius |axis| and
-/// |q . axis| <= half_height |axis|, a closed set. The axis has length 1 up to rounding.
+/// A cylinder in the frame and unit of its points: the closed set of all p = center + q with
+/// |q x axis| <= radius |axis| and |q . axis| <= half_height |axis|. The axis has length 1 up to rounding.
 ///
-/// The empty cylinder has radius and half height -1 and centre NaN. Radius or half height 0: a segment, a
-/// disc, a point. Coordinates beyond 1e100 are not supported.
+/// The empty cylinder has radius and half height -1 and centre NaN. A cylinder with radius 0 is a segment,
+/// one with half height 0 a disc, one with both 0 a point. Coordinates beyond 1e100 are not supported.
 class Cylinder {
  public:
-  /// The empty cylinder.
+  /// Makes the empty cylinder.
   Cylinder();
 
-  /// A negative radius or half height: the empty cylinder. Otherwise all must be finite and the axis not
-  /// zero, or std::invalid_argument. An axis that is not of length 1 to 2^-50 is made so. A -0 is stored as
-  /// 0.
+  /// Makes a cylinder. A negative radius or half height gives the empty cylinder. Otherwise throws
+  /// std::invalid_argument unless all numbers are finite and the axis is not zero. The axis is normalised
+  /// unless its squared length is 1 to 2^-50. Stores -0 as 0.
   Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double radius, double half_height);
 
-  const Eigen::Vector3d& center() const { return center_; }
-  const Eigen::Vector3d& axis() const { return axis_; }
-  double radius() const { return radius_; }
-  double half_height() const { return half_height_; }
+  const Eigen::Vector3d& center() const { return center_; }  ///< Centre; NaN if empty.
+  const Eigen::Vector3d& axis() const { return axis_; }      ///< Direction of the axis, of length 1.
+  double radius() const { return radius_; }                  ///< Radius; -1 if empty.
+  double half_height() const { return half_height_; }        ///< Half the height; -1 if empty.
 
+  /// Returns whether the cylinder has no point.
   bool empty() const { return radius_ < 0; }
 
-  /// The definition in double, give or take 2^-48 |p - center|_1 for its own rounding: every point inside by
-  /// exact arithmetic is contained; it errs only towards true. False for an empty cylinder and a point that
-  /// is not finite.
+  /// Returns whether the cylinder contains the point. Conservative: true for every point that is inside by
+  /// exact arithmetic. False for an empty cylinder and for a point with a coordinate that is not finite.
+  /// Computed in double, with a tolerance of 2^-48 |p - center|_1 + 2^-1022 for rounding.
   bool contains(const Eigen::Vector3d& point) const;
 
-  double volume() const;        ///< In cubed units; 0 if empty.
-  double surface_area() const;  ///< In squared units, with both ends; 0 if empty.
+  double volume() const;        ///< Volume in cubed units; 0 if empty.
+  double surface_area() const;  ///< Surface area in squared units, with both ends; 0 if empty.
 
-  /// A point farthest along `direction` (any length). NaN if empty.
+  /// Returns a point that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
+  /// Returns the distance from the point to the cylinder; 0 if contains() is true. Infinity if the cylinder
+  /// is empty or a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says. Each end is in a cylinder greater by
-  /// at most 2^-43 (|origin - center|_1 + radius + half height) each way.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the cylinder; see RayInterval. Both
+  /// ends of the interval lie in a cylinder whose radius and half height are larger by at most
+  /// 2^-43 (|origin - center|_1 + radius + half_height).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// A box around the cylinder, by exact arithmetic; greater than the smallest by some 2^-46 of the size.
+  /// Returns a box that encloses the cylinder by exact arithmetic; larger than the smallest such box by about
+  /// 2^-46 of the size.
   Aabb aabb() const;
 
-  /// A prism of 48 sides whose edges lie on the surface, and the two ends. Nothing if empty.
+  /// Returns a prism of 48 sides, whose edges lie on the surface, with its two end polygons. An empty mesh if
+  /// empty.
   Mesh mesh() const;
 
-  /// The moved cylinder. Radius and half height grow by the rounding of centre and axis and by what the
-  /// stored matrix stretches, so that the image of every point, by exact arithmetic, is inside.
+  /// Returns the transformed cylinder. It contains every transformed point of this cylinder, by exact
+  /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the stretch of
+  /// the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
 
  private:
@@ -68,7 +74,7 @@ class Cylinder {
   double radius_, half_height_;
 };
 
-/// The same numbers, or both empty.
+/// Returns whether centre, axis, radius and half height are equal, or both cylinders are empty.
 bool operator==(const Cylinder& a, const Cylinder& b);
 inline bool operator!=(const Cylinder& a, const Cylinder& b) {
   return !(a == b);

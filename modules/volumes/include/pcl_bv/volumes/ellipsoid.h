@@ -13,58 +13,66 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An ellipsoid in the frame and unit of its points: the sum over i of ((axis i . (p - center)) / radius i)^2
-/// is at most 1, a closed set; where a radius is 0, axis i . (p - center) = 0 instead. Axes are the columns
-/// of a matrix, orthonormal to 1e-12.
+/// An ellipsoid in the frame and unit of its points: the closed set of all p for which the sum over i of
+/// (axis i . (p - center) / radius i)^2 is at most 1. For a radius of 0, the term is replaced by the
+/// condition axis i . (p - center) = 0. The axes are the columns of a matrix that is orthonormal to 1e-12.
 ///
-/// The empty ellipsoid has radii -1 and centre NaN. Flat ones (some or all radii 0) are volumes like any
-/// other. Coordinates beyond 1e100 are not supported.
+/// The empty ellipsoid has radii -1 and centre NaN. A flat ellipsoid (some or all radii 0) is a valid volume.
+/// Coordinates beyond 1e100 are not supported.
 class Ellipsoid {
  public:
-  /// The empty ellipsoid.
+  /// Makes the empty ellipsoid.
   Ellipsoid();
 
-  /// Any negative radius: the empty ellipsoid. Otherwise all must be finite and the axes orthonormal to
-  /// 1e-12, or std::invalid_argument. A -0 is stored as 0.
+  /// Makes an ellipsoid. Any negative radius gives the empty ellipsoid. Otherwise throws
+  /// std::invalid_argument unless all numbers are finite and the axes are orthonormal to 1e-12. Stores -0 as
+  /// 0.
   Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen::Vector3d& radii);
 
-  const Eigen::Vector3d& center() const { return center_; }
-  const Eigen::Matrix3d& axes() const { return axes_; }
-  const Eigen::Vector3d& radii() const { return radii_; }
+  const Eigen::Vector3d& center() const { return center_; }  ///< Centre; NaN if empty.
+  const Eigen::Matrix3d& axes() const { return axes_; }      ///< The axes as columns.
+  const Eigen::Vector3d& radii() const { return radii_; }    ///< Radius along each axis; -1 if empty.
 
+  /// Returns whether the ellipsoid has no point.
   bool empty() const { return radii_[0] < 0; }
 
-  /// The definition in double, each axis i . (p - center) taken to be nearer 0 by 2^-49 |p - center|_1, and 1
-  /// to be 1 + 2^-48: every point inside by exact arithmetic is contained; it errs only towards true. False
-  /// for an empty ellipsoid and a point that is not finite.
+  /// Returns whether the ellipsoid contains the point. Conservative: true for every point that is inside by
+  /// exact arithmetic. False for an empty ellipsoid and for a point with a coordinate that is not finite.
+  ///
+  /// Computed in double: each axis i . (p - center) is moved towards 0 by 2^-49 |p - center|_1 + 2^-1022, and
+  /// the sum is compared with 1 + 2^-48.
   bool contains(const Eigen::Vector3d& point) const;
 
-  double volume() const;  ///< In cubed units; 0 if empty or flat.
+  double volume() const;  ///< Volume in cubed units; 0 if empty or flat.
 
-  /// In squared units; both sides of a flat one count. 0 if empty. Carlson 1995, to about 1e-14.
+  /// Returns the surface area in squared units, accurate to about 1e-14 (Carlson 1995). Both sides of a flat
+  /// ellipsoid count. 0 if empty.
   double surface_area() const;
 
-  /// The point farthest along `direction` (any length; the centre for 0). NaN if empty.
+  /// Returns the point that is farthest along `direction` (any length; for a zero direction the centre). NaN
+  /// if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point, 0 where contains() holds, to about 1e-14 of the greater of it and the size.
-  /// Infinity if empty, NaN for a point with a NaN. Eberly 2013: a root by bisection.
+  /// Returns the distance from the point to the ellipsoid; 0 if contains() is true. Infinity if the ellipsoid
+  /// is empty or a coordinate is infinite, NaN if a coordinate is NaN. Accurate to about 1e-14 of the
+  /// distance or the size, whichever is larger (Eberly 2013, with bisection).
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says. Each end is in an ellipsoid whose
-  /// radii are greater by 2^-44 (|origin - center|_1 + the greatest radius), times the quotient of the
-  /// greatest and the least.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Both
+  /// ends of the interval lie in an ellipsoid whose radii are larger by 2^-44 (|origin - center|_1 + largest
+  /// radius), times the ratio of the largest to the smallest radius.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// A box around the ellipsoid, by exact arithmetic; greater than the smallest by some 1e-12 of the size at
-  /// most.
+  /// Returns a box that encloses the ellipsoid by exact arithmetic; larger than the smallest such box by at
+  /// most about 1e-12 of the size.
   Aabb aabb() const;
 
-  /// 24 by 13 points of the surface and the faces between them. Nothing if empty.
+  /// Returns 24 by 13 vertices on the surface and the faces between them. An empty mesh if empty.
   Mesh mesh() const;
 
-  /// The moved ellipsoid. The radii grow by the rounding of centre and axes, so that the image of every
-  /// point, by exact arithmetic, is inside; radii less than 2^-30 of the greatest first become that.
+  /// Returns the transformed ellipsoid. It contains every transformed point of this ellipsoid, by exact
+  /// arithmetic. Radii below 2^-30 of the largest are first raised to that value; then all radii grow by the
+  /// rounding error of centre and axes.
   Ellipsoid transformed(const Eigen::Isometry3d& transform) const;
 
  private:
@@ -73,7 +81,7 @@ class Ellipsoid {
   Eigen::Vector3d radii_;
 };
 
-/// The same numbers, or both empty.
+/// Returns whether centre, axes and radii are equal, or both ellipsoids are empty.
 bool operator==(const Ellipsoid& a, const Ellipsoid& b);
 inline bool operator!=(const Ellipsoid& a, const Ellipsoid& b) {
   return !(a == b);

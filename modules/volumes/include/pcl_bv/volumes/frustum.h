@@ -9,21 +9,22 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What a camera sees: a pyramid cut off by two planes, as a hull of 8 vertices, 12 triangles and 6 planes,
-/// so that every verb of volumes and every query works on it.
+/// Returns the view frustum of a camera, a pyramid cut off by two planes, as a hull of 8 vertices, 12
+/// triangles and 6 planes. All member functions of volumes and all queries work on it.
 ///
-/// The camera is at the origin of `pose`, from whose frame the pose leads to that of the points. It looks
-/// along its z axis, x to the right and y down: ROS's optical frames, not the x forward of
-/// pcl::FrustumCulling. Points seen are near <= z <= far, |x| <= z horizontal_tan, |y| <= z vertical_tan;
-/// each tangent is of half the field of view, so the first is (columns / 2) / fx of a pinhole camera.
+/// `pose` is the transform from the camera's frame to the frame of the points. The camera is at the origin of
+/// its frame and looks along z, with x to the right and y down: the optical frame of ROS, not the frame of
+/// pcl::FrustumCulling, which has x forward. In the camera's frame, the frustum is near <= z <= far,
+/// |x| <= z horizontal_tan and |y| <= z vertical_tan. The tangents are those of half the fields of view: for
+/// a pinhole camera, horizontal_tan is (columns / 2) / fx.
 ///
-/// Vertices are rounded and each plane is moved outward until it holds all of them, by exact arithmetic:
-/// vertex i is at far where bit 2 of i is set, at positive x for bit 0, at positive y for bit 1; planes are
-/// near, far, positive x, negative x, positive y, negative y.
+/// Vertex i is at `far` if bit 2 of i is set, at positive x if bit 0 is set and at positive y if bit 1 is
+/// set. The planes are near, far, positive x, negative x, positive y, negative y. Vertices are rounded; each
+/// plane is moved outward until it encloses all vertices by exact arithmetic.
 ///
-/// `near` 0 is a whole pyramid. Throws std::invalid_argument unless 0 <= near < far <= 1e100, both tangents
-/// are above 0 and at most 1e6, and the pose is finite, its axes unit and orthogonal to 1e-6 and
-/// right-handed.
+/// `near` 0 gives a complete pyramid. Throws std::invalid_argument unless 0 <= near < far <= 1e100 and both
+/// tangents are above 0 and at most 1e6. Also throws unless the translation of the pose is from -1e100 to
+/// 1e100 in each coordinate, and its axes are right-handed, and unit and orthogonal to 1e-6.
 Hull frustum(const Eigen::Isometry3d& pose, double near, double far, double horizontal_tan,
              double vertical_tan);
 

@@ -18,133 +18,158 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// One number per slab, stored inline (no allocation).
+/// One number per slab, stored inline without an allocation.
 using SlabVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1>;
 
-/// The numbers that a Kdop stores, seen in place: valid as long as it lives and is not assigned to.
+/// A view of the numbers that a Kdop stores. Valid until the Kdop is destroyed or assigned to.
 using SlabView = Eigen::Map<const SlabVector>;
 
-/// A copy of a Kdop for float consumers, slabs rounded outward. Beyond the range of float: infinite.
+/// A float copy of a Kdop with slabs rounded outward, to infinity beyond the range of float if necessary.
 struct FloatKdop {
   std::shared_ptr<const KdopSet> set;
   Eigen::Matrix<float, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1> min;
   Eigen::Matrix<float, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1> max;
 };
 
-/// A k-DOP in the frame and unit of its points: all p with min(i) <= direction(i) . p <= max(i) for each slab
-/// i, a closed convex polytope. Karlsson et al. 2010, section 2.
+/// A k-DOP in the frame and unit of its points: the closed convex polytope of all p with
+/// min(i) <= direction(i) . p <= max(i) for each slab i. Karlsson, Winberg and Larsson 2010, section 2.
 ///
-/// The empty k-DOP (the identity of merge) has min = +infinity and max = -infinity. Flat ones (a plane, a
-/// line, a point) are volumes like any other. Slabs that are each sound but have no point in common are not
-/// empty() but have volume 0 and no corners; tightened() makes them so. Slabs measured on points never do
-/// that. The verbs that need the corners (volume, surface_area, center, corners, mesh, distance to an outside
-/// point) intersect the half-spaces anew at each call, 20 us for a 26-DOP, with the corners good to about
-/// 1e-13 of the extent. Coordinates beyond 1e100 are not supported.
+/// The empty k-DOP has min = +infinity and max = -infinity; merging it into another k-DOP changes nothing. A
+/// flat k-DOP (a polygon, a segment or a point) is a valid volume. Coordinates beyond 1e100 are not
+/// supported.
+///
+/// Slabs with min <= max may nevertheless have no point in common, but never if they were measured on points.
+/// Such a k-DOP has volume 0 and no corners, although empty() is false; tightened() turns it into the empty
+/// k-DOP.
+///
+/// The member functions that need the corners (volume, surface_area, center, corners, mesh, and distance to a
+/// point outside) intersect the half-spaces anew at each call: 20 us for a 26-DOP. The corners are accurate
+/// to about 1e-13 of the extent.
 class Kdop {
  public:
-  /// The empty k-DOP. Throws std::invalid_argument for a null set.
+  /// Makes the empty k-DOP. Throws std::invalid_argument for a null set.
   explicit Kdop(std::shared_ptr<const KdopSet> set = KdopSet::dop26());
 
-  /// Slabs, one per direction. Any min above its max: the empty k-DOP. Otherwise all must be finite. Throws
-  /// std::invalid_argument for that, for a null set and for a wrong number of slabs. A -0 is stored as 0.
+  /// Makes a k-DOP of one slab per direction. If any min exceeds its max, the k-DOP is empty. Otherwise
+  /// throws std::invalid_argument unless all numbers are finite. Also throws for a null set and for a wrong
+  /// number of slabs. Stores -0 as 0.
   Kdop(std::shared_ptr<const KdopSet> set, const SlabVector& min, const SlabVector& max);
 
-  const std::shared_ptr<const KdopSet>& set() const { return set_; }
-  std::size_t size() const { return set_->size(); }  ///< Slabs: half of k.
+  const std::shared_ptr<const KdopSet>& set() const { return set_; }  ///< The directions; never null.
+  std::size_t size() const { return set_->size(); }                   ///< Number of slabs: half of k.
 
-  double min(std::size_t i) const { return numbers()[i]; }
-  double max(std::size_t i) const { return numbers()[size() + i]; }
+  double min(std::size_t i) const { return numbers()[i]; }           ///< Lower bound of slab i.
+  double max(std::size_t i) const { return numbers()[size() + i]; }  ///< Upper bound of slab i.
+
+  /// Lower and upper bounds of all slabs. A temporary Kdop returns copies.
   SlabView min() const& { return {numbers(), static_cast<Eigen::Index>(size())}; }
   SlabView max() const& { return {numbers() + size(), static_cast<Eigen::Index>(size())}; }
   SlabVector min() && { return static_cast<const Kdop&>(*this).min(); }
   SlabVector max() && { return static_cast<const Kdop&>(*this).max(); }
 
-  /// Thickness of slab i in the unit of the points, as for a unit direction (Figure 2, line 13). 0 if empty.
+  /// Returns the thickness of slab i in the unit of the points, as for a direction of length 1 (Karlsson et
+  /// al. 2010, Figure 2, line 13). 0 if empty.
   double width(std::size_t i) const;
 
+  /// Returns whether this is the empty k-DOP, with min > max.
   bool empty() const;
 
-  /// For each slab: s = (x nx + y ny) + z nz lies between min and max, give or take the rounding bound
-  /// 4 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022. So every point inside by exact arithmetic is contained; it
-  /// errs only towards true. False for an empty k-DOP and for a point that is not finite.
+  /// Returns whether the k-DOP contains the point. Conservative: true for every point that is inside by exact
+  /// arithmetic. False for an empty k-DOP and for a point with a coordinate that is not finite.
+  ///
+  /// Computed in double: for each slab, s = (x nx + y ny) + z nz lies between min and max, with a tolerance
+  /// of 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 for rounding.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// Of the polytope, in cubed units; 0 if empty or flat.
+  /// Returns the volume of the polytope in cubed units; 0 if empty or flat.
   double volume() const;
 
-  /// In squared units; both sides of a flat k-DOP count. 0 if empty.
+  /// Returns the surface area in squared units. Both sides of a flat k-DOP count. 0 if empty.
   double surface_area() const;
 
-  /// The centre of mass (of the area, the line, the point if flat). NaN if empty.
+  /// Returns the centre of mass of the polytope; if flat, that of the polygon, segment or point. NaN if empty
+  /// or if the slabs have no point in common.
   Eigen::Vector3d center() const;
 
-  /// A corner farthest along `direction` (any length). NaN if empty. Dual simplex method, about 1 us.
+  /// Returns a corner that is farthest along `direction` (any length). NaN if empty. Dual simplex method,
+  /// about 1 us.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
+  /// Returns the distance from the point to the k-DOP; 0 if contains() is true. Infinity if the k-DOP is
+  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says; where contains() holds for the
-  /// origin, enter is 0. Each projection, of origin and direction, is taken to be off by twice the bound of
-  /// contains(), so a ray that passes a face by less may hit; then each end is moved outward by 2^-51 of
-  /// itself and by 2^-1022. Slab method (Kay, Kajiya 1986), 50 ns for a 26-DOP.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the k-DOP; see RayInterval. `enter`
+  /// is 0 if contains() is true for the origin. Slab method (Kay, Kajiya 1986), 50 ns for a 26-DOP.
+  ///
+  /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
+  /// that misses a face by less than that may hit. Then `enter` and `exit` move outward by 2^-51 of their
+  /// magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Whether all slabs overlap those of the other: exact comparison, the usual test for k-DOPs (Klosowski et
-  /// al. 1998). False proves that no point is in both. True may be wrong unless there are only three
-  /// directions: two polytopes can be apart along another one. False if either is empty. Throws
-  /// std::invalid_argument unless both have equal sets.
+  /// Returns whether each slab overlaps the other k-DOP's slab along the same direction, compared exactly:
+  /// the usual test for k-DOPs (Klosowski et al. 1998). False proves that the k-DOPs have no point in common.
+  /// True may be wrong for more than three directions, because another direction can separate the polytopes.
+  /// False if either is empty. Throws std::invalid_argument unless both have equal sets.
   bool overlaps(const Kdop& other) const;
 
-  /// The same polytope, each slab moved in to where it reaches: what merging, transforming or a user's
-  /// numbers left loose (slabs measured on points are not). Every point of this one is inside by exact
-  /// arithmetic and no slab grows; slabs are tight, and unchanged by a second call, to 1e-13 of the extent
-  /// and 2^-48 of the coordinates. Empty if two bounds cross, which proves that there is no point; that they
-  /// do wherever slabs miss each other by more than that margin is tested, not proven. 10 us for a 26-DOP.
+  /// Returns the same polytope with each slab reduced to the extent of the polytope along its direction.
+  /// Slabs that were merged, transformed or given by hand can be wider than that; slabs measured on points
+  /// are not. The result contains every point of this k-DOP, by exact arithmetic, and no slab grows. Slabs
+  /// are tight, and unchanged by a second call, to 1e-13 of the extent and 2^-48 of the coordinates. 10 us
+  /// for a 26-DOP.
+  ///
+  /// The result is empty if two bounds of a slab cross, which proves that the polytope has no point. That the
+  /// bounds cross whenever slabs miss each other by more than these tolerances is tested, not proven.
   Kdop tightened() const;
 
-  /// A box around the polytope, by exact arithmetic: along an axis that is one of the directions the slab
-  /// itself, else the support along the axis rounded outward.
+  /// Returns a box that encloses the polytope by exact arithmetic. Along a coordinate axis that is one of the
+  /// directions, the box has the bounds of that slab; along any other axis, the support rounded outward.
   Aabb aabb() const;
 
-  /// The vertices of the polytope, none twice; at least one unless empty.
+  /// Returns the vertices of the polytope without duplicates. None if the k-DOP is empty or its slabs have no
+  /// point in common.
   std::vector<Eigen::Vector3d> corners() const;
 
-  /// The corners, with the faces that have some extent. A flat k-DOP is one polygon seen from both sides; a
-  /// line is a face of two vertices, a point has none.
+  /// Returns the corners and the faces. A polygon has two faces, one for each side; a segment has one face of
+  /// two vertices; a point has no face.
   Mesh mesh() const;
 
-  /// The moved polytope's k-DOP along the same directions: the image of every point of this one, by exact
-  /// arithmetic on the stored matrix, is inside. Slabs are tight to a few units in the last place of the
-  /// coordinates.
+  /// Returns the k-DOP of the transformed polytope along the same directions. It contains every transformed
+  /// point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few units in the
+  /// last place of the coordinates.
   Kdop transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Grows to hold the point: each slab takes its exact projection, rounded outward to the next double where
-  /// it is none itself. A point with a coordinate that is not finite is ignored.
+  /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point,
+  /// rounded outward to the next double if it is not a double. A point with a coordinate that is not finite
+  /// is ignored.
   Kdop& extend(const Eigen::Vector3d& point);
 
-  /// Grows to hold the other, slab by slab: exact, commutative and associative. Throws std::invalid_argument
-  /// unless both have equal sets.
+  /// Enlarges the k-DOP to contain the other k-DOP, slab by slab. Exact, commutative and associative. Throws
+  /// std::invalid_argument unless both have equal sets.
   Kdop& merge(const Kdop& other);
 
+  /// Returns a float copy that encloses the k-DOP.
   FloatKdop cast_float() const;
 
  private:
-  /// All min, then all max.
-  const double* numbers() const { return many_.empty() ? few_.data() : many_.data(); }
-  double* numbers() { return many_.empty() ? few_.data() : many_.data(); }
+  // The min of all slabs, then the max of all slabs.
+  const double* numbers() const {
+    return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data();
+  }
+  double* numbers() { return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data(); }
   void store(const SlabVector& min, const SlabVector& max);
 
-  // Up to a 26-DOP without an allocation. Room for 49 slabs in each would make every AnyVolume 824 bytes
-  // instead of 256, which a million clusters have to pay.
-  static constexpr std::size_t few_slabs = 13;
+  // Up to 13 slabs (a 26-DOP) are stored inline, without an allocation. Inline capacity for 49 slabs would
+  // make every AnyVolume 824 bytes instead of 256, too much for a million clusters.
+  static constexpr std::size_t max_inline_slabs = 13;
 
   std::shared_ptr<const KdopSet> set_;
-  std::array<double, 2 * few_slabs> few_{};
-  std::vector<double> many_;  // of more slabs
+  std::array<double, 2 * max_inline_slabs> inline_numbers_{};
+  std::vector<double> heap_numbers_;  // used instead for more than max_inline_slabs slabs, else empty
 };
 
-/// Equal sets and the same numbers.
+/// Returns whether both have equal sets of directions and equal slabs.
 bool operator==(const Kdop& a, const Kdop& b);
 inline bool operator!=(const Kdop& a, const Kdop& b) {
   return !(a == b);

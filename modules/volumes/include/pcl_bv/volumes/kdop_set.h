@@ -13,21 +13,21 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An immutable list of directions, one per slab, of any length each (the built-in ones have components
-/// 0 and +-1, un-normalised, so that projections need no multiplication). k is twice their number. Klosowski
-/// et al. 1998; Karlsson et al. 2010, section 2.
+/// An immutable list of directions of a k-DOP, one per slab; k is twice their number. Directions have any
+/// length. The built-in directions have components 0 and +-1 and are not normalised, so that projections need
+/// no multiplication. Klosowski et al. 1998; Karlsson, Winberg and Larsson 2010, section 2.
 class KdopSet {
  public:
   static constexpr std::size_t min_size = 3;
   static constexpr std::size_t max_size = 49;
 
-  /// Throws std::invalid_argument unless there are 3 to 49 directions, all finite, each with its largest
-  /// component between 1e-30 and 1e30 in magnitude, which span 3-space (unit determinant of some three of at
-  /// least 1e-6).
+  /// Makes a set of your own directions. Throws std::invalid_argument unless there are 3 to 49 directions,
+  /// all finite, each with a largest component from 1e-30 to 1e30 in magnitude. Also throws unless they span
+  /// space: three of them, normalised, must have a determinant of at least 1e-6.
   explicit KdopSet(std::vector<Eigen::Vector3d> directions);
 
-  /// The built-in one along the set's part of kCubeDirections. Copies of these pointers count no references,
-  /// so cost no atomics.
+  /// Returns a built-in set, a subset of kCubeDirections. The pointer owns nothing, so copying it needs no
+  /// atomic reference count.
   static const std::shared_ptr<const KdopSet>& of(DirectionSet set);
 
   static const std::shared_ptr<const KdopSet>& dop6() { return of(DirectionSet::dop6); }
@@ -35,10 +35,11 @@ class KdopSet {
   static const std::shared_ptr<const KdopSet>& dop18() { return of(DirectionSet::dop18); }
   static const std::shared_ptr<const KdopSet>& dop26() { return of(DirectionSet::dop26); }
 
-  std::size_t size() const { return directions_.size(); }
-  const Eigen::Vector3d& direction(std::size_t i) const { return directions_[i]; }
+  std::size_t size() const { return directions_.size(); }  ///< Number of directions: half of k.
+  const Eigen::Vector3d& direction(std::size_t i) const { return directions_[i]; }  ///< Not normalised.
 
-  /// Three well-conditioned independent directions: 0, 1, 2 in the built-in sets.
+  /// Returns the indices of three well-conditioned, linearly independent directions: 0, 1, 2 in the built-in
+  /// sets.
   const std::array<std::size_t, 3>& basis() const { return basis_; }
 
  private:
@@ -46,7 +47,7 @@ class KdopSet {
   std::array<std::size_t, 3> basis_;
 };
 
-/// The same directions in the same order.
+/// Returns whether both sets have the same directions in the same order.
 bool operator==(const KdopSet& a, const KdopSet& b);
 inline bool operator!=(const KdopSet& a, const KdopSet& b) {
   return !(a == b);

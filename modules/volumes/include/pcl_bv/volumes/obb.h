@@ -14,147 +14,166 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A copy of an Obb for float consumers: |axes.col(i) . (p - center)| <= half_extents[i] with these numbers
-/// holds for every point of the box. Beyond the range of float: infinite. Empty: centre NaN, half extents -1.
+/// A float copy of an Obb that encloses it: every point p of the box satisfies
+/// |axes.col(i) . (p - center)| <= half_extents[i] with these numbers. Half extents beyond the range of float
+/// are infinite. An empty box has centre NaN and half extents -1.
 struct FloatObb {
   Eigen::Vector3f center;
   Eigen::Matrix3f axes;
   Eigen::Vector3f half_extents;
 };
 
-/// A box with axes of its own, in the frame and unit of its points: all p with
-/// |axis(i) . (p - center)| <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles; a
-/// closed set. The axes are unit and orthogonal to 1e-12 and right-handed.
+/// An oriented box in the frame and unit of its points: the closed set of all p with
+/// |axis(i) . (p - center)| <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles.
+/// The axes are right-handed, and unit and orthogonal to 1e-12.
 ///
-/// The empty box has half extents -1, centre NaN and the coordinate axes. Half extents of 0 are flat boxes,
-/// volumes like any other. Coordinates beyond 1e100 are not supported.
+/// The empty box has half extents -1, centre NaN and the coordinate axes. A box with a half extent of 0 is
+/// flat and a valid volume. Coordinates beyond 1e100 are not supported.
 class Obb {
  public:
-  /// The empty box.
+  /// Makes the empty box.
   Obb();
 
-  /// Axes are the columns. If they are left-handed, the last one is turned round, which is the same box. Any
-  /// negative half extent: the empty box. Otherwise throws std::invalid_argument unless all numbers are
-  /// finite and the axes unit and orthogonal to 1e-12. A -0 is stored as 0. The order of the axes is kept;
-  /// see canonical().
+  /// Makes a box. The axes are the columns of `axes` and keep their order; see canonical(). If they are
+  /// left-handed, the last axis is negated, which gives the same box. Any negative half extent gives the
+  /// empty box. Otherwise throws std::invalid_argument unless all numbers are finite and the axes are unit
+  /// and orthogonal to 1e-12. Stores -0 as 0.
   Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half_extents);
 
-  /// The box with this pose: the way back from pose().
+  /// Makes the box with this pose: the inverse of pose() and half_extents(). Throws as the constructor above.
   Obb(const Eigen::Isometry3d& pose, const Eigen::Vector3d& half_extents)
       : Obb(pose.translation(), pose.linear(), half_extents) {}
 
-  /// The same box with the coordinate axes; encloses it by exact arithmetic.
+  /// Makes the box along the coordinate axes that encloses `box` by exact arithmetic.
   explicit Obb(const Aabb& box);
 
-  /// The box around all p with low[i] <= axes.col(i) . p <= high[i], by exact arithmetic; its half extents
-  /// exceed (high - low) / 2 by the rounding of the centre. Any low above its high: empty. Throws as the
-  /// constructor does.
+  /// Returns a box that encloses all p with low[i] <= axes.col(i) . p <= high[i], by exact arithmetic. Its
+  /// half extents exceed (high - low) / 2 by the rounding error of the centre. If any low exceeds its high,
+  /// the box is empty. Throws as the constructor does.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-  /// The same with low[i] <= axes.col(i) . (p - origin) <= high[i]: tighter far from the frame's origin.
+  /// Returns a box that encloses all p with low[i] <= axes.col(i) . (p - origin) <= high[i]. With an `origin`
+  /// near the box, the result is tighter for a box far from the origin of the frame.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
                         const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-  const Eigen::Vector3d& center() const { return center_; }
-  const Eigen::Matrix3d& axes() const { return axes_; }                  ///< In columns.
-  Eigen::Vector3d axis(int i) const { return axes_.col(i); }             ///< i is 0, 1 or 2.
+  const Eigen::Vector3d& center() const { return center_; }              ///< Centre; NaN if empty.
+  const Eigen::Matrix3d& axes() const { return axes_; }                  ///< The axes as columns.
+  Eigen::Vector3d axis(int i) const { return axes_.col(i); }             ///< Axis i, where i is 0, 1 or 2.
   const Eigen::Vector3d& half_extents() const { return half_extents_; }  ///< Half the size along each axis.
 
-  /// From the box's own coordinates, in which it is |x|, |y|, |z| <= half_extents, to the frame of its
-  /// points. An empty box's translation is NaN.
+  /// Returns the transform from the box's own frame, in which the box is |x|, |y|, |z| <= half_extents, to
+  /// the frame of its points. The translation of an empty box is NaN.
   Eigen::Isometry3d pose() const;
 
-  /// The rotation of pose(): unit to 1e-15, the first of w, x, y, z that is not 0 is positive.
+  /// Returns the rotation of pose(), with norm 1 to 1e-15. The first non-zero number of w, x, y, z is
+  /// positive.
   Eigen::Quaterniond quaternion() const;
 
+  /// Returns whether the box has no point.
   bool empty() const { return half_extents_.x() < 0; }
 
-  /// With q = point - center and s = axis . q in double: |s| <= half extent + 8 2^-53 |q|_1 + 2^-1022, for
-  /// each axis. So every point inside by exact arithmetic is contained; it errs only towards true. False for
-  /// an empty box and for a point that is not finite.
+  /// Returns whether the box contains the point. Conservative: true for every point that is inside by exact
+  /// arithmetic. False for an empty box and for a point with a coordinate that is not finite.
+  ///
+  /// Computed in double, with q = point - center and s = axis . q. For each axis,
+  /// |s| <= half extent + 8 * 2^-53 |q|_1 + 2^-1022.
   bool contains(const Eigen::Vector3d& point) const;
 
-  double volume() const;        ///< In cubed units; 0 if empty or flat.
-  double surface_area() const;  ///< In squared units; both sides of a flat box count. 0 if empty.
+  double volume() const;        ///< Volume in cubed units; 0 if empty or flat.
+  double surface_area() const;  ///< Area in squared units; both sides of a flat box count. 0 if empty.
 
-  /// A corner farthest along `direction` (any length). NaN if empty.
+  /// Returns a corner that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
+  /// Returns the distance from the point to the box; 0 if contains() is true. Infinity if the box is empty or
+  /// a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says; where contains() holds for the
-  /// origin, enter is 0. Projections of origin and direction are taken to be off by twice the bound of
-  /// contains(), so a ray that passes a face by less may hit; then each end is moved outward by 2^-51 of
-  /// itself and by 2^-1022.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. `enter` is
+  /// 0 if contains() is true for the origin.
+  ///
+  /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
+  /// that misses a face by less than that may hit. Then `enter` and `exit` move outward by 2^-51 of their
+  /// magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Whether the two have a point in common: separating axes (Gottschalk et al. 1996), a gap of 4e-12 of the
-  /// sizes and the distance counting as none. So it errs only towards true. False if either is empty.
+  /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap by exact
+  /// arithmetic. False if either box is empty. Separating axes (Gottschalk et al. 1996). A gap is treated as
+  /// no gap if it is at most 4e-12 of the sum of all half extents and |c2 - c1|_1, where c1 and c2 are the
+  /// centres.
   bool overlaps(const Obb& other) const;
 
-  /// The eight corners, rounded: corner i is on the positive side of axis 0 where bit 0 of i is set, of axis
-  /// 1 for bit 1, of axis 2 for bit 2. NaN if empty.
+  /// Returns the eight corners, rounded. Corner i is on the positive side of axis 0 if bit 0 of i is set, of
+  /// axis 1 if bit 1 is set and of axis 2 if bit 2 is set. NaN if empty.
   std::array<Eigen::Vector3d, 8> corners() const;
 
-  /// A box around the box by exact arithmetic, tight to a few units in the last place.
+  /// Returns an axis-aligned box that encloses this box by exact arithmetic, tight to a few units in the last
+  /// place.
   Aabb aabb() const;
 
-  /// corners() and six quadrilaterals; nothing for an empty box.
+  /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// The moved box: the image of every point of this one, by exact arithmetic on the stored matrix, is
-  /// inside. Half extents grow by the rounding of axes and centre and by what the matrix stretches.
+  /// Returns the transformed box. It contains every transformed point of this box, by exact arithmetic on the
+  /// stored matrix. Half extents grow by the rounding error of axes and centre and by the stretch of the
+  /// matrix.
   Obb transformed(const Eigen::Isometry3d& transform) const;
 
-  /// A box around both, by exact arithmetic: of those along the axes of this one, of the other and of the
-  /// frame the one with the least volume (the least area, where flat). If one of the two holds the other by a
-  /// margin above rounding it is the result, unchanged. Boxes with the same third axis, as upright ones have,
-  /// give one with that third axis, upright(). Commutative; not the smallest box there is.
+  /// Returns a box that encloses both boxes by exact arithmetic: the smallest of a box along the axes of this
+  /// box, one along the axes of the other box and one along the coordinate axes. The smallest has the
+  /// smallest volume; for equal volumes, such as 0, the smallest surface area. If one box encloses the other
+  /// by more than rounding errors, the result is the enclosing box, unchanged. Boxes with the same third
+  /// axis, such as upright boxes, give a box with that third axis, ordered as by upright(). Commutative. In
+  /// general not the minimum-volume box.
   Obb merged(const Obb& other) const;
 
-  /// The same box, its axes in a standard order and direction, so that noise does not turn it: half extents
-  /// descend, those that agree to 2^-40 in the order of their axes (the one most along x first); axes 0 and 1
-  /// point where their largest component is positive. A fit's boxes are canonical, those of upright methods
-  /// upright().
+  /// Returns the same box with its axes in a standard order and direction, so that rounding noise does not
+  /// reorder them. Half extents descend. Axes whose half extents agree to 2^-40 are ordered by the magnitude
+  /// of their x components, largest first, then by y and z. The largest component of axes 0 and 1 is
+  /// positive; axis 2 makes the axes right-handed. Fits return canonical boxes; upright methods return
+  /// upright() boxes.
   Obb canonical() const;
 
-  /// The same box, its axes in the order and direction of every upright method: axis 2 is the one nearest to
-  /// `up` (any length from 1e-100 to 1e100) and points up, axis 0 is the longer of the other two and has a
-  /// yaw() from -pi/2 (exclusive) to pi/2, axis 1 makes them right-handed. Where the two agree to 2^-40, axis
-  /// 0 is the one with the smaller yaw (at 45 degrees: the positive one). Components below 1e-9 are treated
-  /// as 0, so that noise turns no box round. An empty box stays empty.
+  /// Returns the same box with its axes in the order and direction of every upright method. Axis 2 is the
+  /// axis nearest to `up` (any length from 1e-100 to 1e100) and points up. Axis 0 is the longer of the other
+  /// two axes, with a yaw() from -pi/2 (exclusive) to pi/2. Axis 1 makes the axes right-handed. If the
+  /// horizontal sizes agree to 2^-40, axis 0 is the axis whose yaw has the smaller magnitude (at 45 degrees:
+  /// the positive yaw). Components below 1e-9 are treated as 0, so that rounding noise does not flip an axis.
+  /// An empty box stays empty.
   Obb upright(const Eigen::Vector3d& up) const;
 
-  /// The rotation of axis 0 about axis 2 in radians, from -pi (exclusive) to pi: 0 where axis 0, seen along
-  /// axis 2, points along x (along y, where axis 2 is less than 45 degrees from the x axis). With z up the
-  /// yaw of robotics: counter-clockwise from x. NaN if empty.
+  /// Returns the rotation of axis 0 about axis 2 in radians, from -pi (exclusive) to pi. With axis 2 along z,
+  /// it is the yaw of robotics: counter-clockwise from x. In general, it is 0 if axis 0, projected along axis
+  /// 2, points along x (along y if axis 2 is less than 45 degrees from the x axis). NaN if empty.
   double yaw() const;
 
-  /// The same box, its axes named so that it is turned least from `previous`, of the 24 ways: what a tracker
-  /// needs whose box must not flip. Unchanged if either is empty.
+  /// Returns the same box with its axes reordered and negated: of the 24 possible ways, the way with the
+  /// smallest rotation from `previous`. Trackers use it so that a box does not flip between frames. Unchanged
+  /// if either box is empty.
   Obb oriented_as(const Obb& previous) const;
 
+  /// Returns a float copy that encloses the box.
   FloatObb cast_float() const;
 
  private:
-  double reach_up(const Eigen::Vector3d& direction) const;  // greatest direction . (p - center), rounded up
-  bool surely_holds(const Obb& other) const;
+  double support_value_up(const Eigen::Vector3d& direction) const;  // upper bound of direction . (p - center)
+  bool certainly_contains(const Obb& other) const;  // true only if the other box is proven inside
 
   Eigen::Vector3d center_;
   Eigen::Matrix3d axes_;
   Eigen::Vector3d half_extents_;
 };
 
-/// The same numbers, or both empty.
+/// Returns whether centre, axes and half extents are equal, or both boxes are empty.
 bool operator==(const Obb& a, const Obb& b);
 inline bool operator!=(const Obb& a, const Obb& b) {
   return !(a == b);
 }
 
-/// The right-handed axes nearest, in the order of the columns, to the given ones: column 0 normalised, what
-/// column 1 adds to it normalised, and their cross product; unit and orthogonal to 1e-15. Columns 0 and 1
-/// must be finite and not parallel; magnitudes from 1e-100 to 1e100.
+/// Returns right-handed axes, unit and orthogonal to 1e-15, by the Gram-Schmidt process: column 0 normalised,
+/// the part of column 1 perpendicular to it normalised, and their cross product. Column 2 is ignored. Columns
+/// 0 and 1 must be finite and not parallel, with lengths from 1e-100 to 1e100.
 Eigen::Matrix3d orthonormal_axes(const Eigen::Matrix3d& axes);
 
 }  // namespace pcl_bv

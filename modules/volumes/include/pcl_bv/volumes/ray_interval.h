@@ -5,15 +5,18 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The part of a ray inside a volume: origin + t direction for enter <= t <= exit, t >= 0, in units of the
-/// direction. So a segment (t <= 1) meets the volume if enter <= 1.
+/// The part of the ray origin + t * direction, t >= 0, that is inside a volume: enter <= t <= exit. The
+/// parameter t is in units of the direction's length, so the segment with t <= 1 meets the volume if
+/// enter <= 1.
 ///
-/// Every volume's intersect() gives it, or nothing where the ray misses, for an empty volume and for numbers
-/// that are not finite. It encloses the exact interval: a ray that hits by exact arithmetic, be it in one
-/// point or along a face, is never a miss. How far the ends may be off each volume says. A zero direction
-/// tests the origin.
+/// The member function intersect() of every volume returns this interval. It returns nothing if the ray
+/// misses the volume, if the volume is empty, or if the origin or direction is not finite.
+///
+/// The interval encloses the exact one: a ray that hits the volume by exact arithmetic, even in one point or
+/// along a face, is always reported as a hit. Each volume's intersect() documents the error bound of `enter`
+/// and `exit`. For a zero direction, intersect() tests whether the origin is inside the volume.
 struct RayInterval {
-  double enter;  ///< 0 if the ray starts inside.
+  double enter;  ///< 0 if the origin is inside the volume.
   double exit;   ///< Infinity if the direction is zero.
 };
 

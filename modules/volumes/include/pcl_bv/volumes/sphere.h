@@ -13,78 +13,86 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A copy of a Sphere for float consumers. The radius has grown by the rounding of the centre and is rounded
-/// up, so it encloses the sphere; beyond the range of float it is infinite. An empty sphere: centre NaN,
-/// radius -1.
+/// A float copy of a Sphere that encloses it. The radius includes the rounding error of the centre and is
+/// rounded up; beyond the range of float it is infinite. An empty sphere has centre NaN and radius -1.
 struct FloatSphere {
   Eigen::Vector3f center;
   float radius;
 };
 
-/// A solid sphere in the frame and unit of its points: |p - center| <= radius, a closed set.
+/// A solid sphere in the frame and unit of its points: the closed set of all p with |p - center| <= radius.
 ///
-/// The empty sphere (the identity of merge) has radius -1 and centre NaN. Radius 0 is a point. Coordinates
-/// beyond 1e100 are not supported.
+/// The empty sphere has radius -1 and centre NaN; merging it into another sphere changes nothing. A sphere of
+/// radius 0 is a point. Coordinates beyond 1e100 are not supported.
 class Sphere {
  public:
-  /// The empty sphere.
+  /// Makes the empty sphere.
   Sphere();
 
-  /// A negative radius: the empty sphere. Otherwise all must be finite, or std::invalid_argument. A -0 is
-  /// stored as 0.
+  /// Makes a sphere. A negative radius gives the empty sphere. Otherwise throws std::invalid_argument unless
+  /// centre and radius are finite. Stores -0 as 0.
   Sphere(const Eigen::Vector3d& center, double radius);
 
-  const Eigen::Vector3d& center() const { return center_; }
-  double radius() const { return radius_; }
+  const Eigen::Vector3d& center() const { return center_; }  ///< Centre; NaN if empty.
+  double radius() const { return radius_; }                  ///< Radius; -1 if empty.
 
+  /// Returns whether the sphere has no point.
   bool empty() const { return radius_ < 0; }
 
-  /// With q = point - center: (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 2^-53) + 2^-1022, in double. So every
-  /// point inside by exact arithmetic is contained; it errs only towards true. False for an empty sphere and
-  /// for a point that is not finite.
+  /// Returns whether the sphere contains the point. Conservative: true for every point that is inside by
+  /// exact arithmetic. False for an empty sphere and for a point with a coordinate that is not finite.
+  ///
+  /// Computed in double, with q = point - center:
+  /// (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 * 2^-53) + 2^-1022.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// What contains() compares squared distances with; -1 if empty.
-  double contained_square() const;
+  /// Returns the limit up to which contains() accepts squared distances from the centre; -1 if empty.
+  double max_squared_distance() const;
 
-  double volume() const;        ///< In cubed units; 0 if empty.
-  double surface_area() const;  ///< In squared units; 0 if empty.
+  double volume() const;        ///< Volume in cubed units; 0 if empty.
+  double surface_area() const;  ///< Surface area in squared units; 0 if empty.
 
-  /// The point of the sphere farthest along `direction` (any length; the centre for 0). NaN if empty.
+  /// Returns the point of the sphere that is farthest along `direction` (any length; for a zero direction the
+  /// centre). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
+  /// Returns the distance from the point to the sphere; 0 if contains() is true. Infinity if the sphere is
+  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction is inside, as RayInterval says; where contains() holds for the
-  /// origin, the ray hits. Each end is in a sphere whose radius is greater by at most 2^-46 (|origin -
-  /// center|_1 + radius) + 2^-510.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the sphere; see RayInterval. A ray
+  /// hits if contains() is true for its origin. Both ends of the interval lie in a concentric sphere whose
+  /// radius is larger by at most 2^-46 (|origin - center|_1 + radius) + 2^-510.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Whether the two have a point in common: contains() of the other's centre for the sum of the radii. So it
-  /// errs only towards true. False if either is empty.
+  /// Returns whether the spheres have a point in common. Conservative: true for all spheres that overlap by
+  /// exact arithmetic. False if either sphere is empty. Tests the other centre as contains() does, with the
+  /// sum of the radii.
   bool overlaps(const Sphere& other) const;
 
-  /// The smallest box in double around the sphere: encloses it by exact arithmetic.
+  /// Returns the smallest box of doubles that encloses the sphere by exact arithmetic.
   Aabb aabb() const;
 
-  /// An icosahedron split twice: 162 vertices, which lie on the sphere, and 320 triangles. Nothing if empty.
+  /// Returns an icosahedron that is subdivided twice: 162 vertices on the sphere and 320 triangles. An empty
+  /// mesh if empty.
   Mesh mesh() const;
 
-  /// The moved sphere. The radius grows by the rounding of the centre and by what the stored matrix stretches
-  /// (an isometry in double is never quite one), so that the image of every point, by exact arithmetic, is
-  /// inside.
+  /// Returns the transformed sphere. It contains every transformed point of this sphere, by exact arithmetic.
+  /// The radius grows by the rounding error of the centre and by the stretch of the stored matrix, which is
+  /// rarely exactly orthonormal.
   Sphere transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Grows to hold the point: the smallest sphere around both, give or take rounding, which it adds (the step
-  /// of Ritter 1990). Unchanged if the point is inside by exact arithmetic. A point with a coordinate that is
-  /// not finite is ignored.
+  /// Enlarges the sphere to contain the point: the smallest sphere around both, plus rounding errors (the
+  /// step of Ritter 1990). The sphere is unchanged if the point is inside by exact arithmetic. A point with a
+  /// coordinate that is not finite is ignored.
   Sphere& extend(const Eigen::Vector3d& point);
 
-  /// Grows to the smallest sphere around both, give or take rounding, which it adds. If one encloses the
-  /// other by exact arithmetic, the result is that one, unchanged. Commutative, but not associative.
+  /// Enlarges the sphere to the smallest sphere around both, plus rounding errors. If one sphere encloses the
+  /// other by exact arithmetic, the result is the enclosing sphere, unchanged. Commutative, but not
+  /// associative.
   Sphere& merge(const Sphere& other);
 
+  /// Returns a float copy that encloses the sphere.
   FloatSphere cast_float() const;
 
  private:
@@ -92,7 +100,7 @@ class Sphere {
   double radius_;
 };
 
-/// The same numbers, or both empty.
+/// Returns whether centre and radius are equal, or both spheres are empty.
 bool operator==(const Sphere& a, const Sphere& b);
 inline bool operator!=(const Sphere& a, const Sphere& b) {
   return !(a == b);

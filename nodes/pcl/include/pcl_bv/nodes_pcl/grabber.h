@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// PCL's grabbers as a source of a StreamRunner.
+// Connects PCL's grabbers to a StreamRunner.
 #pragma once
 
 #include <pcl/io/grabber.h>
@@ -14,12 +14,12 @@
 
 namespace pcl_bv {
 
-/// Hands every cloud of the grabber to the runner, in the grabber's thread, which does nothing else there:
-/// start() the grabber afterwards. Disconnect, or stop the grabber, before the runner ends.
+/// Registers a callback that passes every cloud of the grabber to runner.push(), in the grabber's thread.
+/// Call the grabber's start() afterwards. Disconnect the returned connection, or stop the grabber, before the
+/// runner is destroyed.
 ///
-/// Throws std::invalid_argument if the grabber does not provide clouds of this point type. Of PCL 1.13's
-/// grabbers, PCDGrabber sends nothing for a file that it cannot read, and repeats by rate without saying how
-/// often.
+/// Throws std::invalid_argument if the grabber does not provide clouds of this point type. PCDGrabber of PCL
+/// 1.13 sends nothing for a file that it cannot read, and does not report how often it repeats its files.
 template <typename PointT>
 boost::signals2::connection connect(pcl::Grabber& grabber, StreamRunner& runner) {
   using Callback = void(const typename pcl::PointCloud<PointT>::ConstPtr&);

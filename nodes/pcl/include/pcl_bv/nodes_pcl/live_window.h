@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes in a window, frame by frame.
+// A window that shows the volumes of the last frame.
 #pragma once
 
 #include <pcl/visualization/pcl_visualizer.h>
@@ -14,11 +14,9 @@
 
 namespace pcl_bv {
 
-/// A PCLVisualizer that shows the volumes of the last frame as wires, in colours by track or cluster.
+/// A PCLVisualizer that shows the volumes of the last frame as wireframes, coloured by track or cluster.
 ///
-/// show() may be called from the runner's thread: it only keeps a copy. spin_once() draws it and must be
-/// called, again and again, from the thread that made the window. Needs a display: without one, VTK as Debian
-/// builds it ends the process.
+/// Needs a display: without one, VTK as built by Debian ends the process.
 class LiveWindow {
  public:
   explicit LiveWindow(const std::string& title = "pcl_bv") : window_(title) {
@@ -26,6 +24,7 @@ class LiveWindow {
     window_.addCoordinateSystem(1);
   }
 
+  /// Stores a copy of the volumes for the next spin_once(). Any thread may call it, such as the runner's.
   void show(const FrameResult& result) {
     const std::lock_guard lock(mutex_);
     volumes_ = result.volumes;
@@ -35,23 +34,25 @@ class LiveWindow {
       const bool tracked = cluster < result.tracks.size() && result.tracks[cluster].has_value();
       colours_.push_back(tracked ? result.tracks[cluster]->id : cluster);
     }
-    fresh_ = true;
+    has_new_volumes_ = true;
   }
 
-  /// False once the user has closed the window.
+  /// Draws the volumes and handles the window's events for `milliseconds`. Must be called repeatedly from the
+  /// thread that has created the window. Returns false once the user has closed the window.
   bool spin_once(int milliseconds = 10) {
     draw();
     window_.spinOnce(milliseconds);
     return !window_.wasStopped();
   }
 
+  /// Returns the PCLVisualizer, for further settings.
   pcl::visualization::PCLVisualizer& window() { return window_; }
 
  private:
   void draw() {
     const std::lock_guard lock(mutex_);
-    if (!fresh_) return;
-    fresh_ = false;
+    if (!has_new_volumes_) return;
+    has_new_volumes_ = false;
     window_.removeAllShapes();
     for (std::size_t i = 0; i < volumes_.size(); ++i)
       add(mesh(volumes_[i]), colours_[i], std::to_string(i) + '/');
@@ -76,7 +77,7 @@ class LiveWindow {
   pcl::visualization::PCLVisualizer window_;
   std::vector<AnyVolume> volumes_;
   std::vector<std::size_t> colours_;
-  bool fresh_ = false;
+  bool has_new_volumes_ = false;
 };
 
 }  // namespace pcl_bv

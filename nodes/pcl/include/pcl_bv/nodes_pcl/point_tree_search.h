@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// PointTree where PCL's algorithms take a pcl::search::KdTree.
+// PointTree as a search method for PCL's algorithms, in place of pcl::search::KdTree.
 #pragma once
 
 #include <pcl/search/search.h>
-// Without the implementation, own point types do not link (PCL instantiates Search for its own types only).
+// User-defined point types need the implementation to link: PCL instantiates Search for its own types only.
 #include <pcl/search/impl/search.hpp>
 
 #include <algorithm>
@@ -19,24 +19,26 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Drop-in for pcl::search::KdTree: give it to setSearchMethod(), or ask it. PointT is any type with x, y, z
-/// of float or double in a row; it needs no instantiation.
+/// Drop-in replacement for pcl::search::KdTree: pass it to setSearchMethod(), or query it directly. PointT is
+/// any type with consecutive members x, y, z of type float or double. No explicit instantiation is needed.
 ///
-/// Answers are those of pcl::search::KdTree: squared distances; indices of the cloud, also where
-/// setInputCloud() was given a list; neighbours strictly nearer than the radius; points that are not finite
-/// are in no answer, whatever is_dense says. Where it differs:
-/// - Distances are compared in double and rounded once, to float; PCL computes them in float, up to 4e-7
-///   off. So a point that far from the radius, or two whose distances differ by less, may be decided
-///   otherwise. Clouds whose squares float does not hold (1e-23, 1e20) get their neighbours; distances beyond
-///   float are infinity.
-/// - Of equally near points that with the smaller index comes first, and is kept if not all are: so a sorted
-///   tree is also good for pcl::EuclideanClusterExtraction, which takes the first answer for the point asked
-///   about.
-/// - What PCL asserts against has no neighbours: a place that is not finite, an index outside, a radius that
-///   is not above 0, less than one neighbour wanted, no cloud.
+/// The results are those of pcl::search::KdTree: squared distances; indices of the cloud, even if
+/// setInputCloud() was given an index list; neighbours strictly nearer than the radius. Points that are not
+/// finite are never returned, regardless of is_dense. Differences from pcl::search::KdTree:
 ///
-/// A question takes the memory of its answer only, which its thread keeps for the next one. Const calls may
-/// run side by side.
+/// - Distances are compared in double and rounded once, to float. PCL computes them in float, with an error
+///   of up to 4e-7. The results may therefore differ for a point whose distance is that close to the radius,
+///   and in the order of two points whose distances differ by less. Neighbours are also found in clouds whose
+///   squared distances are outside the range of float (coordinates of 1e-23 or 1e20). Returned distances over
+///   this range are infinity.
+/// - Of equally near points the one with the smaller index comes first, and is retained if the number of
+///   neighbours is limited. A sorted tree therefore also works with pcl::EuclideanClusterExtraction, which
+///   assumes that the first neighbour is the query point itself.
+/// - Where PCL has an assertion, the result is empty: a query point that is not finite, an index out of
+///   range, a radius that is not above 0, k below 1, no cloud.
+///
+/// A query needs memory for its result only, which its thread reuses for the next query. Const member
+/// functions may run concurrently.
 template <typename PointT>
 class PointTreeSearch : public pcl::search::Search<PointT> {
  public:
@@ -49,22 +51,24 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   using Base::nearestKSearch;
   using Base::radiusSearch;
 
-  /// `sorted`: whether radiusSearch() gives the nearest first, as PCL's tree does by default. Clusters are
-  /// found sooner without. nearestKSearch() always does, and radiusSearch() where it is told how many.
+  /// Creates a search without a cloud. `sorted`: whether radiusSearch() returns the nearest point first, as
+  /// PCL's tree does by default; clustering is faster with `false`. nearestKSearch() always sorts, and so
+  /// does radiusSearch() with a max_nn below the number of points.
   explicit PointTreeSearch(bool sorted = true) : Base("PointTree", sorted) {}
 
-  /// Threads for setInputCloud(): 0 means all processors, 1 (the default) the calling thread. Never changes
-  /// an answer.
+  /// Sets the number of threads of setInputCloud(): 0 means all processors, 1 (the default) the calling
+  /// thread. Never changes a result.
   void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
-  /// The instruction set, an Isa, from the next setInputCloud() on: Isa::automatic as this object is made,
-  /// which asks PCL_BV_ISA. Never changes an answer. Throws std::invalid_argument, as the constructor does,
-  /// if this build or machine does not have it.
+  /// Sets the instruction set, an Isa, from the next setInputCloud() on. The default is Isa::automatic, which
+  /// reads PCL_BV_ISA when this object is constructed. Never changes a result. Throws std::invalid_argument,
+  /// as the constructor does, if this build or this machine does not support the instruction set.
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
-  /// Builds the tree of the cloud's points, or of those that the indices name: a copy, so that the cloud,
-  /// which is kept for questions by index, may change. Null or without valid points: nothing has neighbours.
-  /// O(n). Throws std::out_of_range for an index outside the cloud, and then nothing is changed.
+  /// Builds the tree of the cloud's valid points, or of those at `indices`. The tree holds a copy of the
+  /// points, so the cloud may change afterwards; the pointers are stored for queries by index. If the cloud
+  /// is null or has no valid point, all results are empty. O(n log n). Throws std::out_of_range for an index
+  /// outside the cloud, and then nothing is changed.
   void setInputCloud(const PointCloudConstPtr& cloud,
                      const IndicesConstPtr& indices = IndicesConstPtr()) override {
     tree_.assign(!cloud    ? PointView()
@@ -75,93 +79,94 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
     this->indices_ = indices;
   }
 
-  /// For the questions that PCL does not have.
+  /// Returns the tree, for queries that PCL's interface does not have.
   const PointTree& getPointTree() const { return tree_; }
 
-  /// The k nearest points, ascending, or all if there are fewer: how many there are. Replaces what the
-  /// vectors hold.
+  /// Finds the k nearest points, or all points if there are fewer, in ascending order of distance. Returns
+  /// their number. Overwrites the vectors.
   int nearestKSearch(const PointT& point, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
     const FloatEnvironment environment;
-    std::vector<Neighbor>& found = room();
-    if (k > 0) tree_.nearest(place(point), static_cast<std::size_t>(k), found);
-    return answer(found, k_indices, k_sqr_distances);
+    std::vector<Neighbor>& found = result_buffer();
+    if (k > 0) tree_.nearest(point_vector(point), static_cast<std::size_t>(k), found);
+    return copy_result(found, k_indices, k_sqr_distances);
   }
 
   int nearestKSearch(const PointCloud& cloud, pcl::index_t index, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
-    const PointT* const point = find(cloud, index);
+    const PointT* const point = point_at(cloud, index);
     return point != nullptr ? nearestKSearch(*point, k, k_indices, k_sqr_distances)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
   int nearestKSearch(pcl::index_t index, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
-    const PointT* const point = find(index);
+    const PointT* const point = point_at(index);
     return point != nullptr ? nearestKSearch(*point, k, k_indices, k_sqr_distances)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
-  /// All points nearer than the radius or, if max_nn is not 0, the max_nn nearest of them: how many there
-  /// are. Replaces what the vectors hold.
+  /// Finds all points nearer than the radius or, if max_nn is not 0, the max_nn nearest of them. Returns
+  /// their number. Overwrites the vectors.
   int radiusSearch(const PointT& point, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
     const FloatEnvironment environment;
-    std::vector<Neighbor>& found = room();
+    std::vector<Neighbor>& found = result_buffer();
     if (radius > 0) {
       const bool all = max_nn == 0 || max_nn >= tree_.size();
       if (all)
-        tree_.near(place(point), radius, found);
+        tree_.near(point_vector(point), radius, found);
       else
-        tree_.nearest(place(point), max_nn, found, radius);
-      const double limit = radius * radius;  // as the tree rounds it; it gives those on the sphere, too
+        tree_.nearest(point_vector(point), max_nn, found, radius);
+      const double limit = radius * radius;  // rounded as in the tree, which includes the sphere
       found.erase(std::remove_if(found.begin(), found.end(),
                                  [limit](const Neighbor& one) { return !(one.squared_distance < limit); }),
                   found.end());
       if (all && this->sorted_results_) std::sort(found.begin(), found.end());
     }
-    return answer(found, k_indices, k_sqr_distances);
+    return copy_result(found, k_indices, k_sqr_distances);
   }
 
   int radiusSearch(const PointCloud& cloud, pcl::index_t index, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
-    const PointT* const point = find(cloud, index);
+    const PointT* const point = point_at(cloud, index);
     return point != nullptr ? radiusSearch(*point, radius, k_indices, k_sqr_distances, max_nn)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
   int radiusSearch(pcl::index_t index, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
-    const PointT* const point = find(index);
+    const PointT* const point = point_at(index);
     return point != nullptr ? radiusSearch(*point, radius, k_indices, k_sqr_distances, max_nn)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
  private:
-  // Allocating for every question would take as long as a short one does.
-  static std::vector<Neighbor>& room() {
+  // Returns an empty buffer that the thread reuses: allocating one for each query takes as long as a short
+  // query.
+  static std::vector<Neighbor>& result_buffer() {
     static thread_local std::vector<Neighbor> found;
     found.clear();
     return found;
   }
 
-  static Eigen::Vector3d place(const PointT& point) { return {point.x, point.y, point.z}; }
+  static Eigen::Vector3d point_vector(const PointT& point) { return {point.x, point.y, point.z}; }
 
-  static const PointT* find(const PointCloud& cloud, pcl::index_t index) {
+  static const PointT* point_at(const PointCloud& cloud, pcl::index_t index) {
     const auto i = static_cast<std::size_t>(index);
     return index >= 0 && i < cloud.size() ? &cloud.points[i] : nullptr;
   }
 
-  // As PCL counts: with a list of indices, the place in that list.
-  const PointT* find(pcl::index_t index) const {
+  // As in PCL, `index` is a position in the index list if setInputCloud() was given one.
+  const PointT* point_at(pcl::index_t index) const {
     if (!this->input_) return nullptr;
-    if (!this->indices_) return find(*this->input_, index);
+    if (!this->indices_) return point_at(*this->input_, index);
     const auto i = static_cast<std::size_t>(index);
-    return index >= 0 && i < this->indices_->size() ? find(*this->input_, (*this->indices_)[i]) : nullptr;
+    return index >= 0 && i < this->indices_->size() ? point_at(*this->input_, (*this->indices_)[i]) : nullptr;
   }
 
-  static int answer(const std::vector<Neighbor>& found, pcl::Indices& indices,
-                    std::vector<float>& sqr_distances) {
+  static int copy_result(const std::vector<Neighbor>& found, pcl::Indices& indices,
+                         std::vector<float>& sqr_distances) {
     indices.resize(found.size());
     sqr_distances.resize(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The convex polygon and the smallest rectangle of points in the plane, in double arithmetic.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+
+namespace pcl_bv {
+
+/// Moves the corners of the convex hull to the front, counter-clockwise, and returns their number: 1 for
+/// equal points, 2 for points on a line. Subject to rounding: good enough to choose axes, not to enclose
+/// points. planar_hull.h is exact, and slower by an allocation. O(n log n). Andrew 1979.
+std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count);
+
+/// A rectangle in the plane, without its position.
+struct Rectangle {
+  Eigen::Vector2d side = Eigen::Vector2d::UnitX();  ///< Unit vector along a side.
+  double width = 0, height = 0;                     ///< Extents along `side` and perpendicular to it.
+
+  double area() const { return width * height; }
+  double diagonal() const { return std::sqrt(width * width + height * height); }
+};
+
+/// Returns the rectangle of minimum area around a convex polygon of 1 corner or more, as returned by
+/// to_convex_chain(). Such a rectangle has a side along an edge of the polygon (Freeman, Shapira 1975), so
+/// only these are compared. Rotating calipers (Toussaint 1983): O(corners).
+Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count);
+
+}  // namespace pcl_bv

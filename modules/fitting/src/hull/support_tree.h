@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The exact maximum projection of a set of points along any direction, without inspecting most of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "hull/local_hull.h"
+
+namespace pcl_bv {
+
+/// A tree of oriented boxes over points. Each box is oriented along its points: on a smooth surface,
+/// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
+class SupportTree {
+ public:
+  /// Keeps a reference to the points. `queries` is the expected number of queries: a small number does not
+  /// pay for a tree. O(m log m).
+  SupportTree(const std::vector<HullPoint>& points, std::size_t queries);
+
+  /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of
+  /// the normal must be at most 2 in magnitude. O(log m) if few points have nearly the maximum projection.
+  double max_projection_up(const Eigen::Vector3d& normal) const;
+
+ private:
+  struct Node {
+    Eigen::Matrix3d axes;
+    Eigen::Vector3d center, half;  // of the box, in local coordinates
+    std::uint32_t begin, end;      // range of its points in order_
+    std::uint32_t second;          // position of the second child; 0: a leaf. The first child is next
+
+    double projection_bound(const Eigen::Vector3d& normal) const;  // upper bound for its points
+  };
+
+  Eigen::Matrix3d sides(std::uint32_t begin, std::uint32_t end) const;
+  Node box(std::uint32_t begin, std::uint32_t end) const;
+
+  void build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_points);
+  double greatest(const Eigen::Vector3d& normal, double known, std::uint32_t node) const;
+  void max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t node,
+                         double& projection) const;
+  const HullPoint& point(std::uint32_t i) const { return points_[order_[i]]; }
+
+  const std::vector<HullPoint>& points_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace pcl_bv

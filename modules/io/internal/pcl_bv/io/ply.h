@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Reader of the points of the Polygon File Format (Stanford), version 1.0.
+#pragma once
+
+#include <filesystem>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Reads the element `vertex` of a .ply file: ascii, binary_little_endian or binary_big_endian, with elements
+/// and properties in any order. x, y and z (or X, Y and Z) may be of any type. Every property except lists
+/// becomes a field, in the order of the file, with little-endian values. Lists and other elements are left
+/// out. The cloud has height 1 and the identity as viewpoint.
+///
+/// The header may have up to 1 MiB. Its sizes are checked against the size of the file before anything is
+/// allocated. Data after the vertices is ignored, with two exceptions for files without further elements:
+/// further rows of an ascii file are an error, and further vertices of a binary file are reported in
+/// RawCloud::note. Numbers, threads and errors are as in read_pcd().
+RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
+
+}  // namespace pcl_bv

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// POSIX files: an owned file descriptor, and positional reads.
+#pragma once
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "pcl_bv/io/io_error.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Returns the system's message for an errno value, starting in lower case: "permission denied".
+std::string system_reason(int error);
+
+/// Text of the IoError for a file that changed while it was read.
+inline constexpr char kChangedWhileRead[] = "the file was changed while it was read";
+
+/// Owns an open file descriptor; closes it at destruction.
+class FileDescriptor {
+ public:
+  /// Opens the file as open(2) does, close-on-exec. Throws IoError with `context` and the system's reason.
+  FileDescriptor(const std::filesystem::path& path, int flags, unsigned mode, const std::string& context);
+  ~FileDescriptor() { close(); }
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&&) = delete;
+
+  /// Returns the descriptor's number, -1 if closed.
+  int get() const { return fd_; }
+
+  /// Closes the descriptor now. Returns false and sets errno if written data may be lost.
+  bool close() { return fd_ < 0 || ::close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+};
+
+/// A regular file open for reading. It uses pread, not mmap: a file that is cut while it is read must cause
+/// an error, not SIGBUS.
+class InputFile {
+ public:
+  /// Opens the file. Throws IoError if it cannot be opened, is a folder, is not a regular file or is empty.
+  explicit InputFile(const std::filesystem::path& path);
+
+  /// Returns the file's size in bytes when it was opened; > 0.
+  std::size_t size() const { return size_; }
+
+  /// Reads `bytes` bytes from `offset` on into `to`. Throws IoError if the file is too short, and if it has
+  /// changed since it was opened: earlier and later reads would belong to different clouds.
+  void read(std::size_t offset, void* to, std::size_t bytes) const;
+
+  /// Tells the system that these bytes will be read soon.
+  void prefetch(std::size_t offset, std::size_t bytes) const;
+
+  /// Throws IoError if the file's size or times differ from those when it was opened.
+  void require_unchanged() const;
+
+ private:
+  FileDescriptor file_;
+  std::size_t size_ = 0;
+  struct stat opened_ {};
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Replaces and counts the values of a text file that are not numbers, in fields other than coordinates.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/io/raw_cloud.h"
+#include "text_rows.h"
+
+namespace pcl_bv {
+
+/// Values that are not numbers of their field's type become NaN, or 0 in integer fields, and are counted.
+/// Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and are not counted.
+/// Thread-safe; the report depends only on the file.
+class InvalidValues {
+ public:
+  /// `row`: word for a row in messages; `first_number`: number of the first row. The cloud must outlive this
+  /// object, and its `data` must have its final size.
+  InvalidValues(const RawCloud& cloud, std::string_view row, std::size_t first_number);
+
+  /// Skips the value at the cursor, an element of this field, and writes its replacement to `to`. Returns
+  /// false and does nothing if the field is a coordinate or the row has no more values.
+  bool replace_value(TextRows& rows, std::size_t field, std::byte* to);
+
+  /// Adds the fields with such values to the cloud's note and invalid_fields.
+  void report(RawCloud& cloud) const;
+
+ private:
+  struct FieldRecord {
+    std::atomic<std::uint64_t> count = 0;
+    std::atomic<std::size_t> first_row = SIZE_MAX;
+    std::string first;
+  };
+
+  const RawCloud& cloud_;
+  const std::string row_;
+  const std::size_t first_number_;
+  std::mutex mutex_;
+  std::vector<FieldRecord> fields_;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/io/untrusted_text.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kEndsScalar = "\"[]{} \t\r\n";
+
+// Returns the position behind the closing quote of the string that begins at `at`.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  for (++at; at < text.size() && text[at] != '"'; ++at)
+    at += text[at] == '\\';
+  return std::min(at + 1, text.size());
+}
+
+}  // namespace
+
+std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes) {
+  std::error_code unknown;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path, unknown)) throw IoError("cannot be read");
+  std::string text;
+  for (std::size_t block = 1 << 12; stream && text.size() <= max_bytes;
+       block = std::max(block, text.size())) {
+    const std::size_t before = text.size();
+    text.resize(std::min(before + block, max_bytes + 1));
+    stream.read(text.data() + before, static_cast<std::streamsize>(text.size() - before));
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) throw IoError("cannot be read");
+  if (text.size() > max_bytes) throw IoError("has more than " + std::to_string(max_bytes) + " bytes");
+  return text;
+}
+
+std::string_view next_json_value(std::string_view text, std::size_t& at) {
+  at = std::min(text.find_first_not_of(kSpace, at), text.size());
+  const std::size_t begin = at;
+  int depth = 0;
+  do {
+    if (at == text.size()) break;
+    switch (text[at]) {
+      case '"':
+        at = end_of_string(text, at);
+        break;
+      case '[':
+      case '{':
+        if (++depth > kMaxJsonDepth)
+          throw IoError(position_in(text, at) + ": nested more than " + std::to_string(kMaxJsonDepth) +
+                        " deep");
+        ++at;
+        break;
+      case ']':
+      case '}':
+        --depth;
+        ++at;
+        break;
+      default:
+        at = depth > 0 ? at + 1 : std::min(text.find_first_of(kEndsScalar, at + 1), text.size());
+    }
+  } while (depth > 0);
+  return text.substr(begin, at - begin);
+}
+
+std::string position_in(std::string_view text, std::size_t at) {
+  const std::string_view before = text.substr(0, std::min(at, text.size()));
+  const std::size_t line_begin = before.rfind('\n') + 1;  // 0 if there is no line feed (npos + 1)
+  return "line " + std::to_string(std::count(before.begin(), before.end(), '\n') + 1) + ", column " +
+         std::to_string(before.size() - line_begin + 1);
+}
+
+}  // namespace pcl_bv

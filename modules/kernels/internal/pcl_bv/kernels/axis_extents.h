@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The axis-aligned bounding box of a cloud, without the points that touch it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_view.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Minimum and maximum coordinates of the valid points, exactly; +infinity and -infinity without valid
+/// points. Never -0.
+struct AxisExtents {
+  std::array<double, 3> low;
+  std::array<double, 3> high;
+  std::size_t dropped;  ///< Number of points that are not valid (is_valid()).
+};
+
+/// Returns the axis-aligned extents of the points. The result has the same bits for every `isa`. O(n). The
+/// caller must hold a FloatEnvironment. Throws std::invalid_argument if the points are not in memory.
+AxisExtents axis_extents(UsableIsa isa, const PointView& points);
+
+}  // namespace pcl_bv

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Extents of a cloud along three axes, in double, for oriented boxes. The caller has to account for the
+// rounding.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pcl_bv/numeric/exact_dot.h"
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_view.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// For each axis n the minimum and maximum of (nx qx + ny qy) + nz qz with q = p - origin, each step rounded
+/// to double. The points p are the valid points and the origin, whose value is 0. Never -0.
+struct SlabExtents {
+  std::array<double, 3> low{};
+  std::array<double, 3> high{};
+};
+
+/// Returns the extents along the axes. `origin` must be a valid point of the cloud; components of the axes
+/// are at most 1e150 in magnitude. The result has the same bits for every `isa`. O(n). The caller must hold a
+/// FloatEnvironment. Throws std::invalid_argument if the origin is not valid or not a value of the cloud's
+/// scalar type, and if the points are not in memory.
+SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
+                         const std::array<Direction, 3>& axes);
+
+}  // namespace pcl_bv

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Exact sums of three doubles. They decide the slabs of k-DOPs.
+#pragma once
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// The exact sum of three doubles, stored as the unevaluated sum head + tail + rest. `head` is the sum
+/// rounded to the nearest double.
+struct ExactSum {
+  double head, tail, rest;
+};
+
+/// Returns x + y + z exactly. Each term must be at most 1e100 in magnitude.
+ExactSum exact_sum(double x, double y, double z);
+
+/// Returns the largest double <= the sum or the smallest double >= the sum; the sum itself if it is a double.
+/// Never returns -0.
+double round_down(const ExactSum& sum);
+double round_up(const ExactSum& sum);
+
+/// Returns the sign (-1, 0 or 1) of a - b, exactly.
+int compare(const ExactSum& a, const ExactSum& b);
+
+}  // namespace pcl_bv

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Points that are not in memory but, for example, in a file. Fits load them part by part, as often as they
+// pass over them.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_view.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Provides the points of a view with PointView::source. Loading the same points again must give the same
+/// bits.
+class PointSource {
+ public:
+  virtual ~PointSource() = default;
+
+  /// Loads points [first, first + count) and returns a view of them, whose index() is the index in the
+  /// source. The view refers to `buffer`, which may be resized, or to memory that lives as long as the
+  /// source. `count` is at most kChunkPoints. Called concurrently by several threads, each with its own
+  /// buffer. May throw.
+  virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
+};
+
+/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, copying them to memory is
+/// better.
+inline PointView view_of(const PointSource& source, std::size_t count, ScalarType scalar) {
+  PointView view;
+  view.source = &source;
+  view.count = count;
+  view.scalar = scalar;
+  return view;
+}
+
+/// A part of a view, in memory while this object lives. Copies nothing if the points are in memory already.
+class LoadedPoints {
+ public:
+  /// Loads the visited points [begin, begin + count) of the view. Throws std::out_of_range if the view does
+  /// not have these points.
+  ///
+  /// For a view of a source, `count` is at most kChunkPoints. Then the constructor throws what the source
+  /// throws, and std::invalid_argument for more points, if the view has indices as well, or if the source
+  /// returns other points than requested.
+  LoadedPoints(const PointView& points, std::size_t begin, std::size_t count) {
+    if (begin > points.count || count > points.count - begin)
+      throw std::out_of_range("LoadedPoints: the requested points are outside the view");
+    if (points.source == nullptr) {
+      view_ = points.slice(begin, count);
+    } else {
+      load(points, begin, count);
+    }
+  }
+  ~LoadedPoints() {
+    if (buffer_.capacity() > 0) return_buffer();
+  }
+  LoadedPoints(const LoadedPoints&) = delete;
+  LoadedPoints& operator=(const LoadedPoints&) = delete;
+
+  const PointView& view() const { return view_; }
+
+ private:
+  void load(const PointView& points, std::size_t begin, std::size_t count);
+  void return_buffer();
+
+  PointView view_;
+  std::vector<std::byte> buffer_;
+};
+
+/// Loads chunk number `chunk` of the view.
+inline LoadedPoints load_chunk(const PointView& points, std::size_t chunk) {
+  const std::size_t begin = chunk * kChunkPoints;
+  return {points, begin, std::min(kChunkPoints, points.count - begin)};
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Inflates volumes by a padding.
+#pragma once
+
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace pcl_bv {
+
+/// Returns the volume inflated as Region says; padding 0 returns it unchanged. For a Hull only the planes
+/// move: use contains() of the result, not member functions that use the vertices.
+AnyVolume inflated(const AnyVolume& volume, double padding);
+
+}  // namespace pcl_bv

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Certified overlap tests and distances of two volumes of any kinds.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+namespace volumes_internal {
+class SupportShape;
+struct PosedShape;
+}  // namespace volumes_internal
+
+/// A volume that is prepared for many overlap and distance queries, as in trees of volumes and collision
+/// loops: the corners of a k-DOP, and half-spaces relative to a point near the volume, are computed once.
+///
+/// A body is cheap to copy. Copies and transformed bodies share the prepared data, which never changes, so
+/// several threads may use them. Construction takes 0.03 to 0.2 us for most kinds, 35 us for a 26-DOP and 25
+/// us for a hull of 100 vertices.
+class ConvexBody {
+ public:
+  /// Makes the empty body, which overlaps nothing.
+  ConvexBody();
+
+  /// Prepares the volume.
+  explicit ConvexBody(const AnyVolume& volume);
+
+  /// Returns whether the body has no point.
+  bool empty() const { return !shape_; }
+
+  /// Returns the body transformed from its current pose. It contains every transformed point of this body, by
+  /// exact arithmetic on the stored matrices. It exceeds the exact result by the rounding of the coordinates
+  /// and, if the matrix is not exactly a rotation, by its stretch of the radius. 1.5 us for every kind.
+  ///
+  /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
+  /// time, not the body of the previous step.
+  ConvexBody transformed(const Eigen::Isometry3d& transform) const;
+
+ private:
+  friend volumes_internal::PosedShape;
+
+  // The body is all points within radius_ of a point origin_ + rotation_ q, for the q of the shape's core.
+  std::shared_ptr<const volumes_internal::SupportShape> shape_;  // null if empty
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d origin_;
+  double radius_, size_;  // size_ is an upper bound of |rotation_ q|
+  bool is_rotated_;       // false: rotation_ is the identity
+};
+
+/// Returns whether two volumes have a point in common, by the definitions of their kinds. Conservative: false
+/// is proven by a direction along which the volumes are separated, by exact arithmetic. True means that their
+/// distance is at most about 1e-14 of their sizes and of the distance of their centres.
+///
+/// False if either volume is empty. The order of the arguments does not matter. Two Aabb are compared
+/// exactly; so are two Kdop of equal sets along their directions. A Hull is the set that its planes enclose;
+/// a hull that its planes leave unbounded overlaps every volume that is not empty.
+///
+/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes directions; see docs/numerics.md. A query of
+/// two ConvexBody takes 0.1 to 0.2 us, with a 26-DOP 0.7 to 1.5 us, with a hull of 100 vertices 1.5 to 4 us.
+/// distance() takes two to three times as long, and up to 4 us for round bodies.
+bool overlaps(const AnyVolume& a, const AnyVolume& b);
+bool overlaps(const ConvexBody& a, const ConvexBody& b);
+
+/// Returns a certified lower bound of the distance of two volumes, in their unit: no two of their points are
+/// nearer. The bound is below the distance by at most about 1e-12 of the distance plus 1e-13 of the sizes. It
+/// is 0 exactly if overlaps() is true. Infinity if either volume is empty. The order of the arguments does
+/// not matter.
+double distance(const AnyVolume& a, const AnyVolume& b);
+double distance(const ConvexBody& a, const ConvexBody& b);
+
+/// Returns a certified lower bound of the distance from the point to the body. Infinity if the body is empty
+/// or a coordinate is infinite, NaN if a coordinate is NaN.
+double distance(const ConvexBody& body, const Eigen::Vector3d& point);
+
+/// Returns whether distance(a, b) <= margin. Conservative: true for all bodies whose distance is at most
+/// `margin` by exact arithmetic. The search stops as soon as the answer is known. If either body is empty,
+/// true only for an infinite margin; otherwise true for a margin that is NaN.
+bool within(const ConvexBody& a, const ConvexBody& b, double margin);
+
+}  // namespace pcl_bv

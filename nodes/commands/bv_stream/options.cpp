@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The options of bv_stream and their help. Options override the configuration file.
+
+#include "options.h"
+
+#include "commands/shared/command_line.h"
+#include "commands/shared/messages.h"
+#include "commands/shared/output_claims.h"
+#include "commands/shared/setting_options.h"
+#include "commands/shared/values.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/list_clouds.h"
+#include "pipeline/config/names.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  bv_stream --source sweeps/ --rate max > objects.jsonl     a recording, as fast as it goes
+  bv_stream --source sweeps/ --rate 10 --track --sink vtp:paraview/ --stats stats.json
+  bv_stream --print-config > robot.yaml; bv_stream --config robot.yaml --source sweeps/
+  bv_stream --source synth:street-sequence:100 --volume aabb,dop26 | jq -c .counts
+  bv_stream --source drive.mcap --track --sink ws:8765      then open http://localhost:8765/
+
+Exit status: 0 done, also after SIGINT, SIGTERM or SIGHUP, which let the frames in the queue be
+done first (a second one ends at once, with 128 + its number); 1 no readable source or poses, or an
+output not written; 2 wrong use or a bad configuration.
+PCL_BV_ISA in the environment sets the default of --isa.)";
+
+struct Texts {
+  std::string source, topic, rate, stamps, frame_id, poses, bin_fields, loop, stats, report;
+  std::vector<std::string> sinks;
+};
+
+void declare_frames(CommandLine& line, Texts& t) {
+  line.option("--source", t.source, "SOURCE", source_syntax());
+  line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
+  line.option("--topic", t.topic, "NAME",
+              "The topic of a recording, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
+  line.option(
+      "--rate", t.rate, "HZ",
+      "Frames a second, recorded (by their stamps) or max\n(10; recorded where the source is a recording)");
+  line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
+  line.option("--stamps", t.stamps, "RULE",
+              "Stamps of the frames: rate, or name for the time in the file name\n"
+              "(rate; name with --rate recorded)");
+  line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
+  line.option("--poses", t.poses, "FILE", "Sensor poses: KITTI format (by frame) or TUM format (by time)");
+}
+
+void declare_results(CommandLine& line, Texts& t) {
+  std::string sinks = sink_syntax();
+  for (const char* first_of_a_line : {" dds:", " image:"})
+    sinks.replace(sinks.find(first_of_a_line), 1, "\n");
+  line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
+  line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
+  line.option("--report", t.report, "SECONDS",
+              "Print counters and latency at this interval on standard error");
+}
+
+double number(const char* option, std::string_view text, double min, double max, const char* allowed) {
+  double value = 0;
+  if (read_whole_text(text, value) && value >= min && value <= max) return value;
+  reject_value(option, text, std::string("is not ") + allowed);
+}
+
+// Throws UsageError if an output would overwrite an input or another output.
+void claim_outputs(const StreamOptions& options, const std::string& config) {
+  OutputClaims claims;
+  claims.add_input(options.source);
+  if (!config.empty()) claims.add_input(config);
+  for (const RegionConfig& region : options.config.pipeline.filter.regions)
+    claims.add_input(region.file);
+  if (!options.replay.poses.empty()) claims.add_input(options.replay.poses);
+  std::error_code unknown;
+  try {
+    if (std::filesystem::is_directory(options.source, unknown)) {
+      std::size_t subfolders = 0;
+      for (const std::filesystem::path& cloud : list_clouds(options.source, &subfolders))
+        claims.add_input(cloud);
+      warn_of_subfolders(options.source, subfolders);
+    }
+  } catch (const IoError& error) {
+    throw IoError(options.source + ": " + error.what());
+  }
+  for (const SinkDescription& sink : options.sinks) {
+    if (sink.kind->live) continue;
+    const std::string_view files = sink.kind->files;
+    claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));
+    if (files == ".pcd") claims.reject_input(sink.target);  // its clouds would be read as those of the source
+  }
+  if (options.stats) claims.claim(*options.stats);
+}
+
+void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
+  ReplayOptions& replay = options.replay;
+  const FrameTimes times = source_kind(t.source).times;
+  replay.frame_id = t.frame_id;
+  replay.poses = t.poses;
+  if (times == FrameTimes::live) {
+    for (const char* option : {"--rate", "--loop", "--stamps", "--topic", "--bin-fields"})
+      if (line.given(option)) throw UsageError(std::string(option) + ": not with a live source");
+    options.rate = Rate::live;
+    return;
+  }
+  const bool recorded = line.given("--rate") ? t.rate == "recorded" : times == FrameTimes::messages;
+  options.rate = t.rate == "max" ? Rate::max : recorded ? Rate::recorded : Rate::fixed;
+  if (line.given("--rate") && options.rate == Rate::fixed)
+    replay.rate_hz =
+        number("--rate", t.rate, kMinRate, kMaxRate, "a rate from 0.001 to 1000000, recorded or max");
+  if (line.given("--loop")) replay.loops = parse_whole_number("--loop", t.loop, 1);
+  if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
+    reject_value("--stamps", t.stamps, "is not rate or name");
+  replay.own_stamps = line.given("--stamps")
+                          ? t.stamps == "name"
+                          : times == FrameTimes::messages || (recorded && times == FrameTimes::names);
+  replay.topic = t.topic;
+  if (line.given("--topic") && times != FrameTimes::messages)
+    throw UsageError("--topic: only useful with a recording");
+  if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
+}
+
+StreamOptions to_options(const CommandLine& line, const Texts& t, const std::string& config_file,
+                         StreamConfig config) {
+  StreamOptions options;
+  options.config = std::move(config);
+  if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
+  options.source = t.source;
+  read_replay(line, t, options);
+  if (const auto& field = options.config.pipeline.cluster.class_field)
+    options.replay.class_field = field->name;
+  for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
+    options.sinks.push_back(parse_with("--sink", sink, parse_sink));
+  if (line.given("--stats")) options.stats = t.stats;
+  if (line.given("--report"))
+    options.report_seconds = number("--report", t.report, 0.001, 1e6, "seconds from 0.001 to 1000000");
+  claim_outputs(options, config_file);
+  return options;
+}
+
+}  // namespace
+
+std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv) {
+  CommandLine line("bv_stream", "Objects in a stream of point clouds, as volumes that hold every point.",
+                   examples);
+  Texts texts;
+  declare_frames(line, texts);
+  StreamConfig defaults;
+  defaults.pipeline.threads = 0;
+  SettingOptions settings(line, defaults, true);
+  declare_results(line, texts);
+  if (auto text = line.parse(argc, argv)) return *std::move(text);
+  std::string range_from;
+  StreamConfig config = settings.config(&range_from);
+  if (settings.print_config()) return to_yaml(config);
+  StreamOptions options = to_options(line, texts, settings.file(), std::move(config));
+  options.range_from = std::move(range_from);
+  return options;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command line of bv_stream. It is checked completely before any frame is read.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pcl_bv/nodes/frame_sink.h"
+#include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace pcl_bv {
+
+/// When the next frame is due.
+enum class Rate : std::uint8_t {
+  fixed,     ///< At ReplayOptions::rate_hz.
+  recorded,  ///< According to the stamps.
+  max,       ///< As soon as the queue has capacity.
+  live       ///< When it arrives.
+};
+
+struct StreamOptions {
+  std::string source;
+  StreamConfig config;
+  std::string range_from;  ///< Where the range was set, see SettingOptions::config().
+  ReplayOptions replay;
+  Rate rate = Rate::fixed;
+  std::vector<SinkDescription> sinks;
+  std::optional<std::filesystem::path> stats;
+  double report_seconds = 0;  ///< Seconds between reports; 0: none.
+};
+
+/// Parses the command line. Returns the options, or a text to be printed on standard output (--help,
+/// --version, --print-config). Throws UsageError, and IoError for a folder that cannot be listed.
+std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv);
+
+}  // namespace pcl_bv

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Turns the arguments into jobs.
+
+#include "inputs.h"
+
+#include <algorithm>
+
+#include "commands/shared/messages.h"
+#include "commands/shared/output_claims.h"
+#include "commands/shared/values.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/report/meshes.h"
+#include "pcl_bv/synth/synth.h"
+#include "stream/sources/sources.h"
+#include "tiles.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view synth_prefix = "synth:";
+
+bool is_folder(const std::string& path) {
+  std::error_code unknown;
+  return !is_synth(path) && fs::is_directory(path, unknown);
+}
+
+void report_new_warnings(RecordedClouds& clouds, const std::string& file) {
+  for (const std::string& warning : clouds.take_warnings())
+    report_problem(std::string(file).append(": ").append(warning));
+}
+
+// Reports damage after each cloud, since much of it is only found while clouds are read.
+RawCloud load_recorded(const Job& job) {
+  const std::string file = job.input.substr(0, job.input.rfind('#'));
+  try {
+    RawCloud cloud = job.recording->load(job.number);
+    report_new_warnings(*job.recording, file);
+    return cloud;
+  } catch (const std::exception&) {
+    report_new_warnings(*job.recording, file);
+    throw;
+  }
+}
+
+std::vector<Job> expand_recording(const std::string& argument, const std::string& topic) {
+  const auto clouds = std::make_shared<RecordedClouds>(argument, topic);
+  const std::size_t count = clouds->count();
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < count; ++i) {
+    Job& job = jobs.emplace_back();
+    job.input = argument;
+    job.input.append("#").append(std::to_string(i));
+    job.recording = clouds;
+    job.number = i;
+  }
+  report_new_warnings(*clouds, argument);
+  if (jobs.empty()) return {{argument, "no cloud in this recording"}};
+  return jobs;
+}
+
+std::vector<Job> expand(const std::string& argument, const std::string& topic) {
+  try {
+    if (!is_synth(argument) && has_recorded_clouds(argument)) return expand_recording(argument, topic);
+    if (!is_synth(argument)) check_recording_content(argument);
+  } catch (const IoError& error) {
+    return {{argument, error.what()}};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(argument + ": " + error.what());
+  }
+  if (!is_folder(argument)) return {{argument}};
+  try {
+    std::vector<Job> jobs;
+    std::size_t subfolders = 0;
+    for (const fs::path& path : list_clouds(argument, &subfolders))
+      jobs.push_back({path.string()});
+    warn_of_subfolders(argument, subfolders);
+    if (!jobs.empty()) return jobs;
+    return {{argument, "no .pcd, .ply, .las or .bin file in this folder"}};
+  } catch (const IoError& error) {
+    return {{argument, error.what()}};
+  }
+}
+
+// Returns all files of a folder, whatever their names; their order does not matter.
+std::vector<Job> expand_partials(const std::string& argument) {
+  if (!is_folder(argument)) return {{argument}};
+  std::vector<Job> jobs;
+  std::error_code unreadable;
+  for (const fs::directory_entry& entry : fs::directory_iterator(argument, unreadable)) {
+    if (entry.path().filename().string().front() != '.' && !entry.is_directory())
+      jobs.push_back({entry.path().string()});
+  }
+  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.input < b.input; });
+  if (jobs.empty()) return {{argument, "no file of partial results in this folder"}};
+  return jobs;
+}
+
+// Makes one job of all inputs.
+Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
+  Job job;
+  job.input = kTiledName;
+  if (tiles) {
+    job.tiles = std::move(tiles);
+  } else if (options.merge) {
+    for (const Job& input : inputs)
+      job.partials.push_back(input.input);
+  } else {
+    std::vector<TileHeader> headers(inputs.size());
+    for_each_chunk(options.pipeline.parallel_policy(), inputs.size(),
+                   [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
+    job.tiles = std::make_shared<Tiles>(std::move(inputs), std::move(headers),
+                                        thread_count(options.pipeline.parallel_policy()));
+  }
+  return job;
+}
+
+std::string stem(const std::string& input) {
+  const std::size_t number = input.rfind('#');  // of a recording: FILE.mcap#3 becomes FILE-3
+  if (!is_synth(input) && number != std::string::npos &&
+      input.find_first_not_of("0123456789", number + 1) == std::string::npos)
+    return fs::path(input.substr(0, number)).stem().string() + '-' + input.substr(number + 1);
+  if (!is_synth(input)) return fs::path(input).stem().string();
+  std::string name = input.substr(synth_prefix.size());
+  std::replace(name.begin(), name.end(), ':', '-');
+  return name;
+}
+
+}  // namespace
+
+bool is_synth(const std::string& input) {
+  return input.starts_with(synth_prefix);
+}
+
+std::vector<Job> list_inputs(const Options& options) {
+  std::vector<Job> jobs;
+  for (const std::string& argument : options.inputs) {
+    for (Job& job : options.merge ? expand_partials(argument) : expand(argument, options.topic)) {
+      job.bin_fields = options.bin_fields;
+      jobs.push_back(std::move(job));
+    }
+  }
+  return jobs;
+}
+
+std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
+  const bool one = options.tiled || options.merge;
+  const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
+  const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
+    if (several || !given.has_filename() || is_folder(given.string()))
+      return given / (stem(job.input) + extension);
+    if (given.has_extension() || is_device(given)) return given;
+    reject_value(option, given.string(), std::string("has no suffix such as ") + extension);
+  };
+  // The extension of the target selects the format, also for a folder.
+  const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
+  const char* image_extension = svg ? ".svg" : ".png";
+  const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
+  const char* mesh_extension = vtp ? ".vtp" : ".ply";
+  OutputClaims claims;
+  for (const std::string& argument : options.inputs) {
+    if (!is_synth(argument)) claims.add_input(argument);
+  }
+  if (!options.config_file.empty()) claims.add_input(options.config_file);
+  for (const RegionConfig& region : options.pipeline.filter.regions)
+    claims.add_input(region.file);
+  for (const Job& job : inputs) {
+    if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
+  }
+  if (options.partial) claims.claim(*options.partial);
+  std::vector<Job> jobs =
+      one ? std::vector{merged_job(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
+  if (options.output) claims.claim(*options.output);
+  for (Job& job : jobs) {
+    if (job.error) continue;
+    if (options.labels) claims.claim(job.labels.emplace(target("--labels", *options.labels, job, ".pcd")));
+    if (options.mesh) claims.claim(job.mesh.emplace(target("--mesh", *options.mesh, job, mesh_extension)));
+    if (options.image)
+      claims.claim(job.image.emplace(target("--image", *options.image, job, image_extension)));
+    if (options.view_html)
+      claims.claim(job.view_html.emplace(target("--view-html", *options.view_html, job, ".html")));
+  }
+  return jobs;
+}
+
+RawCloud load_cloud(const Job& job, const ParallelPolicy& policy) {
+  if (job.error) throw IoError(*job.error);
+  if (is_synth(job.input)) {
+    const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
+    return to_raw_cloud(make_synth(parse_synth(scene)));
+  }
+  if (job.recording) return load_recorded(job);
+  return read_cloud(job.input, policy, job.bin_fields);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command pcd_bv: bounding volumes of point clouds.
+
+#include "commands/shared/run_command.h"
+#include "inputs.h"
+#include "options.h"
+#include "process.h"
+#include "shares.h"
+
+int main(int argc, char** argv) {
+  using namespace pcl_bv;
+  return run_command("pcd_bv", [&] {
+    const auto parsed = parse_options(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);
+    const auto& options = std::get<Options>(parsed);
+    const std::vector<Job> jobs = plan_jobs(options);
+    if (options.partial) return static_cast<int>(make_partial_file(jobs.front(), options));
+    return static_cast<int>(process_all(jobs, options));
+  });
+}

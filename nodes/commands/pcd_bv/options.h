@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command line of pcd_bv. It is checked completely before any work begins.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/report/picture.h"
+
+namespace pcl_bv {
+
+enum class OutputFormat { text, json, jsonl, csv };
+
+/// The origin that is subtracted from all coordinates first.
+struct OriginOption {
+  bool requested = false;
+  std::optional<Eigen::Vector3d> at{};  ///< If not given: the centre of each cloud, in whole numbers.
+};
+
+/// One of `count` shares of a cloud, by its number from 0 on.
+struct ShareOption {
+  std::size_t number = 0;
+  std::size_t count = 1;
+};
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
+  std::string topic;           ///< Topic of recordings.
+  OriginOption origin;
+  PipelineConfig pipeline;
+  std::string range_from;   ///< Where the range was set, see SettingOptions::config().
+  std::string config_file;  ///< File of --config; empty without it.
+  OutputFormat format = OutputFormat::text;
+  std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
+  ViewFrom view = ViewFrom::iso;
+  bool tiled = false;  ///< All inputs are one cloud; also set by --partial without --merge.
+  bool merge = false;  ///< Inputs are files of partial results.
+  std::optional<std::filesystem::path> partial;  ///< File for partial results; then no volumes are written.
+  ShareOption share;                             ///< The share of points that the partial results cover.
+  bool threads_given = false;                    ///< Whether --threads was given.
+  bool check = false;
+  bool info = false;
+  bool timings = false;
+  bool progress = false;
+
+  bool clusters() const { return pipeline.cluster.tolerance > 0; }
+};
+
+/// Whether files other than the report are requested.
+inline bool writes_files(const Options& options) {
+  return options.labels || options.mesh || options.image || options.view_html;
+}
+
+/// The commands that share these options.
+enum class PcdBvCommand {
+  serial,
+  mpi  ///< pcd_bv_mpi, which has no options for files of partial results.
+};
+
+/// Parses the command line. Returns the options, or a text to be printed on standard output (--help,
+/// --version, --print-config). Throws UsageError.
+std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
+                                                 PcdBvCommand command = PcdBvCommand::serial);
+
+}  // namespace pcl_bv

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Writes reports: to standard output as they come, or to one file at the end.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.h"
+#include "pcl_bv/report/report.h"
+
+namespace pcl_bv {
+
+/// Renders one report without the separators between reports, so that several can be rendered at a time.
+/// `take` gets the text in pieces, none of them empty. It gets no piece for a failed input if the format does
+/// not show failed inputs.
+void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
+
+/// Writes rendered reports. The member functions return false if standard output has no reader any more. They
+/// throw IoError.
+class ReportWriter {
+ public:
+  ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file);
+
+  /// Adds a piece of a report; `goes_on` is false for its first piece.
+  bool add(std::string&& piece, bool goes_on);
+
+  /// Completes the output after the last report; creates the file.
+  bool finish();
+
+ private:
+  bool write(std::string&& text);
+
+  OutputFormat format_;
+  std::optional<std::filesystem::path> file_;
+  std::vector<std::string> pending_;  ///< Content of the file so far.
+  bool first_ = true;
+};
+
+}  // namespace pcl_bv

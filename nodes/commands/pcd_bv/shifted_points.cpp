@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "shifted_points.h"
+
+#include <cstring>
+
+#include "copy_points.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/points/chunks.h"
+
+namespace pcl_bv {
+
+PointView ShiftedPoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
+  const LoadedPoints part(points_, first, count);
+  constexpr std::size_t step = 3 * sizeof(double);
+  if (buffer.size() < count * step) buffer.resize(count * step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Coordinates p = load_point(part.view(), i);
+    const double shifted[3] = {p.x - origin_.x(), p.y - origin_.y(), p.z - origin_.z()};
+    std::memcpy(buffer.data() + i * step, shifted, step);
+  }
+  return packed_points(buffer.data(), ScalarType::float64, count, first);
+}
+
+Eigen::Vector3d rounded_centre(const PointView& points, const ParallelPolicy& policy) {
+  Aabb box;
+  fit_aabb(points, box, {policy});
+  return box.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box.center().array().round());
+}
+
+std::vector<std::byte> packed_copy(const PointView& points) {
+  const std::size_t step = 3 * size_of(points.scalar);
+  std::vector<std::byte> all(step * points.count);
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk)
+    copy_points(load_chunk(points, chunk).view(), points.scalar, all.data() + chunk * kChunkPoints * step);
+  return all;
+}
+
+}  // namespace pcl_bv

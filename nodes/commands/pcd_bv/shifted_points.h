@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Points relative to an origin.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_source.h"
+
+namespace pcl_bv {
+
+/// The points of a view minus an origin, rounded to double. The view must not have an index list.
+class ShiftedPoints final : public PointSource {
+ public:
+  ShiftedPoints(const PointView& points, const Eigen::Vector3d& origin) : points_(points), origin_(origin) {}
+
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
+
+ private:
+  PointView points_;
+  Eigen::Vector3d origin_;
+};
+
+/// Returns the centre of the points' box, rounded to whole numbers; 0 without a valid point.
+Eigen::Vector3d rounded_centre(const PointView& points, const ParallelPolicy& policy);
+
+/// Returns a copy of all points of a view without gaps, in the scalar type of the view.
+std::vector<std::byte> packed_copy(const PointView& points);
+
+}  // namespace pcl_bv

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud tiled over several inputs. Its points are numbered through all inputs and loaded when needed.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "inputs.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/points/point_source.h"
+
+namespace pcl_bv {
+
+/// One input (tile) without its points.
+struct TileHeader {
+  std::size_t points = 0;
+  ScalarType scalar = ScalarType::float32;
+  bool random_access = false;          ///< Parts can be read by position (CloudHeader); not if small.
+  std::optional<std::string> error{};  ///< Why it is excluded; then it has no points.
+  std::string note{};                  ///< As in RawCloud, as far as the header tells.
+};
+
+/// Describes an input without reading the points of a file. Clouds that are generated or recorded are loaded,
+/// counted and dropped.
+TileHeader describe_tile(const Job& job);
+
+/// An error while reading one of the inputs.
+class TileError : public IoError {
+ public:
+  TileError(std::size_t tile, const std::string& reason) : IoError(reason), tile_(tile) {}
+  std::size_t tile() const { return tile_; }
+
+ private:
+  std::size_t tile_;
+};
+
+/// A range of point numbers: .first is included, .second is not.
+using PointRange = std::pair<std::size_t, std::size_t>;
+
+/// The points of all inputs. Files that can be read by position are read in parts. All other inputs (ascii,
+/// compressed, .ply, .las, and small ones) are read completely in each pass, and few of them are held at a
+/// time. If one input has float64 coordinates, all are read as float64.
+class Tiles final : public PointSource {
+ public:
+  /// `threads` is the number of threads that load at the same time; it determines how many tiles stay open.
+  Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t threads);
+
+  /// Returns a view of all points. It is valid until exclude() and while this object lives.
+  PointView xyz() const { return view_of(*this, offsets_.back(), scalar_); }
+
+  const std::vector<Job>& jobs() const { return jobs_; }
+  const TileHeader& header(std::size_t tile) const { return headers_[tile]; }
+
+  /// Returns the number of inputs that are not excluded.
+  std::size_t included_count() const;
+
+  /// Returns the warnings about an input so far, as in RawCloud::note.
+  std::string note(std::size_t tile) const;
+
+  /// Excludes an input from the cloud. The points after it are renumbered.
+  void exclude(std::size_t tile, const std::string& reason);
+
+  /// Returns one of `shares` shares, which cover the cloud and have about as many points each. A share begins
+  /// at a chunk of a file that can be read by position, or at the beginning of another input.
+  PointRange share(std::size_t number, std::size_t shares) const;
+
+  /// Throws TileError if an input cannot be read or has changed since it was first opened.
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
+
+  /// Throws TileError if a file that was read has been changed since.
+  void require_unchanged() const;
+
+  /// Called from time to time, by any thread, with the number of points loaded so far.
+  std::function<void(std::size_t points)> on_loaded;
+
+ private:
+  struct OpenTile;
+  struct Slot;
+  struct Identity {
+    long long size = -1, modified = 0, changed = 0, number = 0;
+    bool operator==(const Identity& other) const = default;
+  };
+
+  void number_points();
+  std::size_t tile_of(std::size_t point) const;
+  std::size_t share_begin(std::size_t number, std::size_t shares) const;
+  std::shared_ptr<const OpenTile> open(std::size_t tile) const;
+  OpenTile open_now(std::size_t tile) const;
+  Identity identity_of(std::size_t tile) const;
+  void copy(std::size_t tile, std::size_t first, std::size_t count, std::byte* to) const;
+  void count_loaded(std::size_t points) const;
+
+  std::vector<Job> jobs_;
+  std::vector<TileHeader> headers_;
+  std::vector<std::size_t> offsets_;  // first point of each input, then the number of all points
+  ScalarType scalar_ = ScalarType::float32;
+  std::size_t max_open_;
+
+  mutable std::mutex mutex_;
+  mutable std::list<std::shared_ptr<Slot>> open_;  // most recently used first
+  mutable std::vector<Identity> identities_;       // of each input that has been opened
+  mutable std::vector<std::string> notes_;         // of each input that has been read completely
+  mutable std::atomic<std::size_t> loaded_ = 0;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Each line is one system call: lines of several threads never mix.
+
+#include "messages.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <mutex>
+
+namespace pcl_bv {
+namespace {
+
+std::mutex mutex;
+std::string command;
+std::string status_line;  // empty: none is shown
+thread_local DeferredMessages* holder = nullptr;
+
+// Errors are ignored, since they cannot be reported elsewhere.
+void write_error(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size());
+    if (n < 0 && errno != EINTR) return;
+    if (n > 0) text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+// Overwrites the line with spaces, which works on terminals of every kind.
+std::string erasure() {
+  return status_line.empty() ? "" : '\r' + std::string(status_line.size(), ' ') + '\r';
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+void name_command(std::string_view name) {
+  command = name;
+}
+
+void print_message(std::string_view text) {
+  std::string line = (command + ": ").append(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+  const std::lock_guard lock(mutex);
+  write_error(erasure() + line + '\n' + status_line);
+}
+
+void report_problem(std::string_view problem) {
+  holder != nullptr ? void(holder->messages.emplace_back(problem)) : print_message(problem);
+}
+
+void warn_of_subfolders(const std::string& folder, std::size_t subfolders) {
+  if (subfolders == 1) report_problem(folder + ": 1 subfolder is not read");
+  if (subfolders > 1) report_problem(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
+}
+
+DeferredMessages::DeferredMessages() {
+  holder = this;
+}
+
+DeferredMessages::~DeferredMessages() {
+  holder = nullptr;
+}
+
+bool errors_go_to_a_terminal() {
+  return isatty(STDERR_FILENO) != 0;
+}
+
+void show_status_line(std::string_view line) {
+  const std::lock_guard lock(mutex);
+  const std::string before = erasure();
+  // Some terminals begin a new line after the last column.
+  status_line = line.substr(0, terminal_width() - 1);
+  write_error(before + status_line);
+}
+
+void erase_status_line() {
+  const std::lock_guard lock(mutex);
+  write_error(erasure());
+  status_line.clear();
+}
+
+}  // namespace pcl_bv

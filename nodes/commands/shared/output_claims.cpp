@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Compares files by their canonical paths.
+
+#include "output_claims.h"
+
+#include <system_error>
+
+#include "values.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path identity(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path canonical = fs::weakly_canonical(path, unknown);
+  return unknown ? fs::absolute(path).lexically_normal() : canonical;
+}
+
+}  // namespace
+
+bool is_device(const fs::path& file) {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(file, unknown);
+  return fs::exists(status) && fs::is_other(status);
+}
+
+void OutputClaims::add_input(const fs::path& file) {
+  inputs_.insert(identity(file));
+}
+
+void OutputClaims::reject_input(const fs::path& output) const {
+  if (inputs_.count(identity(output)) > 0)
+    throw UsageError(output.string() + ": is an input and would be overwritten");
+}
+
+void OutputClaims::claim(const fs::path& output) {
+  reject_input(output);
+  const fs::path file = identity(output);
+  if (!taken_.insert(file).second && !is_device(file)) {
+    throw UsageError(output.string() + ": more than one result would be written to this file");
+  }
+}
+
+}  // namespace pcl_bv

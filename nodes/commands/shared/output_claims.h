@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ensures that no output overwrites an input or another output.
+#pragma once
+
+#include <filesystem>
+#include <set>
+
+namespace pcl_bv {
+
+/// Returns whether this is a terminal, a pipe, /dev/null or similar: several results may go there.
+bool is_device(const std::filesystem::path& file);
+
+/// The inputs and outputs of a command. Files are compared by canonical path, so links do not matter.
+class OutputClaims {
+ public:
+  void add_input(const std::filesystem::path& file);
+
+  /// Throws UsageError if the file or folder is an input.
+  void reject_input(const std::filesystem::path& output) const;
+
+  /// Registers an output. Throws UsageError if it is an input, or if it is already registered and no device.
+  void claim(const std::filesystem::path& output);
+
+ private:
+  std::set<std::filesystem::path> inputs_, taken_;
+};
+
+}  // namespace pcl_bv

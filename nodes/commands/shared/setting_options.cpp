@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "setting_options.h"
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "messages.h"
+#include "pipeline/config/check.h"
+#include "pipeline/config/settings.h"
+#include "values.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string shown_default(const Setting& setting, const std::string& value) {
+  return value.empty() || value == "null" ? std::string(setting.unset) : value;
+}
+
+// Only streams have options for tracks and queues.
+bool has_option(const Setting& setting, bool stream) {
+  const std::string_view stage = setting.key.substr(0, setting.key.find('.'));
+  return !setting.option.empty() && (stream || (stage != "track" && stage != "runner"));
+}
+
+// Removes repeated methods. The command line may repeat a method; a file may not.
+void keep_first_mentions(std::vector<std::string>& methods) {
+  std::vector<std::string> once;
+  for (std::string& name : methods) {
+    const auto same = [&](const std::string& other) { return find_method(other) == find_method(name); };
+    if (find_method(name) == nullptr || std::none_of(once.begin(), once.end(), same))
+      once.push_back(std::move(name));
+  }
+  methods = std::move(once);
+}
+
+std::pair<double, double> range_of(const StreamConfig& config) {
+  return {config.pipeline.filter.range_min, config.pipeline.filter.range_max};
+}
+
+// The option --cluster takes TOL or TOL:PER_METRE.
+constexpr std::string_view kTolerance = "cluster.tolerance";
+
+std::string own_part(const Setting& setting, const std::string& text) {
+  return setting.key == kTolerance ? text.substr(0, text.find(':')) : text;
+}
+
+void read_growth(const std::string& text, ClusterConfig& cluster) {
+  cluster.tolerance_per_metre = 0;
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return;
+  parse_with("--cluster", text.substr(colon + 1),
+             [&](const std::string& growth) { read_text(growth, cluster.tolerance_per_metre); });
+}
+
+}  // namespace
+
+std::string with_options(std::string text) {
+  const auto replace = [&](std::string_view key, std::string_view option) {
+    const std::size_t at = text.find(key);
+    if (at == std::string::npos || text.find('_', at + key.size()) == at + key.size())
+      return;  // part of a longer key
+    text.replace(at, key.size(), option);
+  };
+  const PipelineConfig any;
+  visit_pipeline(any, [&](const Setting& setting, const auto&) {
+    if (!setting.option.empty()) replace(setting.key, setting.option);
+  });
+  replace("filter.range_max", "--range");
+  replace("cluster.tolerance_per_metre", "the growth of --cluster");
+  return text;
+}
+
+SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
+    : line_(line), defaults_(defaults), stream_(stream) {
+  line.option("--preset", preset_, "NAME", "Preset of settings: road, indoor or table");
+  line.option("--config", file_, "FILE.yaml", "Settings; options override them");
+  line.flag("--print-config", print_config_, "Print the settings that would be used, as such a file");
+  const FilterConfig& filter = defaults.pipeline.filter;
+  line.option("--range", range_, "MIN:MAX",
+              "Drop points nearer or farther than this from the origin (" + to_text(filter.range_min) + ":" +
+                  to_text(filter.range_max) + ")");
+  line.option("--drop-inside", dropped_, "FILE.json",
+              "Drop points inside the volumes of this result; repeatable");
+  line.option("--keep-inside", cropped_, "FILE.json",
+              "Drop points outside all volumes of this result; repeatable");
+  line.option("--padding", padding_, "M", "Inflate the volumes of --drop-inside, --keep-inside by this (0)");
+  const auto declare = [&](const Setting& setting, const auto& value) {
+    if (!has_option(setting, stream_)) return;
+    const std::string help(setting.help);
+    if constexpr (std::is_same_v<decltype(value), const bool&>) {
+      line.flag(setting.option.data(), flags_[setting.option], help);
+    } else {
+      line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
+                  help + " (" + shown_default(setting, to_text(value)) + ")");
+    }
+  };
+  visit_stream(defaults, declare);
+}
+
+void SettingOptions::apply(StreamConfig& config) const {
+  const auto read = [this](const Setting& setting, auto& value) {
+    if (!has_option(setting, stream_) || !line_.given(setting.option.data())) return;
+    if constexpr (std::is_same_v<decltype(value), bool&>) {
+      value = true;
+    } else {
+      parse_with(setting.option, own_part(setting, texts_.at(setting.option)),
+                 [&](const std::string& text) { read_setting(setting, text, value); });
+    }
+    if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
+    const std::string problem = problem_of(setting, value);
+    if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
+  };
+  visit_stream(config, read);
+  FilterConfig& filter = config.pipeline.filter;
+  if (!dropped_.empty() || !cropped_.empty()) filter.regions.clear();
+  for (const auto& [files, keep] : {std::pair(&dropped_, false), {&cropped_, true}}) {
+    for (const std::string& file : *files)
+      filter.regions.push_back({file, keep});
+  }
+  for (RegionConfig& region : filter.regions) {
+    if (line_.given("--padding"))
+      parse_with("--padding", padding_, [&](const std::string& text) { read_text(text, region.padding); });
+  }
+  if (line_.given("--cluster")) read_growth(texts_.at("--cluster"), config.pipeline.cluster);
+  if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
+}
+
+void SettingOptions::reject_useless(const PipelineConfig& config) const {
+  const auto reject = [&](const char* option, bool useful, const char* needed) {
+    if (line_.given(option) && !useful)
+      throw UsageError(std::string(option) + ": only useful with " + needed);
+  };
+  const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
+  reject("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
+  const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
+  for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--class"})
+    reject(option, clusters, "--cluster");
+  reject("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
+  for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
+    reject(option, ground, "--ground");
+}
+
+StreamConfig SettingOptions::config(std::string* range_from) const {
+  StreamConfig config = defaults_;
+  std::string from = "the default; see --range";
+  if (line_.given("--preset")) {
+    parse_with("--preset", preset_, [&](const std::string& name) { apply_preset(name, config.pipeline); });
+    from = "--preset " + preset_;
+  }
+  try {
+    const auto range = range_of(config);
+    if (line_.given("--config")) config = read_stream_config(file_, config);
+    if (range_of(config) != range) from = "--config " + file_;
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
+  apply(config);
+  if (range_from != nullptr) *range_from = line_.given("--range") ? "--range" : from;
+  reject_useless(config.pipeline);
+  const std::vector<std::string> problems = config.validate();
+  if (!problems.empty()) throw UsageError(problems.front());
+  for (const std::string& line : config.pipeline.ineffective_settings())
+    report_problem(with_options(line));
+  return config;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Parses values of the command line. Every error names the option, the text and what is allowed.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pcl_bv {
+
+/// Wrong use of a command: what() is the line for standard error, and the exit status is 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws a UsageError such as "--rate: 'fast' is not a rate"; `what` is the part after the text.
+[[noreturn]] void reject_value(std::string_view option, std::string_view text, const std::string& what);
+
+/// Returns parse(text). A std::invalid_argument becomes a UsageError that names the option.
+template <typename Text, typename Parse>
+auto parse_with(std::string_view option, const Text& text, Parse parse) {
+  try {
+    return parse(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+/// Parse a whole number, or the MIN:MAX of --range. Throw UsageError for any other text.
+std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
+                               std::size_t max = std::numeric_limits<std::size_t>::max());
+std::pair<double, double> parse_range(std::string_view text);
+
+/// Parses the number of floats per point of .bin files, 3 to 32. Throws UsageError.
+std::size_t parse_bin_fields(std::string_view text);
+
+}  // namespace pcl_bv

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "cdr_type.h"
+#include "endpoints.h"
+#include "participant.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv::dds {
+namespace {
+
+constexpr dds_duration_t kMaxBlockingTime = DDS_MSECS(10);
+
+// RIHS01 hash of a type's definition (REP 2011), by which rosbag2 and `ros2 topic info` of Iron and later
+// identify the type. Hashes of the definitions of Humble and later. Empty for other types.
+std::string_view hash_of(const std::string& type) {
+  static const std::map<std::string_view, std::string_view> hashes{
+      {"sensor_msgs/msg/PointCloud2", "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"},
+      {"visualization_msgs/msg/MarkerArray",
+       "86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf"},
+      {"vision_msgs/msg/Detection3DArray",
+       "793f5eab9595ac1c0da07873cc859db42eae51f0ee76056db8562515d830e018"},
+      {"diagnostic_msgs/msg/DiagnosticArray",
+       "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"}};
+  const auto found = hashes.find(type);
+  return found == hashes.end() ? std::string_view() : found->second;
+}
+
+Qos writer_qos(const std::string& type) {
+  Qos qos = make_qos();
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlockingTime);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 5);
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  if (const std::string_view hash = hash_of(type); !hash.empty()) {
+    const std::string text = "typehash=RIHS01_" + std::string(hash) + ';';
+    dds_qset_userdata(qos.get(), text.data(), text.size());
+  }
+  return qos;
+}
+
+class Sender final : public MessageSender {
+ public:
+  std::size_t add_topic(const MessageTopic& added) override {
+    const auto& [name, type, encoding] = added;
+    if (encoding != "cdr") throw std::invalid_argument(name + ": DDS carries CDR only");
+    const ddsi_sertype* known = nullptr;
+    Entity topic(create_cdr_topic(participant_->get(), dds_topic(name), dds_type(type), &known), name);
+    Entity writer(dds_create_writer(participant_->get(), topic.get(), writer_qos(type).get(), nullptr), name);
+    topics_.push_back({name, known, std::move(topic), std::move(writer)});
+    return topics_.size() - 1;
+  }
+
+  bool has_subscribers(std::size_t topic) const override {
+    dds_publication_matched_status_t matched{};
+    return dds_get_publication_matched_status(topics_.at(topic).writer.get(), &matched) >= 0 &&
+           matched.current_count > 0;
+  }
+
+  void send(std::size_t topic, std::int64_t, const std::vector<std::byte>& cdr) override {
+    Topic& to = topics_.at(topic);
+    if (cdr.size() < 4 || cdr.size() > UINT32_MAX - 4)
+      throw std::invalid_argument(to.name + ": not a valid CDR message (4 bytes to 4 GiB)");
+    const std::size_t padding = (4 - cdr.size() % 4) % 4;
+    CdrSample* const sample = make_sample(to.type, SDK_DATA, cdr.size() + padding);
+    if (sample == nullptr) throw std::bad_alloc();
+    std::memcpy(sample->bytes.get(), cdr.data(), cdr.size());
+    std::memset(sample->bytes.get() + cdr.size(), 0, padding);
+    sample->bytes[3] |= static_cast<std::byte>(padding);  // padding's size (DDSI-RTPS 2.3)
+    sample->timestamp.v = dds_time();
+    const dds_return_t status = dds_writecdr(to.writer.get(), sample);
+    if (status == DDS_RETCODE_TIMEOUT) {
+      ++to.timed_out;
+    } else if (status != DDS_RETCODE_OK) {
+      throw IoError(to.name + ": " + dds_strretcode(status));
+    }
+  }
+
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> all = participant_->take_log();
+    for (Topic& topic : topics_) {
+      if (topic.timed_out > 0)
+        all.push_back(topic.name + ": " + std::to_string(std::exchange(topic.timed_out, 0)) +
+                      " messages dropped: a reader blocked the writer for more than 10 ms");
+    }
+    return all;
+  }
+
+  // Waits at most 1 s in total for the readers to acknowledge the last messages.
+  void close() override {
+    const dds_time_t until = dds_time() + DDS_SECS(1);
+    for (const Topic& topic : topics_)
+      dds_wait_for_acks(topic.writer.get(), std::max<dds_duration_t>(until - dds_time(), 0));
+    topics_.clear();
+  }
+
+ private:
+  struct Topic {
+    std::string name;
+    const ddsi_sertype* type;
+    Entity topic, writer;         // the writer is destroyed before its topic
+    std::uint64_t timed_out = 0;  // writes since the last call of take_warnings()
+  };
+
+  std::shared_ptr<Participant> participant_ = Participant::shared();
+  std::vector<Topic> topics_;
+};
+
+}  // namespace
+
+std::unique_ptr<MessageSender> make_sender() {
+  return std::make_unique<Sender>();
+}
+
+}  // namespace pcl_bv::dds

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Distributes independent inputs over the ranks.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "commands/pcd_bv/inputs.h"
+#include "commands/pcd_bv/options.h"
+#include "commands/pcd_bv/status.h"
+#include "ranks.h"
+
+namespace pcl_bv {
+
+/// The action that the first rank takes when a signal ends the run. Any thread may call both member
+/// functions.
+class InterruptAction {
+ public:
+  void set(std::function<void()> finish) {
+    const std::lock_guard lock(mutex_);
+    finish_ = std::move(finish);
+  }
+  void operator()() {
+    const std::lock_guard lock(mutex_);
+    if (finish_) finish_();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::function<void()> finish_;
+};
+
+/// Collective call: processes all jobs. In order of descending file size, each job goes to the rank that has
+/// the fewest bytes so far. The first rank writes the results in the order of the jobs and returns the status
+/// of the run; the other ranks return Status::done.
+Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
+                    InterruptAction& interrupted);
+
+}  // namespace pcl_bv

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Checks of configured values.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "settings.h"
+
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace pcl_bv {
+
+/// A setting whose value is not allowed.
+struct ConfigProblem {
+  std::string key;
+  std::string what;  ///< The value and the allowed values.
+};
+
+/// Returns the problems of all settings, alone and in combination.
+std::vector<ConfigProblem> problems_of(const StreamConfig& config);
+
+/// Returns the allowed range of a whole number as text: " of at least 1 and at most 1000".
+std::string whole_number_range(const NumberRange& range);
+
+/// As read_text(). Errors of whole numbers also state the allowed range, so that "-1" and "1e300" are
+/// rejected with the same words as a 0 that is too small.
+template <typename T>
+void read_setting(const Setting& setting, std::string_view text, T& value) {
+  constexpr bool count = std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>;
+  try {
+    read_text(text, value);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(error.what() + (count ? whole_number_range(setting.range) : std::string()));
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Finds settings that have no effect in combination with the others; otherwise a user would search for their
+// effect in the results.
+
+#include <algorithm>
+#include <limits>
+
+#include "pcl_bv/nodes/pipeline_config.h"
+
+namespace pcl_bv {
+namespace {
+
+bool is_upright(const Method* method) {
+  return method->upright;
+}
+
+bool is_growing_sphere(const Method* method) {
+  return method->shape == "sphere" && method->needs_all_points;
+}
+
+}  // namespace
+
+std::vector<std::string> PipelineConfig::ineffective_settings() const {
+  std::vector<std::string> lines;
+  const auto check = [&](const char* key, bool set, bool useful, const char* needed) {
+    if (set && !useful) lines.push_back(std::string(key) + ": has no effect without " + needed);
+  };
+  const std::vector<const Method*> all = methods();
+  const bool upright = std::any_of(all.begin(), all.end(), is_upright),
+             sphere = std::any_of(all.begin(), all.end(), is_growing_sphere);
+  check("track.smooth", track.smooth, track.enabled, "track.enabled");
+  check("track.grow", track.grow, track.enabled, "track.enabled");
+  check("track.smooth", track.smooth && track.enabled, upright, "an upright box, obb-yaw or obb-lshape");
+  check("track.grow", track.grow && track.enabled, upright, "an upright box, obb-yaw or obb-lshape");
+  check("growth", growth != SphereGrowth::deferred, sphere,
+        "a sphere that grows, sphere-ritter or sphere-epos*");
+  const bool limited = cluster.max_size < std::numeric_limits<std::size_t>::max() ||
+                       std::any_of(cluster.classes.begin(), cluster.classes.end(),
+                                   [](const ClassConfig& own) { return own.max_size.has_value(); });
+  check("cluster.oversized", cluster.oversized != Oversized::drop, limited, "cluster.max_size");
+  const bool grounded = ground.method != GroundMethod::none;
+  check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones,
+        "ground.method zones");
+  check("ground.sensor_height", ground.sensor_height.has_value(), grounded, "ground.method");
+  check("ground.distance", ground.distance.has_value(), grounded, "ground.method");
+  check("ground.max_slope_degrees", ground.max_slope_degrees.has_value(), grounded, "ground.method");
+  return lines;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The fields of list elements in the configuration: regions and classes.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "settings.h"
+
+namespace pcl_bv {
+
+/// Element types of the lists in the configuration.
+template <typename T>
+concept ConfigRow = std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig>;
+
+/// How messages name a row.
+struct RowNames {
+  const char *one, *many, *example;
+};
+template <ConfigRow Row>
+constexpr RowNames row_names() {
+  if constexpr (std::is_same_v<Row, RegionConfig>)
+    return {"a region", "regions", "{file: F.json, keep: false, padding: 0}"};
+  return {"a class", "classes", "{value: 4, tolerance: 0.5}"};
+}
+
+/// Calls visit(setting, value) for each field of a row, as visit_stream() does for settings.
+template <typename Row, typename Visit>
+void visit_row(Row& row, Visit&& visit) {
+  using S = Setting;
+  if constexpr (std::is_same_v<std::remove_const_t<Row>, RegionConfig>) {
+    visit(S{"file", "", ""}, row.file);
+    visit(S{"keep", "", ""}, row.keep);
+    visit(S{"padding", "m", "", {0, 1e100}}, row.padding);
+  } else {
+    visit(S{"value", "", ""}, row.value);
+    visit(S{"drop", "", ""}, row.drop);
+    visit(S{"tolerance", "m", "", {0, 1e6, false, true}}, row.tolerance);
+    visit(S{"min_size", "points", "", {0, kNoLimit}}, row.min_size);
+    visit(S{"max_size", "points", "", {1, kNoLimit}}, row.max_size);
+    visit(S{"volumes", "methods", ""}, row.volumes);
+  }
+}
+
+}  // namespace pcl_bv

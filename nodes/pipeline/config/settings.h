@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The list of all settings: key, description, unit and allowed values. Configuration files, command-line
+// options and the parameters of other systems are made by visiting this list.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+inline constexpr double kFinite = std::numeric_limits<double>::max();
+
+/// Allowed numbers: from `min` (excluded unless `closed`) to `max`, which may be kNoLimit.
+struct NumberRange {
+  double min = 0;
+  double max = kFinite;
+  bool closed = true;
+  bool as_float = false;  ///< Positive numbers that become 0 as float32, the type of points, are not allowed.
+};
+
+/// The description of a setting.
+struct Setting {
+  std::string_view key;                      ///< With its stage: "filter.range_min".
+  std::string_view unit;                     ///< "m", the choices, or the meaning of a special value.
+  std::string_view help;                     ///< Help text.
+  NumberRange range{};                       ///< Allowed numbers.
+  std::string_view unset{};                  ///< Meaning of null or of an empty list.
+  std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M"; empty without an option.
+};
+
+/// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the setting's field, const
+/// if the configuration is. Its type is one of: bool, double, std::size_t, std::string (the instruction set),
+/// Eigen::Vector3d (a direction), std::optional of a double, std::size_t, point or FieldName, a std::vector
+/// of std::string (methods), RegionConfig or ClassConfig, or an enum.
+// clang-format off: a table
+template <typename Pipeline, typename Visit>
+void visit_pipeline(Pipeline& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this"}, c.filter.range_min);
+  visit(S{"filter.range_max", "m", "Drop points farther from the origin than this", {0, kNoLimit}},
+        c.filter.range_max);
+  visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of a box of points to drop", {}, "no box"},
+        c.filter.own_box_min);
+  visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of a box of points to drop", {}, "no box"},
+        c.filter.own_box_max);
+  visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]",
+          "Drop points inside volumes; keep: outside of all"},
+        c.filter.regions);
+  visit(S{"ground.method",
+          "none, plane, zones",
+          "Remove the ground first: none, plane or zones (outdoors)",
+          {},
+          {},
+          "--ground",
+          "KIND"},
+        c.ground.method);
+  visit(S{"ground.up",
+          "x, y, z, -x, -y, -z or a vector X,Y,Z",
+          "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
+          {},
+          {},
+          "--up",
+          "AXIS"},
+        c.ground.up);
+  visit(S{"ground.sensor",
+          "m, [x, y, z]",
+          "Sensor position",
+          {},
+          "origin, or the densest part of the cloud",
+          "--sensor",
+          "X,Y,Z"},
+        c.ground.sensor);
+  visit(S{"ground.sensor_height",
+          "m",
+          "Height of the origin above the ground",
+          {},
+          "estimated",
+          "--sensor-height",
+          "M"},
+        c.ground.sensor_height);
+  visit(S{"ground.distance",
+          "m",
+          "Height up to which points are ground",
+          {0, kFinite, false},
+          "0.2 with plane, 0.15 with zones",
+          "--ground-distance",
+          "M"},
+        c.ground.distance);
+  visit(S{"ground.max_slope_degrees",
+          "degrees",
+          "Maximum slope of the ground",
+          {0, 89},
+          "15 with plane, 20 with zones",
+          "--ground-slope",
+          "DEG"},
+        c.ground.max_slope_degrees);
+  visit(S{"cluster.tolerance",
+          "m; 0: all points are one object",
+          "Points closer than this are one object; 0: all; TOL:PER_METRE grows",
+          {0, 1e6, true, true},
+          {},
+          "--cluster",
+          "TOL"},
+        c.cluster.tolerance);
+  visit(S{"cluster.min_size",
+          "points",
+          "Drop objects of fewer points",
+          {0, kNoLimit},
+          "10; without clusters 0",
+          "--min-size",
+          "N"},
+        c.cluster.min_size);
+  visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
+        c.cluster.max_size);
+  visit(S{"cluster.min_points",
+          "points; 1: no noise",
+          "Drop noise: points that are not within the tolerance of a core point",
+          {1, kNoLimit},
+          {},
+          "--min-points",
+          "N"},
+        c.cluster.min_points);
+  visit(S{"cluster.tolerance_per_metre",
+          "m per m",
+          "The tolerance grows by this with the distance from the origin",
+          {0, 1e6, true, true}},
+        c.cluster.tolerance_per_metre);
+  visit(S{"cluster.oversized",
+          "drop, keep, split",
+          "Objects above --max-size: drop, keep, split (half the tolerance)",
+          {},
+          {},
+          "--oversized",
+          "RULE"},
+        c.cluster.oversized);
+  visit(S{"cluster.class_field",
+          "name of a field",
+          "Integer field with the classes of points; an object has one class",
+          {},
+          "none",
+          "--class",
+          "FIELD"},
+        c.cluster.class_field);
+  visit(S{"cluster.classes",
+          "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
+          "Classes that differ from the others"},
+        c.cluster.classes);
+  visit(S{"volumes",
+          "methods",
+          "Methods with commas, or all",
+          {},
+          "obb-lshape; without clusters aabb,sphere,obb",
+          "--volume",
+          "LIST"},
+        c.volumes);
+  visit(S{"growth",
+          "sequential, stationary, deferred",
+          "Growth of EPOS spheres: sequential, stationary, deferred",
+          {},
+          {},
+          "--growth",
+          "POLICY"},
+        c.growth);
+  visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
+        c.track.enabled);
+  visit(S{"track.gate", "m", "Largest distance of an object from its predicted position", {0, 100, false}},
+        c.track.gate);
+  visit(S{"track.birth", "frames", "Detections after which an object gets its id", {1, 1000}}, c.track.birth);
+  visit(S{"track.death", "frames", "Frames without a detection after which a track is deleted", {1, 1000}},
+        c.track.death);
+  visit(S{"track.smooth",
+          "",
+          "Smooth the yaw of tracked upright boxes; they still hold all points",
+          {},
+          {},
+          "--smooth"},
+        c.track.smooth);
+  visit(S{"track.grow", "", "Give tracked upright boxes the largest length and width seen", {}, {}, "--grow"},
+        c.track.grow);
+  visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
+        c.threads);
+  visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
+}
+
+/// The same for all settings of a stream: those of its pipeline and of its runner.
+template <typename Stream, typename Visit>
+void visit_stream(Stream& c, Visit&& visit) {
+  using S = Setting;
+  visit_pipeline(c.pipeline, visit);
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"},
+        c.runner.queue);
+  visit(S{"runner.policy",
+          "auto, drop_oldest, drop_newest, block",
+          "When the queue is full: drop_oldest, drop_newest, block, auto",
+          {},
+          {},
+          "--policy",
+          "NAME"},
+        c.runner.policy);
+  visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
+  visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.runner.watchdog_s);
+}
+// clang-format on
+
+/// Return a value as text: numbers with the fewest digits that read back exactly, "null" for a missing value,
+/// "unlimited" for a missing limit.
+std::string to_text(bool value);
+std::string to_text(double value);
+std::string to_text(std::size_t value);
+std::string to_text(const Eigen::Vector3d& direction);
+std::string to_text(const std::string& name);
+std::string to_text(const std::vector<std::string>& names);  ///< Joined by ", ".
+/// Rows in the syntax of the setting's unit, without [] and without unset fields.
+std::string to_text(const std::vector<RegionConfig>& regions);
+std::string to_text(const std::vector<ClassConfig>& classes);
+std::string to_text(GroundMethod method);
+std::string to_text(Oversized rule);
+std::string to_text(const FieldName& field);
+std::string to_text(SphereGrowth growth);
+std::string to_text(QueuePolicy policy);
+std::string to_text(const std::optional<Eigen::Vector3d>& point);
+template <typename T>
+std::string to_text(const std::optional<T>& value) {
+  return value ? to_text(*value) : "null";
+}
+
+/// Parse a value; the inverse of to_text(). Throw std::invalid_argument for any other text: "'far' is not a
+/// number". Ranges are checked by problem_of(), not here.
+void read_text(std::string_view text, bool& value);
+void read_text(std::string_view text, double& value);
+void read_text(std::string_view text, std::size_t& value);
+void read_text(std::string_view text, Eigen::Vector3d& direction);
+void read_text(std::string_view text, std::string& name);
+void read_text(std::string_view text,
+               std::vector<std::string>& names);                            ///< `all` means methods_of_all().
+void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One with this file name.
+void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One with this value.
+void read_text(std::string_view text, GroundMethod& method);
+void read_text(std::string_view text, Oversized& rule);
+void read_text(std::string_view text, FieldName& field);
+void read_text(std::string_view text, SphereGrowth& growth);
+void read_text(std::string_view text, QueuePolicy& policy);
+void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point);
+template <typename T>
+void read_text(std::string_view text, std::optional<T>& value) {
+  value.reset();
+  if (text != "null") read_text(text, value.emplace());
+}
+
+/// Return why a value is not allowed, such as "-1 is not at least 0"; empty if it is allowed.
+std::string problem_of(const Setting& setting, double value);
+std::string problem_of(const Setting& setting, std::size_t value);
+std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction);
+std::string problem_of(const Setting& setting, const std::string& instruction_set);
+std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
+std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
+std::string problem_of(const Setting& setting, const FieldName& field);
+std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
+std::string problem_of(const Setting& setting, const std::vector<ClassConfig>& classes);
+template <typename Choice>
+std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {
+  return {};
+}
+template <typename T>
+std::string problem_of(const Setting& setting, const std::optional<T>& value) {
+  return value ? problem_of(setting, *value) : std::string();
+}
+
+}  // namespace pcl_bv

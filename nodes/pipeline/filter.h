@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The filter stage: which points enter the pipeline.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/parallel/parts.h"
+#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_source.h"
+#include "pcl_bv/segmentation/counts.h"
+#include "pcl_bv/trees/region_mask.h"
+
+namespace pcl_bv {
+
+/// Whether a point is kept, or why it is dropped. `region`: it is inside a region to drop, or outside all
+/// regions to keep.
+enum class Verdict : std::uint8_t { kept, nonfinite, range, region };
+
+/// Memory that calls reuse.
+struct FilterScratch {
+  std::vector<Verdict> verdicts;
+  std::vector<std::uint8_t> inside;
+};
+
+/// The part of the points that one thread filters.
+struct FilterPart {
+  std::size_t begin, end;  ///< Range of points in the view.
+  std::size_t kept;
+  Counts counts;
+  FilterScratch scratch;
+};
+
+/// A configured filter. Const member functions may be called concurrently.
+class PointFilter {
+ public:
+  /// Reads the files of regions that have no volumes. Throws IoError if a file cannot be read.
+  PointFilter(const FilterConfig& config, UsableIsa isa);
+
+  /// Whether all finite points are kept.
+  bool keeps_all() const;
+
+  /// Computes the verdict of each point in memory. The square of a float is exact in double and the sum of
+  /// three is rounded twice, so the relative error of a distance is below 2e-16.
+  void classify(const PointView& points, FilterScratch& scratch) const;
+
+  /// Replaces `kept` by the numbers of the points that are kept, in the order of the view, and adds the
+  /// others to `counts`. Throws std::length_error for more than 2^31 - 1 points.
+  void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
+              PointParts<FilterPart>& parts, Counts& counts) const;
+
+ private:
+  template <typename T, typename Take>
+  void each_distance(const PointView& points, const Take& take) const;
+  template <typename Take>
+  void each_distance(const PointView& points, const Take& take) const;
+  void select(const PointView& points, std::int32_t* kept, FilterPart& part) const;
+  void drop(const PointView& points, const RegionMask& mask, bool inside, FilterScratch& scratch) const;
+
+  double min2_, max2_;
+  bool has_own_box_;
+  Eigen::Vector3d low_, high_;  // box of the own vehicle
+  std::optional<RegionMask> dropped_, cropped_;
+  UsableIsa isa_;
+};
+
+/// Adds the number of points with each verdict to `counts`.
+void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts);
+
+/// The filtered points of a view that is too large for index lists; dropped points become NaN.
+class FilteredPoints final : public PointSource {
+ public:
+  /// Stores the view, which must not have an index list, and the owner of its points.
+  FilteredPoints(const PointView& points, std::shared_ptr<const void> owner,
+                 std::shared_ptr<const PointFilter> filter)
+      : points_(points), owner_(std::move(owner)), filter_(std::move(filter)) {}
+
+  /// Counts the dropped points by reason, in one pass over all points.
+  Counts count(const ParallelPolicy& policy) const;
+
+  /// Loaded points keep their numbers in the view.
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
+
+ private:
+  PointView points_;
+  std::shared_ptr<const void> owner_;
+  std::shared_ptr<const PointFilter> filter_;
+};
+
+/// Returns the points of a cloud in memory that have these numbers. The numbers are not checked.
+inline PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
+  // Numbers count from the first point of the cloud, but the data of a slice begin at its own first point.
+  const bool moved = cloud.indices == nullptr && cloud.order == PointOrder::records && cloud.data != nullptr;
+  if (moved) cloud.data -= cloud.stride * cloud.first;
+  cloud.first = 0;
+  cloud.indices = numbers;
+  cloud.count = count;
+  return cloud;
+}
+
+inline PointView subset(const PointView& cloud, const std::vector<std::int32_t>& numbers) {
+  return subset(cloud, numbers.data(), numbers.size());
+}
+
+}  // namespace pcl_bv

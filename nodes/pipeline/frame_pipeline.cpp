@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "class_rules.h"
+#include "filter.h"
+#include "ground.h"
+#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/segmentation/up.h"
+#include "synthetic_sweep.h"
+#include "tracked_volumes.h"
+
+namespace pcl_bv {
+namespace {
+
+class Stopwatch {
+ public:
+  double lap() {  // milliseconds since the last call, or since construction
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// A valid configuration and what is derived from it.
+struct Prepared {
+  PipelineConfig config;
+  std::vector<const Method*> methods;
+  ClassRules rules;
+  MethodOptions options;
+  std::shared_ptr<const PointFilter> filter;
+  Execution execution{Serial{}, Isa::scalar};  // replaced by the configured instruction set
+  bool segments = false;                       // ground removal or clustering is enabled
+  bool reads_points = false;                   // some stage reads the points before the fits
+};
+
+std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
+  std::string problems;
+  for (const std::string& line : config.validate())
+    problems += (problems.empty() ? "" : "; ") + line;
+  if (!problems.empty()) throw std::invalid_argument(problems);
+  auto prepared = std::make_shared<Prepared>();
+  prepared->methods = config.methods();
+  prepared->rules = ClassRules(config);
+  prepared->options = {config.growth, normalized_up(config.ground.up)};
+  prepared->segments = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
+  prepared->execution.isa = parse_isa(config.isa);
+  prepared->execution.parallel = config.parallel_policy();
+  prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
+  prepared->reads_points = prepared->segments || !prepared->filter->keeps_all() ||
+                           config.cluster.effective_min_size() > 0 ||
+                           config.cluster.max_size < std::numeric_limits<std::size_t>::max();
+  prepared->config = std::move(config);
+  return prepared;
+}
+
+}  // namespace
+
+struct FramePipeline::State {
+  std::shared_ptr<const Prepared> current() const {
+    const std::lock_guard lock(mutex);
+    return prepared;
+  }
+
+  PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
+  void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
+  PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
+  void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
+  void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
+
+  mutable std::mutex mutex;
+  std::shared_ptr<const Prepared> prepared;
+
+  PointParts<FilterPart> parts;
+  GroundZones zones;
+  EuclideanClusterer clusterer;
+  ClassClusterer class_clusterer;
+  std::vector<PointView> views;
+  TrackedVolumes tracks;
+};
+
+// A large cloud that is only filtered is filtered chunk by chunk whenever it is loaded. This holds for clouds
+// in memory and in files, so that both give the same bits.
+PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
+  const PointView& cloud = frame.points;
+  result.passed_filter.clear();
+  result.filtered.reset();
+  if (!now.reads_points) return cloud;
+  const bool listed = now.segments || cloud.indices != nullptr;
+  if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
+    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter);
+    result.counts = filtered->count(now.execution.parallel);
+    result.filtered = std::move(filtered);
+  } else {
+    now.filter->select(cloud, now.execution.parallel, result.passed_filter, parts, result.counts);
+  }
+  return result.points_after_filter(cloud);
+}
+
+// Uses ground.sensor without a check, but Frame::sensor only if the points lie around it.
+void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
+  const PipelineConfig& config = now.config;
+  result.sensor = {};
+  result.around_origin = true;
+  const bool counts_from_origin = config.filter.range_max < std::numeric_limits<double>::infinity() ||
+                                  config.cluster.tolerance_per_metre > 0;
+  if (frame.points.source != nullptr) return;
+  if (config.ground.method != GroundMethod::zones && !counts_from_origin) return;
+  const auto find_around = [&](const Eigen::Vector3d& position) {
+    return pcl_bv::find_sensor(frame.points, config.ground.up, position, result.ground.scratch);
+  };
+  result.sensor = find_around(Eigen::Vector3d::Zero());
+  result.around_origin = result.sensor.confirmed;
+  if (config.ground.sensor) {
+    result.sensor = find_around(*config.ground.sensor);
+    result.sensor.position = *config.ground.sensor;
+  } else if (frame.sensor) {
+    const SensorPosition stated = find_around(*frame.sensor);
+    if (stated.confirmed) result.sensor = stated;
+  }
+}
+
+PointView FramePipeline::State::remove_ground(const Prepared& now, const PointView& points,
+                                              FrameResult& result) {
+  const GroundConfig& config = now.config.ground;
+  split_ground(points, config, result.sensor, now.execution.parallel, zones, result.ground);
+  result.ground.sensor = result.sensor;
+  if (config.method == GroundMethod::none) return points;
+  result.counts.ground = result.ground.ground.size();
+  return subset(points, result.ground.rest);
+}
+
+// Makes all points one object, if the number of points is allowed.
+void make_one_cluster(const ClusterConfig& config, const PointView& points, FrameResult& result) {
+  const Counts& counts = result.counts;
+  const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
+  Clusters& all = result.clusters;
+  all.indices.clear();
+  all.offsets.assign(1, 0);
+  const bool small = valid < config.effective_min_size();
+  const bool large = valid > config.max_size && config.oversized != Oversized::keep;
+  all.small_points = small ? valid : 0;
+  all.large_points = large ? valid : 0;
+  all.noise_points = all.class_points = 0;
+  if (small || large) return;
+  all.offsets.push_back(valid);
+  if (points.indices != nullptr && points.count == valid)
+    all.indices.assign(points.indices, points.indices + points.count);
+}
+
+void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
+                                         FrameResult& result) {
+  const ClusterConfig& config = now.config.cluster;
+  result.class_of.clear();
+  if (config.tolerance == 0) {
+    make_one_cluster(config, points, result);
+  } else if (!config.class_field) {
+    clusterer.extract(points, now.rules.default_settings(), result.clusters, now.execution.parallel);
+  } else {
+    if (frame.classes == nullptr)
+      throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
+                                  config.class_field->name + "'");
+    class_clusterer.extract(points, *frame.classes, now.rules.default_settings(), now.rules.class_settings(),
+                            result.clusters, result.class_of, now.execution.parallel);
+  }
+  // Frees the memory of the clustering before the fits: for a million clusters of four points, finding them
+  // takes 550 MB, and their volumes take 300 MB.
+  constexpr std::size_t many = 250'000;
+  if (result.clusters.size() >= many) {
+    clusterer = EuclideanClusterer();
+    class_clusterer = ClassClusterer();
+  }
+  result.counts.small = result.clusters.small_points;
+  result.counts.large = result.clusters.large_points;
+  result.counts.noise = result.clusters.noise_points;
+  result.counts.dropped_class = result.clusters.class_points;
+}
+
+void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
+  views.clear();
+  for (std::size_t i = 0; i < result.clusters.size(); ++i)
+    views.push_back(result.points_of(i, cloud));
+  const std::size_t methods = now.methods.size();
+  result.methods.assign(now.methods.begin(), now.methods.end());
+  result.volumes.resize(views.size() * methods);
+  result.results.resize(result.volumes.size());
+  result.requested.resize(result.volumes.size());
+  const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
+    const std::vector<const Method*>& requested_methods = now.rules.methods_of(
+        result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
+    Supports supports;
+    const Execution shared = share_supports(views[cluster], requested_methods, execution, supports);
+    for (std::size_t m = 0; m < methods; ++m) {
+      const std::size_t i = cluster * methods + m;
+      result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) !=
+                            requested_methods.end();
+      if (result.requested[i] == 0) {
+        result.volumes[i] = AnyVolume();
+        result.results[i] = EstimationResult();
+        continue;
+      }
+      result.results[i] = now.methods[m]->fit(views[cluster], result.volumes[i], shared, now.options);
+    }
+  };
+  for_each_view(views, now.execution, std::cref(fit_cluster));
+  if (now.reads_points) return;
+  result.counts.nonfinite = result.results.front().dropped;  // no earlier stage has counted them
+  result.clusters.offsets.back() = result.results.front().used;
+}
+
+FramePipeline::FramePipeline(PipelineConfig config) : state_(std::make_unique<State>()) {
+  set_config(std::move(config));
+}
+FramePipeline::~FramePipeline() = default;
+FramePipeline::FramePipeline(FramePipeline&&) noexcept = default;
+FramePipeline& FramePipeline::operator=(FramePipeline&&) noexcept = default;
+
+void FramePipeline::set_config(PipelineConfig config) {
+  std::shared_ptr<const Prepared> prepared = prepare(std::move(config));
+  const std::lock_guard lock(state_->mutex);
+  state_->prepared.swap(prepared);
+}
+
+PipelineConfig FramePipeline::config() const {
+  return state_->current()->config;
+}
+
+void FramePipeline::process(const Frame& frame, FrameResult& result) {
+  const std::shared_ptr<const Prepared> now = state_->current();
+  const SpinningThreads awake(now->execution.parallel);
+  Stopwatch whole, watch;
+  result.header = frame.header;
+  result.config = {now, &now->config};
+  result.points = frame.points.count;
+  result.counts = Counts();
+  result.ms = StageTimes();
+  result.ms.decode = frame.decode_ms;
+
+  if (now->segments && frame.points.source != nullptr)
+    throw std::invalid_argument(
+        "a cloud that is not in memory can be filtered, but ground removal and clustering need it in memory");
+  PointView points = state_->filter(*now, frame, result);
+  result.ms.filter = watch.lap();
+  state_->find_sensor(*now, frame, result);
+  points = state_->remove_ground(*now, points, result);
+  result.ms.ground = watch.lap();
+  state_->find_clusters(*now, frame, points, result);
+  result.ms.cluster = watch.lap();
+  state_->fit(*now, frame.points, result);
+  result.ms.fit = watch.lap();
+  result.tracks.clear();
+  result.track_time = TrackTime::stamps;
+  // An empty cluster has no position to track.
+  const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;
+  if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
+  if (now->config.track.enabled && !nothing) {
+    state_->tracks.update(now->config.track, state_->views, frame, result);
+  } else {
+    state_->tracks.reset();
+  }
+  result.ms.track = watch.lap();
+  result.ms.total = whole.lap();
+}
+
+void FramePipeline::reserve(std::size_t points, FrameResult& result) {
+  const Frame frame = synthetic_sweep(points, state_->current()->config);
+  for (int pass = 0; pass < 2; ++pass)  // the first pass creates tracks, the second one updates them
+    process(frame, result);
+  state_->tracks = TrackedVolumes();
+}
+
+}  // namespace pcl_bv

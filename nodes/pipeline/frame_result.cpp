@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_result.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "filter.h"
+#include "ground.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/segmentation/up.h"
+#include "pipeline/config/settings.h"
+
+namespace pcl_bv {
+
+PointView FrameResult::points_after_filter(const PointView& cloud) const {
+  if (counts.range + counts.inside == 0) return cloud;
+  if (!filtered) return subset(cloud, passed_filter);
+  PointView view = view_of(*filtered, points, cloud.scalar);
+  view.first = cloud.first;
+  return view;
+}
+
+PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) const {
+  const std::size_t size = clusters.cluster_size(cluster);
+  if (size == 0) return cloud.slice(0, 0);
+  if (clusters.indices.empty()) return points_after_filter(cloud);
+  return subset(cloud, clusters.cluster(cluster), size);
+}
+
+std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result) {
+  const PointView& cloud = frame.points;
+  std::size_t size = cloud.first + cloud.count;
+  if (const std::int32_t* numbers = cloud.indices; numbers != nullptr && cloud.count > 0)
+    size = static_cast<std::size_t>(*std::max_element(numbers, numbers + cloud.count)) + 1;
+  std::vector<std::uint32_t> label(size, kLabelNone);
+  for (const std::int32_t i : result.ground.ground)
+    label[static_cast<std::size_t>(i)] = kLabelGround;
+  const Clusters& clusters = result.clusters;
+  for (std::size_t id = 0; id < clusters.size(); ++id) {
+    for (std::size_t i = clusters.offsets[id];
+         i < std::min(clusters.offsets[id + 1], clusters.indices.size()); ++i)
+      label[static_cast<std::size_t>(clusters.indices[i])] = static_cast<std::uint32_t>(id);
+  }
+  if (!clusters.indices.empty() || clusters.size() == 0) return label;
+  const PointView all = result.points_of(0, cloud);  // the cluster has no index list
+  for (std::size_t chunk = 0; chunk < chunk_count(all.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(all, chunk);
+    const PointView& part = loaded.view();
+    for (std::size_t i = 0; i < part.count; ++i) {
+      if (is_valid(load_point(part, i))) label[part.index(i)] = 0;
+    }
+  }
+  return label;
+}
+
+std::string ground_warning(const FrameResult& result) {
+  const GroundConfig& ground = result.config->ground;
+  const Counts& counts = result.counts;
+  const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
+  if (ground.method == GroundMethod::none || looked_at < kFewPoints) return {};
+  const std::string tried = " (up is " + format_up(ground.up) + ")";
+  if (counts.ground == 0)
+    return "no ground found" + tried +
+           ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";
+  if (counts.ground == looked_at)
+    return "all points were classified as ground" + tried +
+           ": try ground.up, ground.distance, or ground.method none";
+  return {};
+}
+
+std::string range_warning(const FrameResult& result, const std::string& from) {
+  const FilterConfig& filter = result.config->filter;
+  const std::size_t finite = result.points - result.counts.nonfinite, out = result.counts.range;
+  constexpr std::size_t few = 100;
+  if (finite < few || 2 * out <= finite) return {};
+  return std::to_string(out) + " of " + std::to_string(finite) + " points are outside the range of " +
+         to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
+}
+
+std::string track_warning(const FrameResult& result) {
+  switch (result.track_time) {
+    case TrackTime::recorded:
+      return "frame stamps do not advance: tracking uses the recording times";
+    case TrackTime::none:
+      return "frame stamps do not advance: tracks are expected at their last positions";
+    default:
+      return {};
+  }
+}
+
+namespace {
+
+void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) {
+  entry.id = id;
+  entry.points = result.clusters.cluster_size(id);
+  if (!result.class_of.empty()) entry.class_value = result.class_of[id];
+  if (!result.tracks.empty()) entry.track = result.tracks[id];
+  entry.volumes.resize(result.methods.size());
+  std::size_t n = 0;
+  for (std::size_t m = 0; m < result.methods.size(); ++m) {
+    if (!result.is_requested(id, m)) continue;
+    VolumeEntry& volume = entry.volumes[n++];
+    volume.method = result.methods[m]->name;
+    volume.volume = result.volume(id, m);
+    volume.failed = result.results[id * result.methods.size() + m].reason;
+  }
+  entry.volumes.resize(n);
+}
+
+}  // namespace
+
+std::vector<ClusterEntry> cluster_entries(const FrameResult& result) {
+  std::vector<ClusterEntry> entries(result.clusters.size());
+  for (std::size_t id = 0; id < entries.size(); ++id)
+    fill_entry(result, id, entries[id]);
+  return entries;
+}
+
+ClusterSource cluster_source(const FrameResult& result) {
+  return {result.clusters.size(),
+          [&result, entry = ClusterEntry()](std::size_t id) mutable -> const ClusterEntry& {
+            fill_entry(result, id, entry);
+            return entry;
+          }};
+}
+
+FrameReport report_of_lost(const Frame& frame, const std::string& reason) {
+  FrameReport report;
+  report.seq = frame.header.seq;
+  report.stamp_ns = frame.header.stamp_ns;
+  report.frame_id = frame.header.frame_id;
+  report.file = frame.file;
+  report.error = reason;
+  return report;
+}
+
+FrameReport report_of(const Frame& frame, const FrameResult& result) {
+  FrameReport report = report_without_clusters(frame, result);
+  report.clusters = cluster_entries(result);
+  return report;
+}
+
+FrameReport report_without_clusters(const Frame& frame, const FrameResult& result) {
+  FrameReport report = report_of_lost(frame, "");
+  report.error.reset();
+  report.points = result.points;
+  report.counts = result.counts;
+  const StageTimes& ms = result.ms;
+  report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},
+               {"fit", ms.fit},       {"track", ms.track},   {"total", ms.total}};
+  return report;
+}
+
+Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels) {
+  const bool clusters = result.config->cluster.tolerance > 0;
+  const bool ground = !clusters && result.config->ground.method != GroundMethod::none;
+  Picture picture;
+  picture.up = result.config->ground.up;
+  for (const Method* method : result.methods)
+    picture.methods.emplace_back(method->name);
+  picture.points =
+      ground ? subset(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
+  if (clusters) picture.labels = labels.data();
+  for (std::size_t id = 0; id < result.clusters.size(); ++id) {
+    std::string label = clusters ? std::to_string(id) : "";  // shown at the first volume that is not empty
+    for (std::uint32_t m = 0; m < result.methods.size(); ++m) {
+      const AnyVolume& volume = result.volume(id, m);
+      const std::uint32_t colour = clusters ? static_cast<std::uint32_t>(id) : m;
+      picture.volumes.push_back({volume, colour, empty(volume) ? "" : std::exchange(label, {}), m});
+    }
+  }
+  return picture;
+}
+
+}  // namespace pcl_bv

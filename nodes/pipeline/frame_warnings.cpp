@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_warnings.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "ground.h"
+#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/segmentation/up.h"
+#include "pipeline/config/settings.h"
+
+namespace pcl_bv {
+namespace {
+
+// Smallest share of points beyond 100 m that gives a warning. A sensor on a motorway may have a tenth of its
+// points there.
+constexpr double kMinFarShare = 0.2;
+
+// Share of ground below which another up direction is searched. Streets have 30 % to 60 % ground, cluttered
+// ones 13 %.
+constexpr double kLittleGround = 0.15;
+
+struct Found {
+  const Frame& frame;
+  const FrameResult& result;
+  bool& searched;  // whether another up direction was searched because of little ground
+
+  const PipelineConfig& config() const { return *result.config; }
+  bool zones() const { return config().ground.method == GroundMethod::zones; }
+  double ground_share() const {
+    const Counts& c = result.counts;
+    const std::size_t kept = result.points - c.nonfinite - c.range - c.inside;
+    return kept < kFewPoints ? 1 : static_cast<double>(c.ground) / static_cast<double>(kept);
+  }
+  std::optional<OtherUp> other_up() const {
+    const double share = result.counts.ground > 0 ? ground_share() : 0;
+    return find_other_up(frame.points, plane_settings(config().ground), result.sensor.position, share);
+  }
+};
+
+std::string percent(double share) {
+  return std::to_string(std::lround(100 * share)) + " %";
+}
+
+std::string text_of(const Eigen::Vector3d& position) {
+  char text[120];
+  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", position.x(), position.y(), position.z());
+  return text;
+}
+
+std::string no_ground(const Found& f) {
+  std::string text = ground_warning(f.result);
+  if (text.empty() || f.result.counts.ground > 0) return text;
+  if (const auto other = f.other_up()) {
+    const std::string tried = "try ground.up";
+    text.insert(text.find(tried) + tried.size(), ' ' + format_up(other->up) + " (" + percent(other->share) +
+                                                     " of the points would be ground)");
+  }
+  return text;
+}
+
+std::string little_ground(const Found& f) {
+  const double share = f.ground_share();
+  if (f.config().ground.method == GroundMethod::none || share == 0 || share >= kLittleGround) return {};
+  // Search only once: a cluttered stream has little ground in every frame, and a search takes milliseconds.
+  if (std::exchange(f.searched, true)) return {};
+  const auto other = f.other_up();
+  if (!other) return {};
+  return "only " + percent(share) + " of the points are ground (up is " + format_up(f.config().ground.up) +
+         "), " + percent(other->share) +
+         " would be with the opposite up: if the cloud is upside down, use ground.up " + format_up(other->up);
+}
+
+std::string sensor_elsewhere(const Found& f) {
+  if (!f.zones() || f.result.sensor.confirmed) return {};
+  if (const auto& given = f.config().ground.sensor)
+    return "few points lie around ground.sensor " + text_of(*given) +
+           ", the centre of ground zones: ground may be missed";
+  return "the points do not lie around the origin: ground zones are centred at " +
+         text_of(f.result.sensor.position) +
+         ", where the points are densest; if the sensor was elsewhere, use ground.sensor";
+}
+
+std::string origin_elsewhere(const Found& f) {
+  if (f.result.around_origin) return {};
+  const bool range = f.config().filter.range_max < std::numeric_limits<double>::infinity();
+  const bool growth = f.config().cluster.tolerance_per_metre > 0;
+  if (!range && !growth) return {};
+  return std::string(range ? "filter.range_max" : "") + (range && growth ? " and " : "") +
+         (growth ? "cluster.tolerance_per_metre" : "") + (range && growth ? " are" : " is") +
+         " measured from the origin, but the points do not lie around it";
+}
+
+std::string far_points(const Found& f) {
+  if (!f.zones() || f.result.sensor.far_share < kMinFarShare) return {};
+  return percent(f.result.sensor.far_share) + " of the points are 100 m or more from " +
+         text_of(f.result.sensor.position) +
+         ", the centre of ground zones: the ground there is a rough estimate";
+}
+
+std::string level_ground(const Found& f) {
+  if (!f.zones() || !f.result.ground.assumed_level || f.result.counts.ground == 0) return {};
+  return "no plane lies ground.sensor_height " + to_text(*f.config().ground.sensor_height) +
+         " m below the sensor, within 0.5 m: level ground is assumed there";
+}
+
+std::string stamps_do_not_advance(const Found& f) {
+  return track_warning(f.result);
+}
+
+constexpr std::string (*kKinds[])(const Found&) = {
+    no_ground,  little_ground, sensor_elsewhere,     origin_elsewhere,
+    far_points, level_ground,  stamps_do_not_advance};
+
+}  // namespace
+
+std::vector<std::string> FrameWarnings::take(const Frame& frame, const FrameResult& result) {
+  if (config_ != result.config) {
+    returned_ = 0;
+    searched_ = false;
+  }
+  config_ = result.config;
+  std::vector<std::string> texts;
+  std::uint32_t bit = 1;
+  for (const auto& kind : kKinds) {
+    std::string text = (returned_ & bit) != 0 ? "" : kind({frame, result, searched_});
+    if (!text.empty()) {
+      returned_ |= bit;
+      texts.push_back(std::move(text));
+    }
+    bit <<= 1;
+  }
+  return texts;
+}
+
+}  // namespace pcl_bv

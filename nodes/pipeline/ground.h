@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ground removal by the configured method.
+#pragma once
+
+#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/segmentation/ground_zones.h"
+
+namespace pcl_bv {
+
+/// Clouds with fewer points give no warnings about settings.
+inline constexpr std::size_t kFewPoints = 100;
+
+/// Returns the settings of split_ground() for one plane.
+GroundPlaneSettings plane_settings(const GroundConfig& config);
+
+/// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists are
+/// empty. Zones are centred at `sensor`; the configured sensor height is ignored if that position is
+/// estimated. Reuses the memory of `zones`.
+void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
+                  const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split);
+
+}  // namespace pcl_bv

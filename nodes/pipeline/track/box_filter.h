@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Filters the boxes of a track: the front axis stays the same; on request, yaw and sizes are smoothed.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/points/point_view.h"
+#include "pcl_bv/volumes/obb.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// The state of the object in this frame.
+struct BoxState {
+  Pose sensor = Pose::Identity();                      // pose in a fixed frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // over the ground, along the sensor's axes, m/s
+  bool moving = false;
+  bool merged = false;     // Tracker::Assignment::merged
+  bool separated = false;  // Tracker::Assignment::separated
+};
+
+/// Filters the boxes of one object by one method, in the sensor's frame. If the method is not upright, only
+/// the order and directions of the axes are kept consistent.
+class BoxFilter {
+ public:
+  /// `upright`: whether axis 2 of every box points up, as Obb::upright() makes it.
+  explicit BoxFilter(bool upright = true) : upright_(upright) {}
+
+  /// Returns the same box with its axes in the order and directions of the last box, compared in the fixed
+  /// frame. Axis 0 of a moving object comes to point in the direction of motion: each frame votes for the
+  /// axis nearest to the velocity, older votes decay, and an axis with a lead of two votes becomes axis 0.
+  /// Empty boxes are returned unchanged.
+  Obb align_axes(const Obb& box, const BoxState& state);
+
+  /// Returns a smoothed box around all points; `box` must come from align_axes().
+  ///
+  /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
+  /// so it does not matter which side was taken as the longer one. With `grow`, length and width approach the
+  /// largest ones seen. They do so slowly, since a cluster that contains two objects for one frame is larger,
+  /// too. The added part lies on the side away from the sensor. A merged cluster changes neither the mean yaw
+  /// nor the sizes; a separated one restarts the sizes.
+  ///
+  /// The third axis is unchanged. Every valid point is inside (Obb::contains()). Boxes that are empty or not
+  /// upright are returned unchanged. O(points).
+  Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
+
+ private:
+  double smoothed_yaw(const Obb& box, const BoxState& state);
+  double grown_size(std::size_t axis, double seen, bool merged);
+
+  bool upright_;
+  bool known_ = false;
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // of the last box, in the fixed frame
+  std::array<double, 4> votes_{};                       // votes for axis 0, 1, -0, -1 as the front
+  double cosine_ = 0, sine_ = 0;                        // weighted sums over time for four times the yaw
+  std::array<double, 2> sizes_{};
+  std::size_t detections_ = 0;
+};
+
+}  // namespace pcl_bv

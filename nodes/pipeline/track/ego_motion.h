@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Estimates the planar motion of the sensor from static boxes.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "box_grid.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// A rotation about z and a shift in the plane: p becomes rotation(yaw) p + shift. Radians and metres.
+struct PlanarMotion {
+  double yaw = 0;
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+
+  Eigen::Vector2d operator*(const Eigen::Vector2d& p) const {
+    const double c = std::cos(yaw), s = std::sin(yaw);
+    return {c * p.x() - s * p.y() + shift.x(), s * p.x() + c * p.y() + shift.y()};
+  }
+  PlanarMotion operator*(const PlanarMotion& first) const { return {yaw + first.yaw, *this * first.shift}; }
+  PlanarMotion inverse() const {
+    const PlanarMotion rotation{-yaw};
+    return {-yaw, -(rotation * shift)};
+  }
+};
+
+/// Finds the motion that maps most of the expected boxes to measured boxes. Reuse keeps the capacity.
+class EgoMotion {
+ public:
+  /// Finds the motion that maps the `expected` boxes to the `seen` ones, both in the sensor's frame.
+  ///
+  /// Starts from `guess` and alternates between nearest neighbours and least squares in ever smaller radii.
+  /// Only boxes shorter than 6 m take part. If less than 40 % of the expected ones find a partner, the search
+  /// also starts from the shifts that most pairs vote for, at five yaw angles. Returns false and leaves
+  /// `motion` unchanged unless at least six pairs and 30 % of the expected boxes agree to 0.35 m.
+  bool estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& guess,
+                PlanarMotion& motion);
+
+ private:
+  struct Pair {
+    Eigen::Vector2d from, to;
+  };
+
+  void match(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& motion,
+             double radius);
+  std::size_t refine(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion,
+                     double radius);
+  void vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion);
+
+  BoxGrid grid_;
+  std::vector<Pair> pairs_;
+  std::vector<unsigned> votes_;
+};
+
+}  // namespace pcl_bv

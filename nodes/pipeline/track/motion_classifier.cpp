@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "motion_classifier.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kWindow = 0.55;   // seconds; the window that is evaluated
+constexpr double kSpacing = 0.09;  // seconds between stored measurements
+constexpr double kMinTime = 0.15;  // seconds; shortest time that allows a decision
+constexpr double kMinShift = 0.3;  // metres; smallest displacement of a moving object
+constexpr double kStartSpeed = 0.7,
+                 kStopSpeed = 0.5;  // m/s; moving starts above kStartSpeed and ends below kStopSpeed
+// Smallest dot product of the velocities of both halves, relative to the larger of their squares.
+constexpr double kMinAlignment = 0.25;
+
+// Returns the smaller displacement of the two opposite faces along the sensor's x and y, or 0 if they move
+// apart or towards each other. A part that comes into or goes out of view moves one face only, hence gives 0.
+Eigen::Vector2d smallest_shift(const Eigen::Vector3d& displacement, const Eigen::Vector3d& before,
+                               const Eigen::Vector3d& now) {
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const double low = displacement[i] - now[i] + before[i], high = displacement[i] + now[i] - before[i];
+    if ((low > 0) != (high > 0)) continue;
+    shift[i] = std::abs(low) < std::abs(high) ? low : high;
+  }
+  return shift;
+}
+
+}  // namespace
+
+void MotionClassifier::add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half,
+                           const Eigen::Matrix3d& rotation, double seconds) {
+  seconds_ += seconds;
+  const Measurement now{seconds_, centre, half};
+  for (; count_ > 1 && past(1).seconds <= seconds_ - kWindow; --count_)
+    first_ = (first_ + 1) % kCapacity;
+  if (count_ > 1 && seconds_ - past(0).seconds >= kMinTime) classify(now, rotation);
+  if (count_ < kCapacity && (count_ == 0 || seconds_ - past(count_ - 1).seconds >= kSpacing))
+    past_[(first_ + count_++) % kCapacity] = now;
+}
+
+void MotionClassifier::classify(const Measurement& now, const Eigen::Matrix3d& rotation) {
+  const auto shift = [&](const Measurement& from, const Measurement& to) {
+    return smallest_shift(rotation.transpose() * (to.centre - from.centre), from.half, to.half);
+  };
+  const Measurement &oldest = past(0), &middle = past(count_ / 2);
+  const double passed = now.seconds - oldest.seconds, displacement = shift(oldest, now).norm();
+  if (moving_) {
+    moving_ = displacement >= kStopSpeed * std::max(passed, kWindow);
+    return;
+  }
+  if (!(now.seconds > middle.seconds)) return;
+  const Eigen::Vector2d first = shift(oldest, middle) / (middle.seconds - oldest.seconds),
+                        second = shift(middle, now) / (now.seconds - middle.seconds);
+  const bool same_direction =
+      first.dot(second) > kMinAlignment * std::max(first.squaredNorm(), second.squaredNorm());
+  moving_ = same_direction && displacement > kMinShift && displacement > kStartSpeed * passed;
+}
+
+}  // namespace pcl_bv

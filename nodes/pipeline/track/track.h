@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The state of one tracked object, its update, and the cost of assigning a box to it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "motion_classifier.h"
+#include "motion_filter.h"
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/report/report.h"
+#include "pcl_bv/volumes/aabb.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Difference between a box and the expected box of a track, along the sensor's axes, metres.
+struct BoxDifference {
+  Eigen::Vector3d centre, size;
+  /// The smaller displacement of the two opposite faces; 0 if they move apart or towards each other. A part
+  /// that comes into or goes out of view moves one face only, hence gives 0.
+  Eigen::Vector3d shift;
+};
+
+/// One tracked object.
+struct Track {
+  MotionFilter motion;  // in the fixed frame
+  MotionClassifier motion_classifier;
+  // Faces of the box relative to the position, along the sensor's axes.
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
+  Eigen::Vector3d expected_position = Eigen::Vector3d::Zero();  // in the sensor's frame
+  Eigen::Vector3d previous_position = Eigen::Vector3d::Zero();  // at the last frame, in the fixed frame
+  double seconds_unseen = 0;                                    // since the last detection
+  std::size_t detections = 0, age = 0;                          // age: in frames
+  std::size_t missed = 0, occluded = 0;  // missed and occluded frames since the last detection
+  double yaw = 0, yaw_variance = 1;
+  bool active = false, moving = false;
+  std::optional<std::uint32_t> id;
+  std::optional<std::size_t> split_from;   // slot of the track whose expected box held this track's first box
+  std::size_t detections_since_split = 0;  // since the split or the last occlusion
+
+  void start(const Aabb& box, const Pose& sensor);
+  void predict(double seconds);
+  void expect(const Pose& sensor);
+  /// Returns the expected box in the sensor's frame. An object that is not known to move is assumed to be
+  /// static. If static tracks were predicted by their velocities, an error of the sensor's velocity would
+  /// pass into these velocities and stay there.
+  Aabb static_box(const Pose& sensor) const;
+  Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
+  BoxDifference difference_to(const Aabb& box) const;
+  void correct(const Aabb& box, const Pose& sensor, double seconds);
+
+  /// Returns the reported state. `apparent_velocity` is the velocity of static points in the sensor's frame.
+  /// With `fixed`, the state is in the fixed frame, otherwise in the sensor's frame.
+  TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent_velocity) const;
+
+ private:
+  void classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
+};
+
+/// Returns how unlikely it is that the box belongs to the track, in squared standard deviations. `gate`, in
+/// metres, is four standard deviations of a track whose state is known exactly.
+double cost_of(const Track& track, const Aabb& box, double gate);
+
+}  // namespace pcl_bv

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Tracking: predict the tracks, select plausible pairs, assign boxes at minimum cost, then update.
+
+#include "tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assignment.h"
+#include "box_grid.h"
+#include "ego_motion.h"
+#include "track.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kGateCost = 16;                   // four standard deviations, squared
+constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
+constexpr std::size_t kSplitDetections = 5;        // detections in a row that prove a split
+
+bool contains_point(const Aabb& box, const Eigen::Vector3d& position) {
+  return (box.min().array() <= position.array()).all() && (position.array() <= box.max().array()).all();
+}
+
+Pose after_motion(const Pose& sensor, const PlanarMotion& motion) {
+  Pose step = Pose::Identity();
+  step.linear() = Eigen::AngleAxisd(motion.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  step.translation() << motion.shift, 0;
+  Pose next = sensor * step.inverse();
+  // Rounding errors must not add up over days.
+  next.linear() = Eigen::Quaterniond(next.linear()).normalized().toRotationMatrix();
+  return next;
+}
+
+}  // namespace
+
+struct Tracker::State {
+  void move_sensor(double seconds, const std::vector<Aabb>& boxes, const std::optional<Pose>& pose);
+  void find_sensor(double seconds, const std::vector<Aabb>& boxes);
+  void find_pairs(const std::vector<Aabb>& boxes, double gate);
+  void assign_boxes(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void start(const std::vector<Aabb>& boxes, std::size_t box, std::vector<Assignment>& assignments);
+  void find_splits(std::vector<Assignment>& assignments);
+  void prune(std::size_t death);
+  std::size_t free_slot();
+  Eigen::Vector3d apparent_velocity(const Eigen::Vector3d& position) const;
+
+  std::vector<Track> tracks;
+  std::vector<std::size_t> free;
+  std::vector<char> track_taken, box_taken;
+  std::vector<Aabb> expected;
+  std::vector<Aabb> predicted;  // for each box: the expected box of its track before the update
+  std::vector<AssignmentPair> pairs;
+  BoxGrid grid;
+  SparseAssignment assignment;
+  EgoMotion ego;
+  PlanarMotion step;  // motion of static points in the sensor's frame within step_seconds
+  double step_seconds = 0;
+  Pose sensor = Pose::Identity();
+  bool has_given_poses = false;  // tracks are in the frame of given poses
+  std::int64_t last_stamp_ns = 0;
+  bool started = false;
+  std::uint32_t next_id = 0;
+};
+
+// Returns the velocity of a static point at `position` relative to the sensor.
+Eigen::Vector3d Tracker::State::apparent_velocity(const Eigen::Vector3d& position) const {
+  if (!(step_seconds > 0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector2d now = position.head<2>(), before = step.inverse() * now;
+  const Eigen::Vector2d velocity = (now - before) / step_seconds;
+  return {velocity.x(), velocity.y(), 0};
+}
+
+void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
+  expected.clear();
+  for (const Track& track : tracks)
+    if (track.active && track.missed == 0) expected.push_back(track.static_box(sensor));
+  PlanarMotion guess;
+  if (step_seconds > 0) {
+    const double part = seconds / step_seconds;
+    guess = {part * step.yaw, part * step.shift};
+  }
+  PlanarMotion motion = guess;
+  const bool found = ego.estimate(expected, boxes, guess, motion);
+  sensor = after_motion(sensor, motion);
+  // Within less than 20 ms, the noise of positions exceeds the motion.
+  if (!found || seconds < 0.02) return;
+  step = motion;
+  step_seconds = seconds;
+}
+
+void Tracker::State::move_sensor(double seconds, const std::vector<Aabb>& boxes,
+                                 const std::optional<Pose>& pose) {
+  if (!pose || !has_given_poses) find_sensor(seconds, boxes);
+  if (pose && !has_given_poses) {  // moves existing tracks into the fixed frame
+    for (Track& track : tracks) {
+      const Eigen::Matrix3d rotation = pose->linear() * sensor.linear().transpose();
+      const Eigen::Vector3d position =
+          rotation * (track.motion.position() - sensor.translation()) + pose->translation();
+      const Eigen::Vector3d velocity = rotation * track.motion.velocity();
+      for (int i = 0; i < 3; ++i) {
+        track.motion.axes[static_cast<std::size_t>(i)].position = position[i];
+        track.motion.axes[static_cast<std::size_t>(i)].velocity = velocity[i];
+      }
+    }
+    has_given_poses = true;
+  }
+  if (pose) sensor = *pose;
+  for (Track& track : tracks)
+    if (track.active) track.expect(sensor);
+}
+
+void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
+  pairs.clear();
+  grid.fill(boxes, 3 * gate);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const Track& track = tracks[t];
+    if (!track.active) continue;
+    grid.visit_near(track.expected_box().center(), [&](std::size_t b) {
+      const double cost = cost_of(track, boxes[b], gate) + (track.id ? 0 : 1);
+      if (cost < kGateCost) pairs.push_back({t, b, cost});
+    });
+  }
+}
+
+void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes,
+                                  std::vector<Assignment>& assignments) {
+  track_taken.assign(tracks.size(), 0);
+  box_taken.assign(boxes.size(), 0);
+  predicted.assign(boxes.size(), Aabb());
+  assignment.solve(tracks.size(), boxes.size(), pairs, kGateCost);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const std::size_t b = assignment.columns()[t];
+    if (b == SparseAssignment::none) continue;
+    track_taken[t] = box_taken[b] = 1;
+    predicted[b] = tracks[t].expected_box();
+    tracks[t].correct(boxes[b], sensor, seconds);
+    assignments[b].slot = t;
+  }
+}
+
+// Counts missed frames. A track whose expected centre is inside the box of another track is probably part of
+// that box; it continues when the objects separate.
+void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
+  for (std::size_t t = 0; t < track_taken.size(); ++t) {
+    Track& track = tracks[t];
+    if (!track.active || track_taken[t] != 0) continue;
+    bool occluded = false;
+    const Eigen::Vector3d centre = track.expected_box().center();
+    grid.visit_near(centre, [&](std::size_t b) {
+      if (!contains_point(boxes[b], centre)) return;
+      occluded = true;
+      if (track.id) assignments[b].merged = true;
+    });
+    if (occluded) track.detections_since_split = 0;
+    if (occluded && ++track.occluded % kOccludedFramesPerMiss != 0) continue;
+    ++track.missed;
+  }
+}
+
+void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
+                           std::vector<Assignment>& assignments) {
+  const std::size_t slot = free_slot();
+  tracks[slot].start(boxes[box], sensor);
+  assignments[box].slot = slot;
+  assignments[box].fresh = true;
+  const Eigen::Vector3d centre = boxes[box].center();
+  grid.visit_near(centre, [&](std::size_t b) {
+    if (box_taken[b] != 0 && contains_point(predicted[b], centre))
+      tracks[slot].split_from = assignments[b].slot;
+  });
+}
+
+void Tracker::State::find_splits(std::vector<Assignment>& assignments) {
+  for (const Assignment& own : assignments) {
+    Track& track = tracks[own.slot];
+    if (!track.split_from || ++track.detections_since_split < kSplitDetections) continue;
+    const Track& other = tracks[*track.split_from];
+    const bool is_active = other.active && other.age > track.age;  // a reused slot holds a younger track
+    const std::size_t box = is_active ? assignment.columns()[*track.split_from] : SparseAssignment::none;
+    if (box != SparseAssignment::none) assignments[box].separated = true;
+    if (!is_active || box != SparseAssignment::none) track.split_from.reset();
+  }
+}
+
+void Tracker::State::prune(std::size_t death) {
+  free.clear();
+  for (std::size_t t = tracks.size(); t-- > 0;) {
+    Track& track = tracks[t];
+    track.active = track.active && track.missed < death;
+    ++track.age;
+    if (!track.active) free.push_back(t);
+  }
+}
+
+std::size_t Tracker::State::free_slot() {
+  if (free.empty()) {
+    tracks.emplace_back();
+    return tracks.size() - 1;
+  }
+  const std::size_t slot = free.back();
+  free.pop_back();
+  return slot;
+}
+
+Tracker::Tracker() : state_(std::make_unique<State>()) {}
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
+                     std::vector<Assignment>& assignments, const std::optional<Pose>& pose) {
+  State& s = *state_;
+  const double passed = 1e-9 * (static_cast<double>(stamp_ns) - static_cast<double>(s.last_stamp_ns));
+  const double seconds = s.started && passed > 0 && passed <= 1 ? passed : 0;
+  s.started = true;
+  s.last_stamp_ns = stamp_ns;
+  assignments.assign(boxes.size(), Assignment());
+  // Spare capacity for tracks that stay active while new ones start: the second pass over a sequence has more
+  // tracks than the first, and must not allocate.
+  if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
+  s.track_taken.reserve(s.tracks.capacity());
+  s.free.reserve(s.tracks.capacity());
+  s.expected.reserve(s.tracks.capacity());
+  s.pairs.reserve(4 * s.tracks.capacity());
+  for (Track& track : s.tracks)
+    if (track.active) track.predict(seconds);
+  s.move_sensor(seconds, boxes, pose);
+  s.find_pairs(boxes, config.gate);
+  s.assign_boxes(seconds, boxes, assignments);
+  s.count_misses(boxes, assignments);
+  s.prune(config.death);
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    if (s.box_taken[b] == 0) s.start(boxes, b, assignments);
+    Track& track = s.tracks[assignments[b].slot];
+    assignments[b].moving = track.moving;
+    assignments[b].velocity = s.sensor.linear().transpose() * track.motion.velocity();
+    if (!track.id && track.detections >= config.birth) track.id = s.next_id++;
+    if (track.id)
+      assignments[b].track =
+          track.entry(s.sensor, pose.has_value(), s.apparent_velocity(track.expected_position));
+  }
+  s.find_splits(assignments);
+}
+
+const Pose& Tracker::sensor() const {
+  return state_->sensor;
+}
+
+void Tracker::reset() {
+  for (Track& track : state_->tracks)
+    track.active = false;
+  state_->started = false;
+  state_->has_given_poses = false;
+  state_->step = PlanarMotion();
+  state_->step_seconds = 0;
+  state_->sensor = Pose::Identity();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Multi-object tracking: data association of objects from frame to frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/report/report.h"
+#include "pcl_bv/volumes/aabb.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Gives objects ids that persist from frame to frame. An id is never reused.
+///
+/// A track has a position and a velocity with their covariance (Kalman 1960). They are in the fixed frame of
+/// the sensor poses if poses are given. Otherwise the tracker estimates the planar motion of the sensor (x,
+/// y, yaw) between frames from static boxes. If fewer than six boxes agree, it assumes that the sensor
+/// continues its last motion.
+///
+/// A box may belong to a track if the smallest displacement of its faces and its change of size are
+/// plausible; for a well-known track, the displacement is at most about TrackConfig::gate. All boxes are
+/// assigned jointly at minimum total cost (Kuhn 1955).
+///
+/// A track gets its id with its detection number TrackConfig::birth. It is deleted after TrackConfig::death
+/// frames without a detection. A frame in which the track is occluded (its expected centre is inside the box
+/// of another object) is counted as a quarter of a frame. The id survives such gaps.
+class Tracker {
+ public:
+  /// The track to which a box is assigned.
+  struct Assignment {
+    /// Index of the track. Constant while the track is active, reused after its deletion.
+    std::size_t slot = 0;
+    bool fresh = false;                                  ///< First detection of the track.
+    std::optional<TrackEntry> track{};                   ///< None until the track has its id.
+    bool moving = false;                                 ///< As in TrackEntry, also without an id.
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, along the sensor's axes, m/s.
+    /// The box probably contains several objects: the expected centre of a track that has an id but no box is
+    /// inside it.
+    bool merged = false;
+    /// Set once: a track that split off from this box was detected separately five times in a row, so earlier
+    /// boxes contained two objects.
+    bool separated = false;
+  };
+
+  Tracker();
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  /// Assigns a track to each box and replaces `assignments` by one entry per box. `boxes` are in the sensor's
+  /// frame, metres, measured at `stamp_ns`. If the time does not advance, or advances by more than a second,
+  /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. O(n log
+  /// n) plus the pairs of track and box within three gates.
+  void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
+              std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
+
+  /// Returns the pose of the sensor at the last update: the given one or the estimated one.
+  const Pose& sensor() const;
+
+  /// Deletes all tracks. Their ids are still not reused.
+  void reset();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_bv

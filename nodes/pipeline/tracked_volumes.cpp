@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Updates the tracks and makes the boxes of a frame consistent with those of earlier frames.
+
+#include "tracked_volumes.h"
+
+#include <algorithm>
+
+#include "pcl_bv/fitting/fit.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
+
+// Returns the axis-aligned box of a cluster, whichever volumes are requested: tracks do not depend on the
+// request.
+Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
+  for (std::size_t m = 0; m < result.methods.size(); ++m) {
+    const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
+    if (box != nullptr && result.is_requested(cluster, m)) return *box;
+  }
+  Aabb box;
+  fit_aabb(points, box);
+  return box;
+}
+
+}  // namespace
+
+void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config,
+                                  std::size_t cluster, const PointView& points, FrameResult& result) {
+  const std::size_t methods = methods_.size(), first = assignment.slot * methods;
+  if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
+  if (filters_.size() < first + methods) filters_.resize(first + methods);
+  const BoxState state{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
+                       assignment.separated};
+  for (std::size_t m = 0; m < methods; ++m) {
+    BoxFilter& filter = filters_[first + m];
+    if (assignment.fresh) filter = BoxFilter(methods_[m]->upright);
+    Obb* const box = std::get_if<Obb>(&result.volumes[cluster * methods + m]);
+    if (box == nullptr) continue;
+    *box = filter.align_axes(*box, state);
+    if (config.smooth || config.grow) *box = filter.smoothed(*box, points, state, config.smooth, config.grow);
+  }
+}
+
+// After a stamp that did not advance, the next difference of stamps is not trusted either. The sum of all
+// steps must not overflow if a driver sometimes writes 0: steps are limited to two seconds, and the start to
+// half of the largest number. The limit is harmless, since the tracker treats all steps above one second
+// alike.
+std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
+  const auto passed = [](std::int64_t from, std::int64_t to) {
+    std::int64_t nanoseconds = 0;
+    if (to <= from) return nanoseconds;
+    return __builtin_sub_overflow(to, from, &nanoseconds) ? kLongestStep
+                                                          : std::min(nanoseconds, kLongestStep);
+  };
+  const std::int64_t by_stamps = started_ ? passed(stamp_ns_, stamp_ns) : 0;
+  const std::int64_t by_records = started_ && recorded_ns_ != 0 ? passed(recorded_ns_, recorded_ns) : 0;
+  const bool distrusted = source_ == TrackTime::recorded && by_records > 0;
+  if (!started_) {
+    now_ns_ = std::min(stamp_ns, INT64_MAX / 2);
+  } else if (by_stamps > 0 && !distrusted) {
+    source_ = TrackTime::stamps;
+    now_ns_ += by_stamps;
+  } else {
+    source_ = by_stamps > 0 ? TrackTime::stamps : by_records > 0 ? TrackTime::recorded : TrackTime::none;
+    now_ns_ += by_records;
+  }
+  started_ = true;
+  stamp_ns_ = stamp_ns;
+  recorded_ns_ = recorded_ns;
+  return now_ns_;
+}
+
+void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointView>& clusters,
+                            const Frame& frame, FrameResult& result) {
+  if (methods_ != result.methods) {
+    methods_ = result.methods;
+    filters_.clear();
+  }
+  boxes_.clear();
+  for (std::size_t i = 0; i < result.clusters.size(); ++i)
+    boxes_.push_back(box_of(result, i, clusters[i]));
+  tracker_.update(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, config, assignments_,
+                  frame.pose);
+  result.track_time = clock_.source();
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    result.tracks.push_back(assignments_[i].track);
+    filter_boxes(assignments_[i], config, i, clusters[i], result);
+  }
+}
+
+}  // namespace pcl_bv

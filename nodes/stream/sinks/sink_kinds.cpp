@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The table of sinks.
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "sinks.h"
+#include "stream/topics/message_sink.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::string_view kPoints = ",points";
+
+class FunctionSink : public FrameSink {
+ public:
+  explicit FunctionSink(std::function<void(const Frame&, const FrameResult&)> on_result)
+      : on_result_(std::move(on_result)) {}
+  void write(const Frame& frame, const FrameResult& result) override { on_result_(frame, result); }
+
+ private:
+  std::function<void(const Frame&, const FrameResult&)> on_result_;
+};
+
+}  // namespace
+
+// Labelled clouds are made only while somebody subscribes. Scenes are for Foxglove, which shows markers, too.
+std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
+  MessageTopics topics;
+  topics.prefix = description.target.string();
+  topics.points = true;
+  topics.scene = topics.poses = false;
+  return make_message_sink(middleware("dds").carrier(""), topics);
+}
+
+std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description) {
+  MessageTopics topics;
+  topics.points = topics.frames = true;
+  return make_message_sink(middleware("ws").carrier(description.target.string()), topics);
+}
+
+const std::vector<SinkKind>& sink_kinds() {
+  static const std::vector<SinkKind> kinds = [] {
+    std::vector<SinkKind> all{{"jsonl", "FILE", "", open_jsonl},
+                              {"csv", "FILE", "", open_csv},
+                              {"dds", "PREFIX", "", open_dds_sink, true},
+                              {"ws", "[HOST:]PORT", "", open_ws_sink, true},
+                              {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
+                              {"image", "FOLDER", ".png", open_image},
+                              {"labels", "FOLDER", ".pcd", open_labels}};
+    const std::vector<SinkKind> recordings = recording_sinks();
+    all.insert(all.begin() + 2, recordings.begin(), recordings.end());
+    return all;
+  }();
+  return kinds;
+}
+
+std::string sink_syntax() {
+  std::string all;
+  for (const SinkKind& kind : sink_kinds()) {
+    if (!all.empty()) all += &kind == &sink_kinds().back() ? " or " : ", ";
+    all += std::string(kind.name) + ':' + std::string(kind.target);
+  }
+  return all;
+}
+
+SinkDescription parse_sink(const std::string& description) {
+  const std::size_t colon = std::min(description.find(':'), description.size());
+  for (const SinkKind& kind : sink_kinds()) {
+    if (description.compare(0, colon, kind.name) != 0) continue;
+    std::string target = description.substr(std::min(colon + 1, description.size()));
+    const bool points = kind.target.ends_with("[,points]") && target.ends_with(kPoints);
+    if (points) target.resize(target.size() - kPoints.size());
+    const bool may_be_printed = kind.files.empty() && !kind.live;
+    if (!target.empty() && (may_be_printed || target != "-")) return {&kind, target, points};
+  }
+  throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
+}
+
+std::unique_ptr<FrameSink> make_sink(const SinkDescription& description) {
+  if (description.kind == nullptr) throw std::invalid_argument("make_sink: no kind of sink");
+  return description.kind->open(description);
+}
+
+std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result) {
+  if (!on_result) throw std::invalid_argument("make_sink: no function");
+  return std::make_unique<FunctionSink>(std::move(on_result));
+}
+
+}  // namespace pcl_bv

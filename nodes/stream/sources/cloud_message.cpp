@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/cloud_message.h"
+
+#include <utility>
+
+#include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/messages/cloud.h"
+#include "pcl_bv/messages/serialize.h"
+
+namespace pcl_bv {
+
+msg::PointCloud2 cloud_in(const CloudMessage& message) {
+  msg::PointCloud2 cloud;
+  if (message.ros1) {
+    read_ros1(message.data, message.size, cloud);
+  } else {
+    read_cdr(message.data, message.size, cloud);
+  }
+  return cloud;
+}
+
+void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame) {
+  read_cloud_message(cloud_in(message), message.owner, class_field, frame);
+}
+
+void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<const void>& owner,
+                        const std::string& class_field, Frame& frame) {
+  frame.header.frame_id = cloud.header.frame_id;
+  if (const std::int64_t stamp = msg::nanoseconds_of(cloud.header.stamp); stamp != 0)
+    frame.header.stamp_ns = stamp;
+  const std::optional<PointView> in_place = view_points(cloud);
+  if (in_place) {
+    frame.points = *in_place;
+    frame.intensity = view_intensity(cloud);
+    frame.owner = owner;
+    frame.note = skipped_fields_note(cloud);
+  }
+  const bool wants_classes = !class_field.empty();
+  if (wants_classes && in_place && in_place->empty()) {
+    frame.classes = std::make_shared<std::vector<std::int64_t>>();
+    return;
+  }
+  if (in_place && !wants_classes) return;
+  const auto copy = std::make_shared<RawCloud>(raw_cloud_of(cloud));
+  if (wants_classes)
+    frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*copy, class_field));
+  if (!in_place) {
+    frame.points = copy->xyz();
+    frame.intensity = intensity_of(copy->fields, copy->data.data(), copy->point_step);
+    frame.note = copy->note;
+    frame.owner = copy;
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Times in file names. Names use many formats; one format must fit all names of a folder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcl_bv {
+
+/// The format of a time in a name, the most reliable first.
+enum class TimeKind : std::uint8_t {
+  epoch,        ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of s, ms, us or ns.
+  date,         ///< 20121214T142259.814212, 2024-03-21T12-59-59.900Z, 2024_03_21_12_59_59
+  time_of_day,  ///< 12-59-59.900: hours, minutes, seconds
+  decimal       ///< 899.011149430: seconds since an unknown start
+};
+inline constexpr TimeKind kTimeKinds[]{TimeKind::epoch, TimeKind::date, TimeKind::time_of_day,
+                                       TimeKind::decimal};
+
+/// A time in a name. What its fraction means depends on the other names of the folder.
+struct ParsedTime {
+  TimeKind kind = TimeKind::epoch;
+  std::int64_t seconds = 0;
+  std::string fraction{};
+  bool may_be_frame_number = false;  ///< The fraction follows a dash or underscore: it may be a frame number.
+};
+
+/// Returns all times in a name without its extension, in order.
+std::vector<ParsedTime> times_in(std::string_view stem);
+
+/// Returns the time in nanoseconds. The fraction is decimal: "25" is a quarter of a second.
+std::int64_t stamp_of(const ParsedTime& time);
+
+/// The stamps of all names of a folder, read in one format.
+struct NameTimes {
+  std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
+  bool sort = false;                 ///< The order of the names is not that of their times: sort by time.
+  std::string warning{};             ///< Warning that the times do not ascend; usually empty.
+};
+
+/// Returns the stamps of names given in their natural order, in the format whose times ascend, if there is
+/// one. Fractions of different lengths are decimals (12.5 before 12.75) or whole milli-, micro- or
+/// nanoseconds without leading zeros, whichever fits.
+NameTimes times_of_names(const std::vector<std::string>& stems);
+
+}  // namespace pcl_bv

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Frames of a sensor's packets, one for each revolution.
+
+#include <cmath>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/recording/velodyne.h"
+#include "recorded_clouds.h"
+#include "sources.h"
+
+namespace pcl_bv {
+namespace {
+
+class Packets final : public FrameSource {
+ public:
+  Packets(const std::string& name, const ReplayOptions& options)
+      : name_(name), options_(options), reader_(name, options.topic) {
+    if (!options_.class_field.empty()) throw std::invalid_argument("packets have no field of classes");
+    if (!options_.poses.empty()) poses_ = Poses(options_.poses, count());
+  }
+
+  Next next(Frame& frame, std::chrono::milliseconds) override {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto sweep = std::make_shared<VelodyneSweep>();
+    while (!reader_.next(*sweep)) {
+      if (++loop_ >= options_.loops || index_ == 0) return Next::end;
+      reader_.rewind();
+      index_ = 0;
+    }
+    frame = Frame();
+    frame.file = name_;
+    frame.header.seq = seq_;
+    frame.header.stamp_ns = options_.own_stamps
+                                ? sweep->stamp_ns
+                                : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
+    frame.header.frame_id = options_.frame_id.empty() ? "velodyne" : options_.frame_id;
+    frame.pose = poses_.at(index_++, frame.header.stamp_ns);
+    ++seq_;
+    if (!sweep->points.empty()) {
+      const VelodynePoint& first = sweep->points.front();
+      frame.points = PointView::of(&first.x, sizeof(VelodynePoint), sweep->points.size());
+      frame.intensity =
+          FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(VelodynePoint)};
+    }
+    frame.owner = sweep;
+    frame.decode_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return Next::frame;
+  }
+
+  std::vector<std::string> take_warnings() override {
+    const std::vector<std::string> all = reader_.warning_lines();
+    if (all.size() <= warnings_taken_) return {};
+    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(warnings_taken_), all.end());
+    warnings_taken_ = all.size();
+    return fresh;
+  }
+
+ private:
+  std::size_t count() {
+    std::size_t sweeps = 0;
+    for (VelodyneSweep sweep; reader_.next(sweep);)
+      ++sweeps;
+    reader_.rewind();
+    return sweeps;
+  }
+
+  std::string name_;
+  ReplayOptions options_;
+  VelodyneReader reader_;
+  Poses poses_;
+  std::uint64_t seq_ = 0;
+  std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options) {
+  try {
+    return std::make_unique<Packets>(name, options);
+  } catch (const IoError& error) {
+    throw IoError(name + ": " + error.what());
+  }
+}
+
+}  // namespace pcl_bv

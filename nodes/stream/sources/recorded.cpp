@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Frames of the clouds in a recording.
+
+#include <cmath>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/nodes/cloud_message.h"
+#include "pcl_bv/recording/recording.h"
+#include "pcl_bv/recording/velodyne.h"
+#include "recorded_clouds.h"
+#include "sources.h"
+
+namespace pcl_bv {
+namespace {
+
+class Recorded final : public FrameSource {
+ public:
+  Recorded(const std::string& name, const ReplayOptions& options)
+      : name_(name),
+        options_(options),
+        reader_(open_recording(name)),
+        topic_(cloud_topic(reader_->topics(), options.topic)) {
+    reader_->select({topic_});
+    if (!options_.poses.empty()) poses_ = Poses(options_.poses, count());
+  }
+
+  Next next(Frame& frame, std::chrono::milliseconds) override {
+    const auto begin = std::chrono::steady_clock::now();
+    RecordedMessage message;
+    while (!reader_->next(message)) {
+      if (++loop_ >= options_.loops || index_ == 0) return Next::end;
+      reader_->select({topic_});
+      index_ = 0;
+    }
+    frame = Frame();
+    frame.file = name_;
+    frame.header.seq = seq_++;
+    frame.header.stamp_ns = frame.recorded_ns = message.log_time_ns;
+    const std::size_t index = index_++;
+    try {
+      read(message, frame);
+    } catch (const std::exception& error) {
+      throw FrameError(std::move(frame), error.what());
+    }
+    frame.pose = poses_.at(index, frame.header.stamp_ns);
+    frame.decode_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return Next::frame;
+  }
+
+  std::vector<std::string> take_warnings() override {
+    const std::vector<std::string>& all = reader_->warning_lines();
+    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(warnings_taken_), all.end());
+    warnings_taken_ = all.size();
+    return fresh;
+  }
+
+ private:
+  // Returns the number of clouds: from the index if there is one, otherwise by reading all messages.
+  std::size_t count() {
+    std::size_t messages = reader_->topics()[topic_].messages;
+    if (messages > 0) return messages;
+    for (RecordedMessage message; reader_->next(message);)
+      ++messages;
+    reader_->select({topic_});
+    return messages;
+  }
+
+  void read(const RecordedMessage& message, Frame& frame) {
+    const auto bytes = std::make_shared<std::vector<std::byte>>(message.data, message.data + message.size);
+    const bool ros1 = reader_->topics()[topic_].encoding != "cdr";
+    read_cloud_message({bytes->data(), bytes->size(), bytes, ros1}, options_.class_field, frame);
+    if (!options_.own_stamps)
+      frame.header.stamp_ns = std::llround(1e9 * static_cast<double>(frame.header.seq) / options_.rate_hz);
+    if (!options_.frame_id.empty()) frame.header.frame_id = options_.frame_id;
+  }
+
+  std::string name_;
+  ReplayOptions options_;
+  std::unique_ptr<RecordingReader> reader_;
+  std::size_t topic_;
+  Poses poses_;
+  std::uint64_t seq_ = 0;
+  std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;
+};
+
+std::unique_ptr<FrameSource> open_recorded(const std::string& name, const ReplayOptions& options) {
+  try {
+    return std::make_unique<Recorded>(name, options);
+  } catch (const IoError& error) {
+    throw IoError(name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<SourceKind> recording_kinds() {
+  return {{"packets of a Velodyne (.pcap, .pcapng)", FrameTimes::messages,
+           [](const std::string& name) { return is_capture(name); }, open_packets},
+          {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
+           [](const std::string& name) { return is_recording(name); }, open_recorded}};
+}
+
+}  // namespace pcl_bv

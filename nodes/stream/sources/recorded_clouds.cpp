@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "recorded_clouds.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/messages/cloud.h"
+#include "pcl_bv/nodes/cloud_message.h"
+#include "pcl_bv/recording/recording.h"
+#include "pcl_bv/recording/velodyne.h"
+#include "sources.h"
+
+namespace pcl_bv {
+namespace {
+
+bool has_clouds(const RecordedTopic& topic) {
+  return topic.type == msg::PointCloud2::ros_type && (topic.encoding == "cdr" || topic.encoding == "ros1");
+}
+
+std::string clouds_of(const std::vector<RecordedTopic>& topics) {
+  std::string list;
+  for (const RecordedTopic& topic : topics) {
+    if (has_clouds(topic)) list += (list.empty() ? "" : ", ") + topic.name;
+  }
+  return list;
+}
+
+// Lists topics with their types, which a user needs to convert them:
+// "/points (livox_ros_driver2/msg/CustomMsg)".
+std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
+  std::string list;
+  for (const RecordedTopic& topic : topics) {
+    const bool usual = topic.encoding == "cdr" || topic.encoding == "ros1" || topic.encoding.empty();
+    list += (list.empty() ? "" : ", ") + topic.name + " (" +
+            (topic.type.empty() ? "of no type" : topic.type) + (usual ? "" : ", " + topic.encoding) + ')';
+  }
+  return list.empty() ? "none" : list;
+}
+
+}  // namespace
+
+std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name) {
+  const std::string clouds = clouds_of(topics);
+  const std::string others =
+      clouds.empty() ? "there are " + topics_with_types(topics) : "those with clouds: " + clouds;
+  const auto number = [&](auto found) { return static_cast<std::size_t>(found - topics.begin()); };
+  if (!name.empty()) {
+    const auto is_named = [&](const RecordedTopic& topic) { return topic.name == name; };
+    const auto found = std::find_if(topics.begin(), topics.end(), is_named);
+    if (found == topics.end()) throw std::invalid_argument("no topic " + name + "; " + others);
+    // Several senders may use one name for messages of several types.
+    const auto cloud = std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& topic) {
+      return is_named(topic) && has_clouds(topic);
+    });
+    if (cloud != topics.end()) return number(cloud);
+    throw std::invalid_argument("topic " + name + " is of " +
+                                (found->type.empty() ? "no type" : found->type) + " (" + found->encoding +
+                                "), not of clouds; " + others);
+  }
+  const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
+  if (count > 1)
+    throw std::invalid_argument("several topics have clouds: " + clouds + "; choose one with --topic");
+  if (count == 0)
+    throw IoError("no topic of " + std::string(msg::PointCloud2::ros_type) +
+                  "; topics: " + topics_with_types(topics));
+  return number(std::find_if(topics.begin(), topics.end(), has_clouds));
+}
+
+bool has_recorded_clouds(const std::filesystem::path& file) {
+  return is_recording(file) || is_capture(file);
+}
+
+void check_recording_content(const std::filesystem::path& file) {
+  constexpr std::array names{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
+  std::error_code unknown;
+  if (std::find(names.begin(), names.end(), lower_case_extension(file)) == names.end() ||
+      std::filesystem::is_directory(file, unknown) || has_recorded_clouds(file))
+    return;
+  static_cast<void>(InputFile(file));  // throws for a missing or empty file, which is the better reason
+  throw IoError(
+      "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
+}
+
+// Number of skipped clouds that are stored. Threads that take numbers in order may be late by some clouds.
+constexpr std::size_t kMaxSkipped = 16;
+
+struct RecordedClouds::State {
+  std::unique_ptr<RecordingReader> reader;
+  std::unique_ptr<VelodyneReader> packets;  // used instead of `reader` for a packet capture
+  std::size_t topic = 0;
+  std::size_t next = 0;                                      // number of the next cloud in the file
+  std::map<std::size_t, std::function<RawCloud()>> skipped;  // by number: the cloud, or its error
+  std::string note;                                          // of the last cloud that was read
+  std::map<std::size_t, std::string> notes;  // by number: notes that differ from the one before
+  std::vector<std::string> taken;            // warnings that take_warnings() has returned
+  mutable std::mutex mutex;
+
+  void rewind() {
+    if (packets) {
+      packets->rewind();
+    } else {
+      reader->select({topic});
+    }
+    next = 0;
+    note.clear();
+  }
+
+  // Reads the bytes of the next cloud. Returns false at the end.
+  bool take() { return packets ? packets->next(sweep) : reader->next(message); }
+
+  RawCloud cloud() const {
+    if (packets) return raw_cloud_of(sweep);
+    const bool ros1 = reader->topics()[topic].encoding != "cdr";
+    return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
+  }
+
+  // Converts the cloud that take() has read, and counts it, also if this throws. Which clouds get a note does
+  // not depend on the order of loading.
+  RawCloud noted_cloud() {
+    const std::size_t number = next++;
+    RawCloud made = cloud();
+    if (made.note != note) notes[number] = made.note;
+    note = made.note;
+    return made;
+  }
+
+  // Stores the cloud that take() has read.
+  void skip() {
+    std::function<RawCloud()>& stored = skipped[next];
+    try {
+      const auto made = std::make_shared<RawCloud>(noted_cloud());
+      stored = [made] { return std::move(*made); };
+    } catch (const std::exception&) {
+      stored = [error = std::current_exception()]() -> RawCloud { std::rethrow_exception(error); };
+    }
+    if (skipped.size() > kMaxSkipped) skipped.erase(skipped.begin());
+  }
+
+  std::vector<std::string> warnings() const {
+    return packets ? packets->warning_lines() : reader->warning_lines();
+  }
+
+  RecordedMessage message;
+  VelodyneSweep sweep;
+};
+
+RecordedClouds::RecordedClouds(const std::filesystem::path& file, const std::string& topic)
+    : state_(std::make_unique<State>()) {
+  if (is_capture(file)) {
+    state_->packets = std::make_unique<VelodyneReader>(file, topic);
+    return;
+  }
+  state_->reader = open_recording(file);
+  state_->topic = cloud_topic(state_->reader->topics(), topic);
+  state_->rewind();
+}
+RecordedClouds::~RecordedClouds() = default;
+
+std::size_t RecordedClouds::count() {
+  const std::lock_guard lock(state_->mutex);
+  std::size_t clouds = state_->packets ? 0 : state_->reader->topics()[state_->topic].messages;
+  if (clouds > 0) return clouds;
+  state_->rewind();
+  while (state_->take())
+    ++clouds;
+  state_->rewind();
+  return clouds;
+}
+
+RawCloud RecordedClouds::load(std::size_t number) {
+  const std::lock_guard lock(state_->mutex);
+  State& state = *state_;
+  if (const auto stored = state.skipped.extract(number)) return stored.mapped()();
+  if (number < state.next) state.rewind();
+  for (;;) {
+    if (!state.take()) throw IoError("the recording ends before this cloud");
+    if (state.next == number) return state.noted_cloud();
+    if (number - state.next > kMaxSkipped) {
+      ++state.next;
+    } else {
+      state.skip();
+    }
+  }
+}
+
+std::string RecordedClouds::new_note(std::size_t number) const {
+  const std::lock_guard lock(state_->mutex);
+  const auto found = state_->notes.find(number);
+  return found == state_->notes.end() ? std::string() : found->second;
+}
+
+std::vector<std::string> RecordedClouds::warnings() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->warnings();
+}
+
+// Compares warnings by their texts, since damage is found again when a part is read again.
+std::vector<std::string> RecordedClouds::take_warnings() {
+  const std::lock_guard lock(state_->mutex);
+  std::vector<std::string> fresh;
+  for (std::string& warning : state_->warnings()) {
+    if (std::find(state_->taken.begin(), state_->taken.end(), warning) != state_->taken.end()) continue;
+    state_->taken.push_back(warning);
+    fresh.push_back(std::move(warning));
+  }
+  return fresh;
+}
+
+}  // namespace pcl_bv

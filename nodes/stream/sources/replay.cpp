@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Frames that can be loaded again by their index.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "sources.h"
+
+namespace pcl_bv {
+namespace {
+
+class Replay : public FrameSource {
+ public:
+  Replay(std::size_t length, std::vector<std::filesystem::path> files, const ReplayOptions& options,
+         std::function<void(std::size_t, Frame&)> load, NameTimes times)
+      : length_(length),
+        files_(std::move(files)),
+        options_(options),
+        load_(std::move(load)),
+        times_(std::move(times)),
+        end_(options.loops < SIZE_MAX / length ? length * std::max<std::size_t>(options.loops, 1)
+                                               : SIZE_MAX) {
+    if (!options.poses.empty()) poses_ = Poses(options.poses, length);
+  }
+
+  Next next(Frame& frame, std::chrono::milliseconds) override {
+    if (seq_ == end_) return Next::end;
+    const std::size_t index = seq_ % length_;
+    frame = named(index);
+    ++seq_;
+    const auto begin = std::chrono::steady_clock::now();
+    try {
+      if (frame.header.stamp_ns < 0) throw std::runtime_error("no time in its name");
+      load_(index, frame);
+    } catch (const std::exception& error) {
+      throw FrameError(std::move(frame), error.what());
+    }
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    frame.decode_ms = took.count();
+    return Next::frame;
+  }
+
+  std::vector<std::string> take_warnings() override {
+    if (times_.warning.empty()) return {};
+    return {std::exchange(times_.warning, {})};
+  }
+
+ private:
+  Frame named(std::size_t index) const {
+    Frame frame;
+    if (!files_.empty()) frame.file = files_[index].string();
+    frame.header.seq = seq_;
+    frame.header.frame_id = options_.frame_id;
+    frame.header.stamp_ns = options_.own_stamps
+                                ? times_.stamps[index]
+                                : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
+    frame.pose = poses_.at(index, frame.header.stamp_ns);
+    return frame;
+  }
+
+  std::size_t length_;
+  std::vector<std::filesystem::path> files_;
+  ReplayOptions options_;
+  std::function<void(std::size_t, Frame&)> load_;
+  NameTimes times_;
+  std::uint64_t end_, seq_ = 0;
+  Poses poses_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
+                                         const ReplayOptions& options,
+                                         std::function<void(std::size_t, Frame&)> load, NameTimes times) {
+  return std::make_unique<Replay>(length, std::move(files), options, std::move(load), std::move(times));
+}
+
+}  // namespace pcl_bv

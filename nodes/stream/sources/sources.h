@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the sources share: poses, replays, and the functions that open sources.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "name_times.h"
+#include "pcl_bv/nodes/frame_source.h"
+
+namespace pcl_bv {
+
+/// Poses from the file of ReplayOptions::poses.
+class Poses {
+ public:
+  Poses() = default;
+
+  /// Throws IoError, naming the file and the line, for content that cannot be read. For poses by frame
+  /// number, it also throws if their number is not `frames`, or if `frames` is unknown (nullopt).
+  Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
+
+  /// Returns the pose of a frame by its number or by its stamp, depending on the file; nullopt if there is
+  /// none.
+  std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
+
+ private:
+  bool by_stamp_ = false;
+  std::vector<std::pair<std::int64_t, Pose>> poses_;  // sorted by stamp
+};
+
+/// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
+/// empty. `load` fills in the cloud number `index` and its owner, and throws if it cannot. `times` are
+/// the stamps if options.own_stamps is set.
+std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
+                                         const ReplayOptions& options,
+                                         std::function<void(std::size_t index, Frame&)> load,
+                                         NameTimes times = {});
+
+std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);
+
+/// Returns the rows for packets and recordings, none in a build without the component `recording`.
+std::vector<SourceKind> recording_kinds();
+
+/// Throws IoError if the file has the extension of a recording or capture (.bag, .mcap, .db3, .pcap, .pcapng)
+/// but not its first bytes, or if it is missing or empty. Other extensions pass.
+void check_recording_content(const std::filesystem::path& file);
+
+}  // namespace pcl_bv
