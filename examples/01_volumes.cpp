@@ -43,7 +43,7 @@ int main() {
   pcl_bv::AnyVolume smallest_box;  // gets the same bits as from a fit to the whole cloud
   tiles.fit(*pcl_bv::find_method("obb-min"), smallest_box);
 
-  // A copy of the points as a structure of arrays (points/point_groups.h), for several fits to the same points.
+  // A copy as a structure of arrays (points/point_groups.h), for several fits to the same points.
   const pcl_bv::PointGroups groups(pcl_bv::point_view(cloud));
   pcl_bv::fit_kdop(groups.view(), pcl_bv::KdopSet::dop26(), kdop);
 

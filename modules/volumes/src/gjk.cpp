@@ -182,8 +182,8 @@ class GjkSearch {
   double upper_bound_ = kInfinity;  // distance of two points of the cores, up to rounding
 };
 
-// Returns numbers of one body. lower_bound() orders a pair by them, so that the order of the arguments does
-// not matter.
+// Returns numbers of one body. lower_bound() orders the bodies of a pair by these numbers, so that the order
+// of the arguments does not matter.
 auto key(const PosedShape& p) {
   const Eigen::Vector3d order_key = p.shape.order_key();
   return std::array{static_cast<double>(p.shape.kind),

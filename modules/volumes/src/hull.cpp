@@ -67,10 +67,10 @@ Body body_of(const Hull& hull) {
 }
 
 // Returns an upper bound of normal . (matrix p + shift) over all p of the hull, where `normal` is
-// plane.normal rotated by the matrix, and matrix and shift are the parts of `transform`. With the tiny d =
-// matrix' normal - plane.normal, the value is plane.normal . p + d . p + normal . shift. The first term is at
-// most plane.offset. The second term is at most d . middle + |d| . half_extents, where `middle` and
-// `half_extents` describe a box around the hull.
+// plane.normal rotated by the matrix, and `transform` consists of matrix and shift. With the tiny d = matrix'
+// normal - plane.normal, the value is plane.normal . p + d . p + normal . shift. The first term is at most
+// plane.offset. The second term is at most d . middle + |d| . half_extents, where `middle` and `half_extents`
+// describe a box around the hull.
 double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
                     const Eigen::Vector3d& middle, const Eigen::Vector3d& half_extents) {
   Expansion sum;

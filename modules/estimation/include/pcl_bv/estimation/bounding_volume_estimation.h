@@ -274,7 +274,7 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
   using ConstPtr = pcl::shared_ptr<const BestEstimation>;
 
   /// Sets the methods to choose from, by name; best_candidates() by default. Throws std::invalid_argument for
-  /// an unknown name and for `best` itself (the message contains the name), and for an empty list.
+  /// an unknown name, for the name `best` and for an empty list. The message contains the wrong name.
   void setMethods(const std::vector<std::string>& names) {
     std::vector<const Method*> candidates;
     for (const std::string& name : names) {

@@ -104,8 +104,8 @@ class Kdop {
   /// for a 26-DOP.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than that may hit. Then `enter` and `exit` move outward by 2^-51 of their
-  /// magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
+  /// move outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether each slab overlaps the other k-DOP's slab along the same direction, compared exactly.
@@ -121,7 +121,7 @@ class Kdop {
   /// them by no more than that. A call takes 10 us for a 26-DOP.
   ///
   /// The result is empty if the new min of a slab exceeds its new max, which proves that the polytope has no
-  /// point. Conversely, if slabs miss each other by more than these tolerances, the result is empty in all
+  /// point. Conversely, if slabs miss each other by more than these tolerances, the result was empty in all
   /// tests, but this is not proven.
   Kdop tightened() const;
 

@@ -25,7 +25,7 @@ struct FloatObb {
 
 /// An oriented box in the frame and unit of its points: the closed set of all p with |axis(i) . (p - center)|
 /// <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles. The axes are right-handed.
-/// They have length 1 and are orthogonal, both to 1e-12.
+/// They have length 1 and are orthogonal, each to 1e-12.
 ///
 /// The empty box has half extents -1, centre NaN and the coordinate axes. A box with a half extent of 0 is
 /// flat and a valid volume. Coordinates beyond 1e100 are not supported.
@@ -95,8 +95,8 @@ class Obb {
   /// 0 if contains() is true for the origin.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than that may hit. Then `enter` and `exit` move outward by 2^-51 of their
-  /// magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
+  /// move outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap by exact
@@ -125,9 +125,9 @@ class Obb {
   /// this box, the axes of the other box and the coordinate axes. The result is the candidate with the
   /// smallest volume; if volumes are equal (for example 0), the candidate with the smallest surface area. If
   /// one box encloses the other by more than rounding errors, the result is the enclosing box, unchanged. If
-  /// both boxes have the same third axis, as upright boxes have, the result also has that third axis, and its
-  /// axes are ordered as by upright(). The order of the two boxes does not change the result. In general, the
-  /// result is not the minimum-volume box.
+  /// both boxes have exactly the same third axis, as upright boxes have, the third candidate also has that
+  /// axis instead of the coordinate axes, and the axes of the result are ordered as by upright(). The order
+  /// of the two boxes does not change the result. In general, the result is not the minimum-volume box.
   Obb merged(const Obb& other) const;
 
   /// Returns the same box with its axes in a standard order and direction, so that rounding noise does not
