@@ -33,7 +33,7 @@ struct FrameRay {
   FramePoint from;
   Eigen::Vector3d u;
   int exponent;             ///< t in the frame is 2^exponent times t of the given ray.
-  double underflow_margin;  ///< Bound of the error of `enter` and `exit` by underflow.
+  double underflow_margin;  ///< Bound of the error of `enter` and `exit` by underflow in intersect().
 
   FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction);
   /// Converts the parameter t of the given ray to the frame. Overflow gives infinity.

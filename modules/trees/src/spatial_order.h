@@ -69,10 +69,10 @@ struct ItemRun {
 /// Items with equal coordinates are ordered by index. A run of at most 16 items, or with all items at the
 /// same position, is not cut.
 ///
-/// The items of such a run depend only on all the items. Their order within the run depends on their order
-/// before. Neither depends on the policy. A cut takes three passes over the run, which find the side, count
-/// the items of each bin and move the items. Bins with a cut are partitioned in addition, which is cheap for
-/// fewer than 1000 items per bin.
+/// Which items are in such a run depends on the set of items only. The order within the run depends on the
+/// order before the sort. Neither depends on the policy. A cut takes three passes over a run. They find the
+/// longest side, count the items of each bin and move the items. In addition it partitions each bin that it
+/// divides, which is cheap for fewer than 1000 items per bin.
 template <typename T>
 class SpatialOrder {
  public:

@@ -19,7 +19,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Bounds of the tree's nodes. Every node has an axis-aligned box; 16 boxes are tested at a time. Slabs or
-/// spheres are tested only for nodes whose box the query does not miss. The kind of bounds changes no result.
+/// spheres are tested in addition to the boxes and exclude more nodes. The kind of bounds changes no result.
 enum class NodeBounds : std::uint8_t {
   aabb,  ///< Boxes only. They are the cheapest to build and to refit.
   /// Boxes and slabs along the diagonals of the cube (Klosowski et al. 1998). Building takes five times as
