@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers of cells, and the blocks of 4 x 4 x 4 cells: neighbours are searched by block, and a 64-bit word
-// says which cells of a block hold points.
+// Numbers of cells and of blocks of 4 x 4 x 4 cells. Neighbours are searched by block. The bits of a 64-bit
+// word mark the cells of a block that hold points.
 #pragma once
 
 #include <array>

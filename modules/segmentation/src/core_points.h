@@ -17,9 +17,9 @@ namespace pcl_bv {
 template <typename T>
 struct CoreScratch {
   std::vector<std::uint8_t> core;         ///< Whether the point at each position of Cells::points is core.
-  std::vector<std::uint64_t> core_cells;  ///< For each block, the bits of its cells with core points.
-  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, the bits of its cells with other points.
-  std::vector<std::uint32_t> number;  ///< For each position, the index of the point in the input of make_cells().
+  std::vector<std::uint64_t> core_cells;  ///< For each block, bits of its cells with core points.
+  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of its cells with other points.
+  std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
   std::vector<std::uint32_t> label;   ///< For each border point, its core point. Later its node.
   std::vector<Box<T>> groups;         ///< Boxes of `group_size` positions each.
 };

@@ -37,7 +37,8 @@ constexpr float roughness = 0.02F;  // metres from the lowest to the middle poin
 
 }  // namespace
 
-// Mixes the states of those neighbours into the state that have seen the ground more recently.
+// Mixes the states of neighbouring sectors into the state of each sector, if the neighbours have seen the
+// ground more recently.
 void GroundSurface::WalkState::mix_with_neighbours(float width) {
   for (RingRow* row : {&height, &slope, &last_ground, &since_ground})
     row->close();
