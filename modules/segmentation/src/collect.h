@@ -16,7 +16,7 @@ namespace pcl_bv {
 /// The root of noise if all valid points are in clusters.
 constexpr std::uint32_t no_root = std::numeric_limits<std::uint32_t>::max();
 
-/// A connected component: its root, its number of points and the position of its first point.
+/// A connected component, with its root, its number of points and the position of its first point.
 struct Component {
   std::uint32_t root, size, first_point;
 };

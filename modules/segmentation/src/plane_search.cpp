@@ -136,7 +136,7 @@ Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3
 std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                    const Limits& limits) {
   const Vector3d normal =
-      normalized(normalized(b - a).cross(normalized(c - a)));  // zero for points on a line, and thus not allowed
+      normalized(normalized(b - a).cross(normalized(c - a)));  // zero for points on a line, so not allowed
   const Plane plane = plane_at(a, normal, limits.up);
   if (!limits.allow(plane)) return {};
   return plane;

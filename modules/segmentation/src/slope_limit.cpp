@@ -10,7 +10,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t max_sectors = 16;  // to either side
+constexpr std::size_t max_sectors = 16;  // on either side of a cell
 
 class SlopeLimit {
  public:

@@ -66,8 +66,8 @@ struct Clusters {
   const std::int32_t* cluster(std::size_t i) const { return indices.data() + offsets[i]; }
 };
 
-/// Finds Euclidean clusters: the connected components of the graph that links two points if their distance is
-/// below the tolerance.
+/// Finds Euclidean clusters. These are the connected components of the graph that links two points if their
+/// distance is below the tolerance.
 ///
 /// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2, where d2 = (dx*dx + dy*dy) + dz*dz
 /// and r2 = tolerance * tolerance are rounded to the scalar type of the points after each operation. So

@@ -33,7 +33,7 @@ struct PointDistance {
   double distance;
 };
 
-/// A copy of a cloud's valid points for spatial queries: a packed R-tree (Roussopoulos, Leifker 1985).
+/// A copy of a cloud's valid points for spatial queries, as a packed R-tree (Roussopoulos, Leifker 1985).
 ///
 /// The points are in the order of a balanced k-d tree, 16 to a packet. Each packet has a box, each 16 boxes
 /// have a common box, and so on. Building takes about 30 ns per point on one thread, so a tree can be built

@@ -14,8 +14,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The points of a PointTree after a rigid motion. The points are not moved: each query is moved to the
-/// tree's frame instead.
+/// The points of a PointTree after a rigid motion. The points are not moved. Instead, each query is moved to
+/// the tree's frame.
 ///
 /// The tree must outlive this object. A query volume is moved back and inflated, which covers the rounding of
 /// the inverse matrix. So every point is found whose image (by exact arithmetic on the stored matrix) is
