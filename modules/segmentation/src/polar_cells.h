@@ -26,8 +26,8 @@ inline float range_of(float u, float v) {
   return std::sqrt(u * u + v * v);
 }
 
-/// Returns the angle of a point in turns, 0 to 1, to 0.004 rad. The result is the same on every machine,
-/// unlike that of atan2() of the C libraries.
+/// Returns the angle of a point in turns, from 0 to 1, accurate to 0.004 rad. The result is the same on every
+/// machine, unlike that of atan2() of the C libraries.
 inline float angle_in_turns(float u, float v) {
   const float along = std::abs(u), across = std::abs(v);
   const float longer = std::max(along, across);

@@ -70,7 +70,7 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bou
   boxes.origin = {middle(bounds.low.x, bounds.high.x), middle(bounds.low.y, bounds.high.y),
                   middle(bounds.low.z, bounds.high.z)};
   // Clouds with a half extent of at most 2^-400 are not scaled, because the square of a larger scale would
-  // leave the range of double. All their boxes are nearly the same.
+  // leave the range of double. So all boxes of such a cloud are nearly the same.
   boxes.scale = std::ldexp(1.0, half > 0x1p-400 ? -std::ilogb(half) - 1 : 0);
 }
 

@@ -50,10 +50,10 @@ struct GroundSplit {
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
-  /// Centre of the rings of GroundZones, which alone sets it. A position given in the settings is not
-  /// checked.
+  /// Centre of the rings of GroundZones. A position given in the settings is not checked. split_ground() does
+  /// not set it.
   SensorPosition sensor{};
-  /// Whether GroundZones, which alone sets it, found no plane and assumed level ground at sensor_height.
+  /// Whether GroundZones found no plane and assumed level ground at sensor_height. Not set by split_ground().
   bool assumed_level = false;
   /// Indices of the ground points in the cloud (PointView::index()), in the order of the view.
   std::vector<std::int32_t> ground;

@@ -37,7 +37,8 @@ struct GroundZonesSettings {
 ///
 /// Space around the sensor is divided into cells. The cells are rings of 0.5 m, each with 256 sectors. The
 /// steps are:
-/// - Find the plane around the sensor as split_ground() does, among the points within 12.5 m.
+/// - Find the plane around the sensor as split_ground() does, among the points within 12.5 m. If none is
+///   found, search within 25 m, then among all points.
 /// - Traverse all sectors outwards, ring by ring. The lowest point of a cell is ground if it is near the
 ///   height expected in its sector. The tolerance grows with the distance since ground was last seen in this
 ///   sector. A sector without ground for some distance takes its state from the neighbouring sectors.
