@@ -21,8 +21,9 @@ std::string lower_case_extension(const std::filesystem::path& path);
 bool is_cloud_name(const std::filesystem::path& path);
 
 /// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() with `bin_fields` for
-/// .bin, read_las() for .las and .laz, and read_pcd() for all others. The policy's threads read text. Throws IoError
-/// with the reason. For extensions of other known formats (meshes, recordings) the reason includes advice.
+/// .bin, read_las() for .las and .laz, and read_pcd() for all others. The policy's threads read text. Throws
+/// IoError with the reason. For extensions of other known formats (meshes, recordings) the reason includes
+/// advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{},
                     std::size_t bin_fields = 0);
 
