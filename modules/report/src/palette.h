@@ -10,7 +10,7 @@
 
 namespace pcl_bv {
 
-/// Red, green, blue in 0..1, as displayed (sRGB).
+/// Red, green and blue in 0..1, as displayed (sRGB).
 using Colour = std::array<float, 3>;
 
 /// Colours of similar brightness that are easy to distinguish on a dark background. Successive colours differ

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Helpers for texts that are written in pieces.
+// Helper functions for texts that are written in pieces.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline void take_if_long(std::string& text, const TextSink& take) {
   text.clear();
 }
 
-/// Returns a sink that appends to `all`.
+/// Returns a sink that appends each piece to `all`.
 inline TextSink appended_to(std::string& all) {
   return [&all](std::string& piece) {
     if (all.empty()) {

@@ -42,9 +42,9 @@ bool is_capture(const std::filesystem::path& file);
 ///
 /// Sensors are distinguished by address, port and model. Several sensors at one address are also
 /// distinguished by azimuths that do not continue one another. Each sensor has its own sweeps. The sweeps of
-/// all sensors come in the order of their ends. Azimuths are as in PCL's grabbers. There is one azimuth per
-/// block, and the second firing of a VLP-16 is interpolated between two blocks. Sources: the sensors' manuals
-/// (63-9243, 63-9113, 63-9325).
+/// all sensors come in the order in which they are completed. Azimuths are as in PCL's grabbers. There is one
+/// azimuth per block, and the second firing of a VLP-16 is interpolated between two blocks. Sources: the
+/// sensors' manuals (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
   /// Opens a capture. `sensor` (source address and destination port, such as "192.168.1.201:2368") restricts
