@@ -33,7 +33,7 @@ struct PartialFile {
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
   std::string filter;                     ///< Description of the filters for points; only compared.
-  Counts counts;                          ///< Dropped points of this share. Only `range` and `inside` are used.
+  Counts counts;                          ///< Dropped points of this share. Only `range` and `inside` count.
   /// Points of this share as ranges [first, second) of point numbers, ascending, neither empty nor adjacent.
   std::vector<std::pair<std::size_t, std::size_t>> shares;
   Partial partial;  ///< The partial results. Dropped points are treated as invalid.
