@@ -16,9 +16,9 @@ class BlockSums {
  public:
   explicit BlockSums(std::size_t points);
 
-  /// Computes the checksums of the blocks that are completely in `records`, which are the points [first,
-  /// first + count). Incomplete blocks are ignored. Throws IoError if the checksum of a block differs from
-  /// the checksum at the first read of the block. Thread-safe.
+  /// Computes the checksums of all blocks that are completely in `records`. The records are the points
+  /// [first, first + count). Incomplete blocks are ignored. Throws IoError if the checksum of a block differs
+  /// from the checksum at the first read of the block. Thread-safe.
   void check(std::size_t first, std::size_t count, const std::byte* records, std::size_t step);
 
  private:

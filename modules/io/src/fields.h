@@ -52,7 +52,7 @@ void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::
 /// Returns the first field of this name, or null.
 const PointField* find_field(const std::vector<PointField>& fields, std::string_view name);
 
-/// Whether the name is x, y, z, X, Y or Z.
+/// Returns whether the name is x, y, z, X, Y or Z.
 bool is_coordinate_name(std::string_view name);
 
 /// Offsets and types of x, y and z in the record.
@@ -82,8 +82,8 @@ void require_coordinates(RawCloud& cloud);
 /// Appends a warning to the cloud's note.
 void add_note(RawCloud& cloud, const std::string& note);
 
-/// Whether the viewpoint (tx ty tz qw qx qy qz) has a translation or rotation. All zeros is treated as the
-/// identity.
+/// Returns whether the viewpoint (tx ty tz qw qx qy qz) has a translation or rotation. All zeros are treated
+/// as the identity.
 bool is_not_identity(const std::array<double, 7>& viewpoint);
 
 /// Copies the coordinates of these records to `xyz` in the layout of packed_points(), converted to

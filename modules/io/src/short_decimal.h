@@ -19,12 +19,11 @@ namespace pcl_bv {
 /// Number of bytes after the text that read_short_decimal() may read.
 inline constexpr std::size_t kTextPadding = 16;
 
-/// Returns whether the character separates values within a line, which is white space of C except the line
-/// feed.
+/// Returns whether the character separates values within a line. Blanks are C's white space except line feed.
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
-/// Returns whether the character ends a value, which is a blank or a line feed.
+/// Returns whether the character ends a value. Blanks and line feeds do.
 inline bool ends_value(char c) {
   return c == '\n' || is_blank(c);
 }
@@ -66,7 +65,7 @@ inline constexpr std::array<double, kMaxExactPower + 1> double_powers{
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// The number digits * 10^exponent; digits < 1e18.
+/// The number digits * 10^exponent, where digits < 1e18.
 struct Decimal {
   std::int64_t digits;
   int exponent;
@@ -99,7 +98,7 @@ inline bool round_decimal(Decimal decimal, bool negative, float& value) {
   constexpr std::uint64_t middle = std::uint64_t{1} << 28, below_float = (middle << 1) - 1;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(magnitude);
   const bool near_middle = (bits & below_float) - (middle - 2) <= 4;
-  // The float is never denormal: a value other than 0 is at least 1e-22.
+  // The float is never denormal, because a value other than 0 is at least 1e-22.
   if (near_middle || magnitude > static_cast<double>(std::numeric_limits<float>::max())) return false;
   const float rounded = static_cast<float>(magnitude);
   value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) | std::uint32_t{negative} << 31);

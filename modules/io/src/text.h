@@ -35,8 +35,8 @@ Words split(std::string_view line);
 /// Returns whether the text can be a field's name, which is not empty and has no blanks and line ends.
 bool is_word(std::string_view text);
 
-/// Returns the value of a well-formed decimal number that std::from_chars reported as out of range: an
-/// infinity or a zero with the number's sign.
+/// Returns the value of a well-formed decimal number that std::from_chars reported as out of range. The value
+/// is infinity or zero with the number's sign.
 double value_beyond_range(std::string_view number);
 
 /// Reads the number at the beginning of [at, end). Floating point is rounded to nearest. "nan" and "inf" are

@@ -37,7 +37,7 @@ struct Layout {
   std::size_t points() const { return width * height; }
 };
 
-// Tolerates two errors of drivers: a wrong row_step (which is redundant for rows without padding), and height
+// Tolerates two errors of drivers, namely a wrong row_step (redundant for rows without padding), and height
 // 0 for an unorganised cloud. They are ignored if the data has exactly the bytes that the points need.
 Layout layout_of(const msg::PointCloud2& cloud) {
   const std::uint64_t width = cloud.width, step = cloud.point_step, size = cloud.data.size;

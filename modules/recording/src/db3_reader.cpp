@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads a .db3 file of rosbag2: a SQLite database with the tables topics and messages.
+// Reads a .db3 file of rosbag2, which is a SQLite database with the tables topics and messages.
 
 #include <sqlite3.h>
 

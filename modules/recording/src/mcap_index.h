@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The index of an MCAP file: its channels, and the positions of its messages.
+// The index of an MCAP file, which has the channels and the positions of the messages.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@ struct UnindexedCounts {
 /// the next chunk.
 UnindexedCounts scan(const InputFile& file, const Summary& summary, Index& index);
 
-/// Adds a schema or channel record to the index; ignores all other records.
+/// Adds a schema or channel record to the index. Ignores all other records.
 void add_schema_or_channel(const Record& record, Index& index);
 
 /// Reads `size` bytes of the file.

@@ -191,7 +191,7 @@ class McapWriter::State {
         compressed_.size(), chunk_.size()};
     mcap::Statistics all = statistics_;
     put_message_indexes(writer, index, all);
-    chunk_.clear();  // also if writing fails; the messages are then lost
+    chunk_.clear();  // before append(), so its messages are lost if writing fails
     append(out_);
     all.first_time = chunks_.empty() ? first_time_ : std::min(all.first_time, first_time_);
     all.last_time = std::max(all.last_time, last_time_);

@@ -204,7 +204,7 @@ class Rosbag2Writer::State {
     }
     const auto begins = [&] {
       return nanoseconds("nanoseconds_since_epoch", messages > 0 ? first_ : 0);
-    };  // a new node each time: yaml-cpp writes a shared node as an alias
+    };  // a new node each time, because yaml-cpp writes a shared node as an alias
     const auto lasts = [&] { return nanoseconds("nanoseconds", messages > 0 ? last_ - first_ : 0); };
     YAML::Node part;
     part["path"] = file_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of picture_png(): projection, points, lines and marks.
+// The parts of picture_png(), which are the projection, points, lines and marks.
 #pragma once
 
 #include <cairo.h>
@@ -48,7 +48,7 @@ View fit_view(const Picture& picture);
 /// occluded.
 std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view);
 
-/// Styles that distinguish methods: colours if each method has its own colour, else dashes.
+/// Styles that distinguish methods. They are colours if each method has its own colour, else dashes.
 struct Styles {
   explicit Styles(const Picture& picture);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory for the bytes of clouds. It is not zeroed, because zeroing takes time. Large blocks use huge pages,
-// because a page fault for each 4 KiB also takes time. Together they would take longer than reading the file.
+// Memory for the bytes of clouds. It is not zeroed, and large blocks use huge pages, because zeroing and a
+// page fault for each 4 KiB would take longer than reading the file.
 #pragma once
 
 #include <cstddef>

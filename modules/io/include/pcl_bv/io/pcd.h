@@ -12,9 +12,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads a .pcd file: ascii, binary or binary_compressed (also with blocks that were stored without
-/// compression). The file must have fields x, y and z (or X, Y and Z) of float32, float64 or integer types.
-/// The three types may differ (see RawCloud::xyz()). All other fields are read, too.
+/// Reads a .pcd file in ascii, binary or binary_compressed encoding (also with blocks that were stored
+/// without compression). The file must have fields x, y and z (or X, Y and Z) of float32, float64 or integer
+/// types. The three types may differ (see RawCloud::xyz()). All other fields are read, too.
 ///
 /// Sizes in the header are checked against the size of the file before anything is allocated. A file of 0
 /// points gives an empty cloud.
@@ -34,8 +34,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// RawCloud::note also reports a VIEWPOINT other than the identity, which is never applied.
 ///
 /// The policy's threads read the rows of text. The cloud and the error are the same for any number of
-/// threads. Memory in addition to the cloud: for ascii 0.3 MiB per thread (more only if a row is longer), for
-/// binary_compressed the size of the file plus the size of the points.
+/// threads. In addition to the cloud, ascii needs 0.3 MiB of memory per thread (more only if a row is
+/// longer), and binary_compressed needs the size of the file plus the size of the points.
 ///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent or
 /// of an unsupported type.

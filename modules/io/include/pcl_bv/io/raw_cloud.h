@@ -99,9 +99,9 @@ struct FieldView {
   float at(std::size_t record) const;  ///< Returns the record's number, rounded to the nearest float32.
 };
 
-/// Returns a view of the intensity of each point, in the sensor's own unit. The intensity is the field named
-/// intensity, Intensity, INTENSITY, intensities, reflectivity or i. The first of these names decides that is
-/// a field with one element of a supported type. Returns nullopt if there is none. The view is valid as long
+/// Returns a view of the intensity of each point, in the sensor's own unit. Field names of the intensity are,
+/// in order of preference, intensity, Intensity, INTENSITY, intensities, reflectivity and i. The field must
+/// have one element of a supported type. Returns nullopt if there is no such field. The view is valid as long
 /// as the records.
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step);

@@ -207,7 +207,7 @@ void read_cdr(const std::byte* data, std::size_t size, Message& message) {
   reader(message);
   reader.finish();
 }
-/// Reads a message in ROS 1's encoding; otherwise like read_cdr().
+/// Reads a message in ROS 1's encoding. Otherwise like read_cdr().
 template <class Message>
 void read_ros1(const std::byte* data, std::size_t size, Message& message) {
   MessageReader<MessageEncoding::ros1> reader(data, size);

@@ -16,14 +16,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Labels of points that belong to no cluster. kLabelGround is for ground, the next label is for all others.
+/// Labels of points that belong to no cluster. kLabelGround is for ground, kLabelNone for all others.
 inline constexpr std::uint32_t kLabelGround = 4294967294;
 inline constexpr std::uint32_t kLabelNone = 4294967295;
 
 /// A volume, and the colour and label with which it is drawn.
 struct PictureVolume {
   AnyVolume volume;
-  std::uint32_t colour = 0;  ///< Number of the colour: the id of the volume's cluster.
+  std::uint32_t colour = 0;  ///< Number of the colour, which is the id of the volume's cluster.
   std::string label = {};    ///< Text above the volume in its colour. It is ASCII; other bytes become '?'.
   std::uint32_t method = 0;  ///< Index of the volume's method in Picture::methods.
 };
@@ -33,10 +33,10 @@ struct PictureVolume {
 /// degrees of `up`). The second horizontal axis is 90 degrees to the left of the first, seen from above. For
 /// example, in a camera's frame (y down) the second horizontal axis is z.
 enum class ViewFrom {
-  iso,    ///< Obliquely from above, over a corner of the scene.
-  top,    ///< Down; the first horizontal axis points right, the second up.
-  front,  ///< Along the second horizontal axis; the first points right, `up` points up.
-  side    ///< Against the first horizontal axis; the second points right, `up` points up.
+  iso,    ///< Looks obliquely from above, over a corner of the scene.
+  top,    ///< Looks down. The first horizontal axis points right, the second up.
+  front,  ///< Looks along the second horizontal axis. The first points right, `up` points up.
+  side    ///< Looks against the first horizontal axis. The second points right, `up` points up.
 };
 
 /// The content of a picture.
@@ -58,8 +58,8 @@ struct Picture {
 ///
 /// The frame covers these parts of the scene, so that outliers do not shrink all others:
 /// - The volumes. If there are 16 or more, at most a sixteenth of them is ignored at each side.
-/// - The central 98 % of the points. If there are labels, only points of clusters count. If there are volumes
-///   but no labels, points do not count.
+/// - The central 98 % of the points. If there are labels, only points of clusters are used. If there are
+///   volumes but no labels, no points are used.
 ///
 /// A picture without points and volumes shows only the background.
 ///

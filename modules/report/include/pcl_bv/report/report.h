@@ -102,7 +102,7 @@ using TextSink = std::function<void(std::string& piece)>;
 ///
 /// Every number has the fewest digits that read back as exactly the same double. A volume that is read back
 /// therefore contains the same points. There is no null, NaN or -0. An empty volume has `"empty":true`. A
-/// volume whose fit failed has `"failed"` with the reason. Neither has the numbers of a shape. Throws
+/// volume whose fit failed has `"failed"` with the reason. Such volumes have no numbers. Throws
 /// std::domain_error if a number is not finite, which does not occur in fitted volumes.
 std::string report_json(const Report& report);
 

@@ -24,7 +24,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// inputs of the cloud in the order of the inputs, and each share uses these numbers. Therefore the result is
 /// the same, bit for bit, for any number of shares and any order of merging.
 struct PartialFile {
-  /// Value of `inputs_hash` for a cloud without inputs: the offset basis of FNV-1a.
+  /// Value of `inputs_hash` for a cloud without inputs. It is the offset basis of FNV-1a.
   static constexpr std::uint64_t kEmptyInputsHash = 0xcbf29ce484222325;
 
   /// FNV-1a hash of the names and numbers of points of the inputs (see add_input()).
@@ -33,7 +33,7 @@ struct PartialFile {
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
   std::string filter;                     ///< Description of the filters for points; only compared.
-  Counts counts;                          ///< Dropped points of this share. Only `range` and `inside` count.
+  Counts counts;                          ///< Dropped points of this share (only `range` and `inside`).
   /// Points of this share as ranges [first, second) of point numbers, ascending, neither empty nor adjacent.
   std::vector<std::pair<std::size_t, std::size_t>> shares;
   Partial partial;  ///< The partial results. Dropped points are treated as invalid.
