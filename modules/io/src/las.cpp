@@ -105,8 +105,9 @@ const PointFormat& point_format(const HeaderBytes& bytes) {
   return kFormats[format];
 }
 
-// From version 1.4 on, the 64-bit count decides. The legacy count is used only if a writer left the 64-bit
-// count 0 and the point format is 0 to 5. It is not valid for formats 6 to 10.
+// Returns the number of points. From version 1.4 on, the 64-bit count decides. The legacy count is used only
+// if a writer left the 64-bit count 0 and the point format is 0 to 5. The legacy count is not valid for
+// formats 6 to 10.
 std::size_t point_count(const HeaderBytes& bytes, int minor, const PointFormat& format, RawCloud& cloud) {
   const auto legacy = bytes.at<std::uint32_t>(107);
   if (minor < 4) return legacy;

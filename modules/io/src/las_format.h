@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The header and the fields of .las files, shared by the reader's parts.
+// The header and the fields of .las files, and functions that read them.
 #pragma once
 
 #include <array>

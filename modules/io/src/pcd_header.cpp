@@ -20,7 +20,8 @@ using KeywordLines = std::map<std::string_view, Words>;  // keyword -> the words
 constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                          "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
-// Adds the words of a line. Returns its keyword, or an empty text for a comment or an empty line.
+// Adds the words of a line to `lines`. Returns the line's keyword. For a comment or an empty line, returns an
+// empty text.
 std::string_view add_line(std::string_view line, KeywordLines& lines) {
   Words words = split(line);
   if (words.empty() || words[0][0] == '#') return {};

@@ -33,7 +33,7 @@ std::unique_ptr<RecordingReader> open_zstd_file(const std::filesystem::path& fil
 std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
 
-/// Returns the type name in ROS 2's spelling: "sensor_msgs/PointCloud2" (ROS 1) becomes
+/// Returns the type name in ROS 2's spelling. For example, "sensor_msgs/PointCloud2" (ROS 1) becomes
 /// "sensor_msgs/msg/PointCloud2".
 std::string ros2_type(std::string_view type);
 

@@ -27,7 +27,7 @@ struct View {
   double scale = 1;  ///< Pixels per unit.
   int width = 0;
   int height = 0;
-  bool empty = true;  ///< There are no points and no volumes to frame.
+  bool empty = true;  ///< Whether there are no points and no volumes to frame.
 
   /// Returns the pixel coordinates x and y, and the depth.
   Eigen::Vector3d project(const Eigen::Vector3d& p) const {

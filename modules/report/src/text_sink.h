@@ -10,7 +10,7 @@
 
 namespace pcl_bv {
 
-/// Passes the text to `take` and clears it if it has a megabyte or more.
+/// Passes the text to `take` and clears the text, if it has a megabyte or more.
 inline void take_if_long(std::string& text, const TextSink& take) {
   if (text.size() < std::size_t{1} << 20) return;
   take(text);

@@ -25,8 +25,8 @@ class RecordingWriter {
  public:
   virtual ~RecordingWriter() = default;
 
-  /// Adds a topic and returns its index for write(). Throws IoError, and std::length_error if there are 65
-  /// 535 topics already.
+  /// Adds a topic and returns its index for write(). Throws IoError. Throws std::length_error if there
+  /// are 65535 topics already.
   virtual std::size_t add_topic(const WrittenTopic& topic) = 0;
 
   /// Writes a message. Times are nanoseconds since 1970. Throws std::out_of_range for an unknown topic.

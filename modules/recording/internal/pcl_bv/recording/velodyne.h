@@ -32,7 +32,7 @@ struct VelodyneSweep {
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns.
 RawCloud raw_cloud_of(const VelodyneSweep& sweep);
 
-/// Returns whether the file is a capture of packets (.pcap, .pcapng), by its first bytes.
+/// Returns whether the first bytes of the file are those of a capture of packets (.pcap, .pcapng).
 bool is_capture(const std::filesystem::path& file);
 
 /// Reads the sweeps in the packets of a VLP-16, HDL-32E or VLP-32C, with single or dual returns (two

@@ -13,10 +13,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Names of the columns of every volume.
 /// - cx, cy, cz: the center().
-/// - sx, sy, sz: the full size along the shape's own axes. An upright box (obb-yaw, obb-lshape) has its
-///   length, width and height here. The z axis of a cylinder or capsule is its axis.
+/// - sx, sy, sz: the full size along the shape's own axes. For an upright box (obb-yaw, obb-lshape) they are
+///   its length, width and height. The axis of a cylinder or capsule is its own z axis.
 /// - qx, qy, qz, qw: the unit quaternion that rotates the world's axes to the shape's axes.
-/// - radius: of a sphere, cylinder or capsule. A sphere has no size.
+/// - radius: the radius of a sphere, cylinder or capsule. A sphere has no size.
 ///
 /// For shapes without own axes (such as k-DOPs), the quaternion is empty and the size is that of the
 /// axis-aligned box. Columns that a shape does not have are empty. All numbers of an empty volume are empty.
