@@ -38,7 +38,7 @@ std::array<const PointField*, 3> find_coordinates(const std::vector<PointField>&
   return {find_field(fields, names[0]), find_field(fields, names[1]), find_field(fields, names[2])};
 }
 
-// Above 2^53 doubles do not represent every integer.
+// Converts to double. Throws IoError for integers above 2^53 in magnitude, which may not be exact doubles.
 template <typename T>
 double exact_double(T value) {
   if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {

@@ -101,7 +101,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
     to.resize(expected);
     return unpack_lz4(contexts_->lz4, data, size, to);
   }
-  if (expected / 64 > size) {  // unusual ratio, so let the buffer grow with the output
+  if (expected / 64 > size) {  // do not trust `expected`; the buffer grows with the output
     decompress_zstd(data, size, to, expected);
     if (to.size() != expected) refuse("zstd", "not " + std::to_string(expected) + " bytes");
     return;

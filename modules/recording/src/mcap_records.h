@@ -156,7 +156,7 @@ struct Channel {
 };
 
 struct MessageTime {
-  std::uint64_t time, offset;  ///< Offset from the beginning of the uncompressed chunk.
+  std::uint64_t time, offset;  ///< `offset` is from the beginning of the uncompressed chunk.
 };
 
 struct ChunkIndex {

@@ -110,7 +110,7 @@ class Scan {
     }
   }
 
-  // Adds the chunks of the summary that are behind the end of the walk.
+  // Adds the chunks of the summary that the walk has not met.
   void add_remaining_chunks() {
     for (const std::uint64_t offset : remaining_chunks_)
       index_.parts.push_back(summary_.chunks.at(offset));

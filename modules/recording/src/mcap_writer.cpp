@@ -104,7 +104,7 @@ class McapWriter::State {
     Writer writer(record);
     writer.begin(Op::attachment);
     writer.number(log_time);
-    writer.number(log_time);  // the creation time is unknown
+    writer.number(log_time);  // as creation time, which is unknown
     writer.text(name);
     writer.text(media_type);
     writer.number(static_cast<std::uint64_t>(content.size()));
