@@ -82,11 +82,12 @@ SinkDescription parse_sink(const std::string& description);
 
 /// Opens a sink.
 ///
-/// A file or recording is created if it does not exist; an existing one is emptied by the first frame or by
-/// close(). A folder is created if it does not exist. After each frame, jsonl and csv files hold whole lines
-/// (if the disk is full, the last one may be cut), and frames.pvd (vtp) lists the frame. Files of single
-/// frames (vtp, image, labels) are named by FrameHeader::number. Throws IoError if the sink cannot be opened,
-/// and std::invalid_argument if `kind` is null.
+/// A file or recording is created if it does not exist. The first frame or close() empties an existing one. A
+/// folder is created if it does not exist. After each frame, jsonl and csv files hold whole lines; if the
+/// disk is full, the last line may be cut. After each frame, frames.pvd (vtp) lists the frame. Files of
+/// single frames (vtp, image, labels) are named by FrameHeader::number.
+///
+/// Throws IoError if the sink cannot be opened, and std::invalid_argument if `kind` is null.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
 /// Creates a sink that calls `on_result` with each result. Throws std::invalid_argument if `on_result` is

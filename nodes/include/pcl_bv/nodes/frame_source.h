@@ -74,13 +74,15 @@ struct ReplayOptions {
   std::string class_field{};
   std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the recording.
 
-  /// File of sensor poses. If empty, frames have no pose. Empty lines and lines that begin with # are
-  /// skipped.
+  /// File of sensor poses. If empty, only frames whose source generates poses have one. Empty lines and lines
+  /// that begin with # are skipped.
   ///
-  /// KITTI: 12 numbers per line, the upper three rows of the pose matrix, and one line per frame. If a
+  /// KITTI files have one line per frame with 12 numbers, the upper three rows of the pose matrix. If a
   /// calib.txt next to the file has a line `Tr:`, the poses are those of the left camera and are converted to
-  /// the sensor. TUM: `seconds x y z qx qy qz qw` per line. Poses are interpolated between two lines that are
-  /// at most 0.5 s apart; other frames have no pose.
+  /// the sensor.
+  ///
+  /// TUM files have lines `seconds x y z qx qy qz qw`. Poses are interpolated between two lines that are at
+  /// most 0.5 s apart; other frames have no pose.
   std::filesystem::path poses{};
   std::string topic{};  ///< Topic of a recording. If empty: its only topic with clouds.
 };
