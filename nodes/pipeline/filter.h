@@ -50,8 +50,8 @@ class PointFilter {
   /// 2e-16, because the square of a float is exact in double and the sum of three squares is rounded twice.
   void classify(const PointView& points, FilterScratch& scratch) const;
 
-  /// Replaces `kept` by the numbers of the points that are kept, in the order of the view, and adds the
-  /// numbers of dropped points to `counts`. Throws std::length_error for more than 2^31 - 1 points.
+  /// Replaces `kept` by the numbers of the points that are kept, in the order of the view. Counts the dropped
+  /// points by reason in `counts`. Throws std::length_error for more than 2^31 - 1 points.
   void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
               PointParts<FilterPart>& parts, Counts& counts) const;
 

@@ -27,7 +27,8 @@ struct ParsedTime {
   TimeKind kind = TimeKind::epoch;
   std::int64_t seconds = 0;
   std::string fraction{};
-  bool may_be_frame_number = false;  ///< Whether the fraction follows a dash or underscore.
+  /// Whether the fraction follows a dash or underscore, so that it may be a frame number instead.
+  bool may_be_frame_number = false;
 };
 
 /// Returns all times in a name without its extension, in order.
