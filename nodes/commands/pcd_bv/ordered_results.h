@@ -29,7 +29,7 @@ struct Result {
   Status status = Status::done;
 };
 
-/// Either writes `text`, the beginning of a long report, empties it and returns true, or returns false and
+/// Either writes `text`, the next part of a long report, empties it and returns true, or returns false and
 /// leaves `text` unchanged.
 using WriteEarly = std::function<bool(std::string& text)>;
 

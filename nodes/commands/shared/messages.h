@@ -13,7 +13,7 @@ namespace pcl_bv {
 /// Sets the name with which every line begins. Must be called before the first message.
 void name_command(std::string_view command);
 
-/// Prints one line on standard error: "<command>: text". Lines of several threads do not mix. Control
+/// Prints one line, "<command>: text", on standard error. Lines of several threads do not mix. Control
 /// characters become question marks, so that a file name can neither break the line nor control a terminal.
 void print_message(std::string_view text);
 

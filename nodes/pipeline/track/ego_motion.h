@@ -37,9 +37,10 @@ class EgoMotion {
   /// sensor's frame.
   ///
   /// Starts from `guess` and alternates between nearest neighbours and least squares in ever smaller radii.
-  /// Only boxes shorter than 6 m are used and counted. If fewer than 40 % of the expected boxes find a partner, the
-  /// search also starts from the shifts that most pairs vote for, at five yaw angles. Returns true and sets
-  /// `motion` if at least six pairs and 30 % of the expected boxes agree to 0.35 m. Otherwise returns false.
+  /// Only boxes shorter than 6 m are used and counted. If fewer than 40 % of the expected boxes find a
+  /// partner, the search also starts from the shifts that most pairs vote for, at five yaw angles. Returns
+  /// true and sets `motion` if at least six pairs and 30 % of the expected boxes agree to 0.35 m. Otherwise
+  /// returns false.
   bool estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& guess,
                 PlanarMotion& motion);
 
