@@ -25,8 +25,8 @@ using Lines = std::map<std::string, int>;
   throw ConfigError(name + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + what);
 }
 
-// Returns the unit of a number for errors, else an empty text, because errors of other types list the allowed
-// names.
+// Returns the unit of a number, to be appended to errors. For other types, returns an empty text, because
+// their errors list the allowed names.
 template <typename T>
 std::string in_unit(const Setting& setting) {
   constexpr bool number = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>> ||

@@ -41,10 +41,10 @@ class BoxFilter {
   /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
   /// so it does not matter which side of the object was measured as the longer one.
   ///
-  /// With `grow`, length and width approach the largest ones seen. They grow slowly, because a cluster that
-  /// contains two objects for one frame is also larger. The box is extended on the side away from the sensor.
-  /// A merged cluster changes neither the mean yaw nor the sizes. A separated cluster restarts the sizes.
-  ///
+  /// With `grow`, length and width approach the largest ones seen. After five detections they grow slowly,
+  /// because a cluster that contains two objects for one frame is also larger. The box is extended on the
+  /// side away from the sensor. A merged cluster changes neither the mean yaw nor the sizes. A separated
+  /// cluster restarts the sizes.
   /// The third axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
   /// are empty or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
