@@ -95,7 +95,8 @@ class Middleware {
 /// Returns the module with this name. The first call for a name loads the module, which is never unloaded.
 ///
 /// - "dds": ROS 2 topics by Eclipse Cyclone DDS. docs/ros.md lists the environment variables that it uses.
-/// - "ws": WebSockets for the viewers of Foxglove and for our page (docs/live.md). It has no receiver().
+/// - "ws": WebSockets for the viewers of Foxglove and for our page (docs/live.md). It cannot receive
+///   messages.
 ///
 /// The module is the file pcl_bv/pcl_bv_NAME.so in the library folder next to the program or next to this
 /// library. Throws IoError if it is not installed or has another version.

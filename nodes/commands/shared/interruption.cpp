@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A thread waits for the signals. A signal handler could not do the work, because it must not lock a mutex,
-// remove files by name or write JSON.
+// A thread waits for SIGINT, SIGTERM and SIGHUP. A signal handler could not do the work, because it must not
+// lock a mutex, remove files by name or write JSON.
 
 #include "interruption.h"
 

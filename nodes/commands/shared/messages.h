@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages of all threads on standard error: whole lines, and one status line.
+// Messages of all threads on standard error, which are whole lines and one status line.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The common part of all main functions: standard streams, errors and exit status.
+// The common part of all main functions, which handles standard streams, errors and the exit status.
 #pragma once
 
 #include <functional>

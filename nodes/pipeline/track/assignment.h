@@ -38,7 +38,8 @@ class SparseAssignment {
   void relax(std::size_t row, std::size_t column, double cost);
 
   using HeapEntry = std::pair<double, std::size_t>;  // distance, column
-  std::size_t columns_ = 0;                          // column columns_ + r: row r is unassigned
+  // Number of columns. The search also uses column columns_ + r, which means that row r is unassigned.
+  std::size_t columns_ = 0;
   double unassigned_cost_ = 0;
   std::vector<std::size_t> first_, column_of_, row_of_, from_, touched_;
   std::vector<double> matched_cost_, potential_, distance_, cost_from_;

@@ -109,7 +109,7 @@ double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& state) {
     sine_ = decay * sine_ + weight * std::sin(4 * yaw);
   }
   if (cosine_ == 0 && sine_ == 0) return 0;
-  // The rotation to apply, radians.
+  // This is the rotation from the box to the mean yaw, radians.
   return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));
 }
 

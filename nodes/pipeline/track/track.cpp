@@ -16,7 +16,7 @@ constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared s
 constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
 constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
 
-// Returns the variances along the axes after a rotation: the diagonal of R diag(v) R^T.
+// Returns the variances along the axes after a rotation R, which are the diagonal of R diag(v) R^T.
 Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& variances) {
   return rotation.cwiseAbs2() * variances;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parts that several sources share: poses, replays, and the functions that open sources.
+// Poses and replays, which several sources use, and the functions that open sources.
 #pragma once
 
 #include <filesystem>

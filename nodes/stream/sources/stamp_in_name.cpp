@@ -68,7 +68,7 @@ bool are_unpadded(const Times& times) {
   return unpadded < decimal || (unpadded == decimal && nine);
 }
 
-// Returns whether fractions are frame numbers, as in 20121214_142259_000017, which is the start of a
+// Returns whether fractions are frame numbers. For example, 20121214_142259_000017 is the start time of a
 // recording and a frame number.
 bool are_frame_numbers(const Times& times) {
   for (std::size_t i = 1; i < times.size(); ++i) {

@@ -70,8 +70,8 @@ inline std::optional<Eigen::Vector3d> stored_sensor_position(const Eigen::Vector
   return is_place ? std::optional(noted) : std::nullopt;
 }
 
-/// Returns VIEWPOINT of a .pcd file as a sensor position in the frame of the points, or nullopt as
-/// stored_sensor_position().
+/// Returns VIEWPOINT of a .pcd file as a sensor position in the frame of the points. Returns nullopt if
+/// stored_sensor_position() does.
 inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
   return stored_sensor_position({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }

@@ -30,7 +30,8 @@ struct StageTimes {
 
 /// Source of the time step between a tracked frame and the frame before.
 enum class TrackTime : std::uint8_t {
-  stamps,    ///< The stamps. If the previous stamp did not advance, Frame::recorded_ns.
+  /// The stamps, which advanced. Directly after a frame with `recorded`, Frame::recorded_ns is still used.
+  stamps,
   recorded,  ///< Frame::recorded_ns, because the stamp did not advance.
   none       ///< Neither of them advanced. Tracks are expected at their last positions.
 };

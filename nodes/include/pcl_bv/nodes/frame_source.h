@@ -69,7 +69,7 @@ struct ReplayOptions {
   /// For messages, the stamp is that of the header or, if the header's stamp is 0, the time of recording.
   bool own_stamps = false;
   std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
-  std::size_t loops = 1;       ///< Number of passes; 0 means 1.
+  std::size_t loops = 1;       ///< Number of passes over all frames; 0 is treated as 1.
   /// Integer field of the clouds for Frame::classes. If empty, frames have no classes.
   std::string class_field{};
   std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the recording.

@@ -119,7 +119,7 @@ struct PipelineConfig {
   /// Names of methods (fitting/methods.h). If empty: obb-lshape, or aabb, sphere and obb if cluster.tolerance
   /// is 0.
   std::vector<std::string> volumes;
-  SphereGrowth growth = SphereGrowth::deferred;  ///< For spheres that grow (sphere-ritter, sphere-epos*).
+  SphereGrowth growth = SphereGrowth::deferred;  ///< Policy of sphere-ritter and sphere-epos*.
   TrackConfig track;
   std::size_t threads = 1;   ///< Number of threads; 0: all processors.
   std::string isa = "auto";  ///< Instruction set, a name that parse_isa() knows.

@@ -32,7 +32,7 @@ QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 struct RunnerConfig {
   std::size_t queue = 1;  ///< Frames that may wait, at least 1.
   QueuePolicy policy = QueuePolicy::automatic;
-  double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: never.
+  double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: no limit.
   double watchdog_s = 0;  ///< Report if no frame comes for this number of seconds. 0: never.
 };
 
