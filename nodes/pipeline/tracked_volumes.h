@@ -25,7 +25,7 @@ class TrackClock {
 
  private:
   bool started_ = false;
-  std::int64_t now_ns_ = 0, stamp_ns_ = 0, recorded_ns_ = 0;  // of the last frame
+  std::int64_t now_ns_ = 0, stamp_ns_ = 0, recorded_ns_ = 0;  // times of the last frame
   TrackTime source_ = TrackTime::stamps;
 };
 

@@ -29,7 +29,7 @@ class LoadedCloud {
   /// Throws IoError if the cloud is not in memory and one of its files has been changed.
   void require_unchanged() const;
 
-  /// Returns cloud() by moving it. Must be the last access to the points.
+  /// Moves the cloud in memory to the caller. Must be the last access to the points.
   RawCloud take() { return std::move(cloud_); }
 
  private:

@@ -36,7 +36,7 @@ class ReportWriter {
 
   OutputFormat format_;
   std::optional<std::filesystem::path> file_;
-  std::vector<std::string> pending_;  ///< Content of the file so far.
+  std::vector<std::string> pending_;  ///< Content of the file so far, in pieces.
   bool first_ = true;
 };
 

@@ -37,7 +37,7 @@ class Stopwatch {
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   }
 
-  /// Returns the same seconds as lap(), but the next lap() still counts from the last one.
+  /// Returns the seconds since the last lap(), or since construction, without a new lap.
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
   }

@@ -21,8 +21,8 @@ Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::
   return rotation.cwiseAbs2() * variances;
 }
 
-// Returns the innovation. It is the shift of the centre if the size is unchanged, and the smallest shift of
-// the faces if the size changes by 0.25 m or more. For smaller changes, it is a blend of both shifts.
+// Returns the innovation. It is the shift of the centre if the size changes by at most 0.05 m, and the
+// smallest shift of the faces if it changes by 0.25 m or more. In between, it is a blend of both shifts.
 double innovation_of(const BoxDifference& difference, int axis) {
   const double part = std::clamp((std::abs(difference.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
   return (1 - part) * difference.centre[axis] + part * difference.shift[axis];

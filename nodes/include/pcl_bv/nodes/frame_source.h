@@ -28,7 +28,7 @@ class FrameError : public std::runtime_error {
       : std::runtime_error(lost.file.empty() ? why : lost.file + ": " + why),
         frame(std::move(lost)),
         reason(why) {}
-  Frame frame;  ///< The known parts of the frame: header and file.
+  Frame frame;  ///< The header and the file of the frame, as far as known.
   std::string reason;
 };
 

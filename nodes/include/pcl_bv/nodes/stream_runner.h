@@ -50,7 +50,7 @@ struct RunnerStats {
   std::vector<std::pair<std::string, LatencyHistogram>> sinks;
 };
 
-/// Returns the statistics as one line of JSON, milliseconds rounded to 0.001:
+/// Returns the statistics as one line of JSON. Milliseconds are rounded to 0.001. The line has the form
 /// `{"frames":{"in":..,"processed":..,"dropped":{"queue":..,"age":..,"error":..}},"ms":{"total":{"p50":..,
 /// "p95":..,"p99":..,"max":..},..,"sinks":{"vtp:FOLDER":{..}}}}`
 std::string stats_json(const RunnerStats& stats);
