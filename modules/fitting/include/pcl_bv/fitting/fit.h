@@ -28,7 +28,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// How a bounding sphere is computed, from the loosest to the tightest. All methods but `exact` compute a
 /// first sphere of a few points, then grow it until it encloses all points (SphereGrowth).
 enum class SphereMethod : std::uint8_t {
-  ritter,  ///< Ritter 1990. The ball of the two extremal points of the axis on which they are farthest apart.
+  ritter,  ///< Ritter 1990. Each axis has two extremal points. The ball of the pair that is farthest apart.
   epos6,   ///< Larsson 2008. The smallest ball of the extremal points along the 3 face normals of a cube.
   epos14,  ///< As epos6, with 7 directions: also those through the corners of the cube.
   epos26,  ///< As epos6, with 13 directions: also those through the edges of the cube.
@@ -113,8 +113,8 @@ struct SlabPoints {
   std::vector<std::size_t> max;  ///< For each slab the index of a point on its maximum side.
 };
 
-/// As fit_kdop() above. Also returns the points that touch the slabs. `touching` is empty if there is no valid
-/// point.
+/// As fit_kdop() above. Also returns the points that touch the slabs. `touching` is empty if there is no
+/// valid point.
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           SlabPoints& touching, const Execution& execution = {});
 
@@ -129,14 +129,14 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
 /// of its coordinates). Empty input and errors are as for fit_aabb().
 ///
 /// Larsson, Capannini, Källberg 2016. Computes the smallest ball of a few points, and adds to these the
-/// farthest outside point in each octant until no point is outside. The loop always ends. Most clouds take two
-/// passes. Further passes mostly inspect only the points near the surface.
+/// farthest outside point in each octant until no point is outside. The loop always ends. Most clouds take
+/// two passes. Further passes mostly inspect only the points near the surface.
 EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
                                      const Execution& execution = {});
 
-/// Computes the convex hull of the points. The vertices are exactly the extreme points of the cloud, which are
-/// the points outside the convex hull of all other points (of equal points the first). The triangles are the
-/// surface. The offset of each plane is the exact maximum projection of all points on the plane's normal,
+/// Computes the convex hull of the points. The vertices are exactly the extreme points of the cloud, which
+/// are the points outside the convex hull of all other points (of equal points the first). The triangles are
+/// the surface. The offset of each plane is the exact maximum projection of all points on the plane's normal,
 /// rounded up. Empty input and errors are as for fit_aabb().
 ///
 /// The hull has the rank of the points (result.h). If the points are flat to 2^-36 of their extent, the
@@ -147,8 +147,8 @@ EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, Sp
 EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution = {});
 
 /// Fits a small cylinder around the points. The axis is the best that a search finds. The search tries
-/// directions over the hemisphere and improves the best of them step by step. For this axis, radius and height
-/// are the minimum. There is no proof that no other axis is better.
+/// directions over the hemisphere and improves the best of them step by step. For this axis, radius and
+/// height are the minimum. There is no proof that no other axis is better.
 ///
 /// Empty input and errors are as for fit_hull(). Points in a plane give a disc, points on a line a segment.
 /// Takes the time of fit_hull(), plus about a thousand times O(vertices).
@@ -156,8 +156,8 @@ EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const
 
 /// Fits a small capsule around the points. The axis is found as for fit_cylinder(). Then each end is as far
 /// inward as the points allow. The radius is larger than necessary if that makes the volume smaller. Except
-/// for rounding, the volume is never larger than that of the smallest sphere. Empty input, errors and time are
-/// as for fit_cylinder().
+/// for rounding, the volume is never larger than that of the smallest sphere. Empty input, errors and time
+/// are as for fit_cylinder().
 EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const Execution& execution = {});
 
 /// Fits the smallest ellipsoid around the points, to about 1e-6 of its volume. The certificate proves how

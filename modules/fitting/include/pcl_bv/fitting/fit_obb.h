@@ -18,13 +18,13 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 enum class ObbMethod : std::uint8_t {
   /// The eigenvectors of the covariance. Sensitive to point density, not only to extent.
   pca,
-  /// Of the frames given by triangles of extremal points, the one with the smallest surface (Larsson, Kallberg
-  /// 2011). The coordinate axes if their box has a smaller surface.
+  /// Of the frames given by triangles of extremal points, the one with the smallest surface (Larsson,
+  /// Kallberg 2011). The coordinate axes if their box has a smaller surface.
   dito14,
-  /// The axes of the smallest volume. If the hull has at most 128 vertices, the volume is the true minimum, to
-  /// a relative 1e-10 (O'Rourke 1985). If one side is shorter than 1e-4 of another, this tolerance is 1e-14
-  /// times the ratio of the sides. For more vertices the volume is the smallest that a search finds. It is
-  /// occasionally some percent above the minimum, but never above the volumes of `pca` and `dito14`.
+  /// The axes of the smallest volume. If the hull has at most 128 vertices, the volume is the true minimum,
+  /// to a relative 1e-10 (O'Rourke 1985). If one side is shorter than 1e-4 of another, this tolerance is
+  /// 1e-14 times the ratio of the sides. For more vertices the volume is the smallest that a search finds. It
+  /// is occasionally some percent above the minimum, but never above the volumes of `pca` and `dito14`.
   minimal,
   /// Axis 2 is up, and the area seen from above is the minimum.
   yaw,

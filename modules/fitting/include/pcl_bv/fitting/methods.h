@@ -61,9 +61,10 @@ Execution share_supports(const PointView& points, const std::vector<const Method
 const std::vector<const Method*>& methods_of_all();
 
 /// Fits each of the methods and returns the smallest of the volumes. Equal volumes (of flat points) are
-/// compared by surface area, then by the order of the methods. Methods that fail are skipped. If all fail, the
-/// result is that of the first method. `winner`, if not null, is set to the method of the returned volume, or
-/// to null if there is no valid point or all methods fail. Throws std::invalid_argument if `among` is empty.
+/// compared by surface area, then by the order of the methods. Methods that fail are skipped. If all fail,
+/// the result is that of the first method. `winner`, if not null, is set to the method of the returned
+/// volume, or to null if there is no valid point or all methods fail. Throws std::invalid_argument if `among`
+/// is empty.
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                               AnyVolume& volume, const Execution& execution = {},
                               const MethodOptions& options = {}, const Method** winner = nullptr);

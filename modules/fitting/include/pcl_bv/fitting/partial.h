@@ -23,10 +23,10 @@ struct PartialState;
 /// their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
-/// the serialised bytes. The volumes have the same bits as a fit to the whole cloud. There are two exceptions:
-/// for more than kMaxStored points, sphere-exact and obb-yaw are fitted to the extreme points only. Without
-/// rounding, the extreme points determine these two volumes. With rounding, other points very near to them can
-/// change the last bits of a fit to all points.
+/// the serialised bytes. The volumes have the same bits as a fit to the whole cloud. There are two
+/// exceptions: for more than kMaxStored points, sphere-exact and obb-yaw are fitted to the extreme points
+/// only. Without rounding, the extreme points determine these two volumes. With rounding, other points very
+/// near to them can change the last bits of a fit to all points.
 class Partial {
  public:
   /// Maximum number of points that are all stored.
@@ -35,8 +35,8 @@ class Partial {
   /// Holds no points.
   Partial();
 
-  /// Holds the points of a view. The number of its first point in the whole cloud is `first` +
-  /// PointView::first. The view may have no valid points. Takes the time of fit_hull() and summarize()
+  /// Holds the points of a view. The i-th point of the view has the number `first` + PointView::first + i in
+  /// the whole cloud. The view may have no valid points. Takes the time of fit_hull() and summarize()
   /// together, and no more memory than these. Throws std::invalid_argument for a view with an index list.
   /// Other errors are as for fit_hull().
   explicit Partial(const PointView& points, std::size_t first = 0, const Execution& execution = {});
@@ -46,8 +46,8 @@ class Partial {
   /// float and the other double coordinates.
   void merge(const Partial& other);
 
-  /// Returns whether the method can be fitted to parts. All methods can, except obb-lshape and all spheres but
-  /// sphere-exact, because points deep inside the cloud can change these volumes.
+  /// Returns whether the method can be fitted to parts. All methods can, except obb-lshape and all spheres
+  /// but sphere-exact, because points deep inside the cloud can change these volumes.
   static bool can_fit(const Method& method);
 
   /// Fits the volume around all points; returns their status, rank and counts. O(m log m) for m extreme

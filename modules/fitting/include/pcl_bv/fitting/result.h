@@ -20,15 +20,16 @@ enum class EstimationStatus : std::uint8_t {
 /// Status, rank and point counts of a fit.
 ///
 /// `rank` is the number of dimensions that the points span, to within 2^-36 of the extent: 0 for one point, 1
-/// for points on a line, 2 for points in a plane, otherwise 3. The rank does not depend on the fitted volume or
-/// on the order of the points. Flat points are recognised in any orientation.
+/// for points on a line, 2 for points in a plane, otherwise 3. The rank does not depend on the fitted volume
+/// or on the order of the points. Flat points are recognised in any orientation.
 ///
 /// The exact definition is as follows. p0 is the first valid point in lexicographic order of (x, y, z). p1 is
 /// the point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
 /// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. The rank is the number of
 /// these three distances before the first that is at most 2^-36 units. The unit is the longest side of the
-/// points' box, rounded down to a power of two (2^-1000 if that side is 2^-1000 or less). Consequently, points
-/// within 2^-41 units of a plane have rank 2 or less, and points of rank 2 are within 2^-36 units of a plane.
+/// points' box, rounded down to a power of two (2^-1000 if that side is 2^-1000 or less). Consequently,
+/// points within 2^-41 units of a plane have rank 2 or less, and points of rank 2 are within 2^-36 units of a
+/// plane.
 struct EstimationResult {
   EstimationStatus status = EstimationStatus::no_valid_points;
   int rank = 0;               ///< 0 to 3, as defined above.

@@ -26,9 +26,10 @@ struct CloudSummary {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
   /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric. It is the
-  /// population covariance, divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b) 2^-53
-  /// of the product of the extents along i and j, plus 2^-1073 if the entry underflows. This factor is 6e-14
-  /// for one block, 2e-13 for 30 million points. Entries of an axis on which all points agree are exactly 0.
+  /// population covariance, divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b)
+  /// 2^-53 of the product of the extents along i and j, plus 2^-1073 if the entry underflows. This factor is
+  /// 6e-14 for one block, 2e-13 for 30 million points. Entries of an axis on which all points agree are
+  /// exactly 0.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
@@ -51,8 +52,8 @@ struct CloudSummary {
 /// are the same for every execution. Another order of the points may round centroid and covariance
 /// differently.
 ///
-/// The covariance uses the shifted formula in blocks of 1024 points, with sums of squares about a point of the
-/// block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
+/// The covariance uses the shifted formula in blocks of 1024 points, with sums of squares about a point of
+/// the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

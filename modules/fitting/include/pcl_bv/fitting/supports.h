@@ -48,7 +48,7 @@ struct Supports {
   /// Only the first direction_count(set) elements are used. Element k is along the k-th direction of the set,
   /// kCubeDirections[cube_direction(set, k)].
   std::array<Support, kMaxDirections> along{};
-  PointView points;                       ///< The searched view. It is only compared; its points are not read.
+  PointView points;                       ///< The searched view, only for comparison with other views.
   std::shared_ptr<const LocalHull> hull;  ///< The convex hull, if share_supports() computed it; else null.
   /// The moments of the whole cloud if `points` are only a few points that represent it (partial.h), else
   /// null. If not null, `used` and `dropped` count the whole cloud, too.
@@ -58,16 +58,16 @@ struct Supports {
 /// Finds the supports of all valid points along the directions of `set`. Without a valid point, `used` is 0
 /// and all values of `along` are 0. The bits are the same for every execution.
 ///
-/// Takes one SIMD pass over the points in chunks. The few points of each chunk that can be extreme are compared
-/// exactly (docs/numerics.md). If Execution::supports already has the supports, no pass is needed. Throws
-/// std::invalid_argument if Execution::supports were found for other points. The rank takes up to five more
-/// passes if the points are flat to 2^-30 of their extent, unless their plane is perpendicular to a coordinate
-/// axis.
+/// Takes one SIMD pass over the points in chunks. The few points of each chunk that can be extreme are
+/// compared exactly (docs/numerics.md). If Execution::supports already has the supports, no pass is needed.
+/// Throws std::invalid_argument if Execution::supports were found for other points. The rank takes up to five
+/// more passes if the points are flat to 2^-30 of their extent, unless their plane is perpendicular to a
+/// coordinate axis.
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const Execution& execution);
 
-/// Returns the volume that the supports bound: the axis-aligned box or the k-DOP of all directions. It is empty
-/// without a valid point.
+/// Returns the volume that the supports bound: the axis-aligned box or the k-DOP of all directions. It is
+/// empty without a valid point.
 Aabb aabb_of(const Supports& supports);
 Kdop kdop_of(const Supports& supports);
 
@@ -82,8 +82,8 @@ struct CustomSupports {
 };
 
 /// Finds the supports along directions of any length. Directions may repeat and may be opposite.
-/// O(points * directions). If the extent of a float cloud is below 1e-43 or above 1e38, all points are compared
-/// exactly, which takes 50 ns for each point and direction.
+/// O(points * directions). If the extent of a float cloud is below 1e-43 or above 1e38, all points are
+/// compared exactly, which takes 50 ns for each point and direction.
 ///
 /// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
 /// between 1e-30 and 1e30 in magnitude, and if Execution::supports were found for other points.

@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct Verification {
   std::size_t checked = 0;  ///< Number of valid points, all of which are checked.
   std::size_t outside = 0;  ///< Number of valid points that are outside by exact arithmetic.
-  /// The largest distance of an outside point from the face or surface that it is beyond, in the points' unit.
-  /// 0 if no point is outside. Infinity if the volume is empty and there is a valid point.
+  /// The largest distance of an outside point from the face or surface that it is beyond, in the points'
+  /// unit. 0 if no point is outside. Infinity if the volume is empty and there is a valid point.
   double max_violation = 0;
 };
 
