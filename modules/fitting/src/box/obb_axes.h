@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The axes of oriented boxes by method, and the measurement of the box along its axes.
+// The axes of oriented boxes for each method, and the measurement of the box along its axes.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,10 +16,10 @@
 
 namespace pcl_bv {
 
-/// Returns the box along the axes around all valid points, of which there must be one or more. It encloses
-/// them by exact arithmetic, and is tight to a few units in the last place of the extents and of the centre.
-/// The columns of `axes` must be unit and orthogonal to 1e-12; `supports` may be along any set. Needs a
-/// FloatEnvironment.
+/// Returns the box along the axes around all valid points. There must be at least one valid point. The box
+/// encloses the points by exact arithmetic, and is tight to a few units in the last place of the extents and
+/// of the centre. The columns of `axes` must be orthonormal to 1e-12. `supports` may be along any set. Needs
+/// a FloatEnvironment.
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution);
 
