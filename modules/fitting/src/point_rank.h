@@ -22,8 +22,8 @@ inline constexpr double kFlat = 0x1p-36;
 struct Span {
   int rank = 0;  ///< Number of these three distances before the first that is not above kFlat.
 
-  /// Orthonormal. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the columns
-  /// before.
+  /// Orthonormal axes. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the
+  /// columns before it.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
   /// The three distances in local units. A distance that is not above kFlat is replaced by kFlat.

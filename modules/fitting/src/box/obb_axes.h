@@ -32,7 +32,8 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);
 /// A few points in local coordinates.
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 
-/// Returns the support points of all directions; if there are no more points than that, all valid points.
+/// Returns the support points of all directions. If the cloud has no more points than these, returns all
+/// valid points.
 FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 /// Returns the coordinate axes or the axes of one of DiTO's triangles (Larsson, Kallberg 2011): those with
