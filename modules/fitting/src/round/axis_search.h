@@ -24,7 +24,7 @@ struct Profile {
 
   /// Fills `squared`.
   void measure_distances();
-  std::vector<double> squared;  ///< Squared distance of each point from the line through `foot` along the axis.
+  std::vector<double> squared;  ///< Squared distance of each point from the axis line through `foot`.
 
  private:
   Eigen::Vector3d middle_;
