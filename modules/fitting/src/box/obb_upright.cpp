@@ -29,9 +29,10 @@ constexpr std::size_t kCoarseSteps = 20;  // steps of 3 to 6 degrees
 constexpr std::size_t kCoarsePoints = 512;
 constexpr std::size_t kFinePoints = 4096;
 constexpr int kStarts = 3;
-constexpr int kHalvings = 7;  // down to steps of 0.02 to 0.05 degrees
+constexpr int kHalvings = 7;  // The last steps are of 0.02 to 0.05 degrees.
 
-// Distances from a side below this part of the rectangle's diagonal are treated as equal: 12 cm for a car.
+// Distances from a side below this fraction of the rectangle's diagonal are treated as equal. For a car the
+// limit is 12 cm.
 constexpr double kNear = 1.0 / 40;
 
 // An evenly spaced sample of the cloud seen from above. Floats are precise enough, because the sample is only

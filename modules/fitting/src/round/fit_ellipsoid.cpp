@@ -15,7 +15,8 @@
 namespace pcl_bv {
 namespace {
 
-// Relative tolerance of kappa (smallest_ellipsoid.cpp). The volume exceeds its lower bound by at most 2e-6.
+// Relative tolerance of kappa (smallest_ellipsoid.cpp). If the solver meets it, the volume exceeds its lower
+// bound by at most a relative 2e-6.
 constexpr double kTolerance = 1e-6;
 constexpr int kMostIterations = 300;
 
