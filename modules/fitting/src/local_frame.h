@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Local coordinates for numerical work: relative to a point of the cloud and scaled to an extent of about 1.
+// Local coordinates for numerical work. They are relative to a point of the cloud, and the extent is about 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -51,7 +51,7 @@ class LocalFrame {
   double length_down(double local) const { return divide_down(local, scale_); }
   double length_up(double local) const { return divide_up(local, scale_); }
 
-  /// Local units per unit of the points: a power of two.
+  /// Returns the number of local units per unit of the points, a power of two.
   double scale() const { return scale_; }
 
   /// Returns a centre for the distance kernels. With this centre the kernels measure in the unit of the

@@ -20,7 +20,7 @@ void coarsen(int exponent, Moments& moments);
 /// could overflow.
 Moments merged(const Moments& first, const Moments& second);
 
-/// The moments of 2^k successive blocks; the number of the first block is a multiple of 2^k.
+/// The moments of 2^k successive blocks. The number of the first block is a multiple of 2^k.
 struct MomentNode {
   std::size_t first;   ///< Number of the first block.
   std::size_t blocks;  ///< Number of blocks, 2^k.

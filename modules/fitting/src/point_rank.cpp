@@ -29,7 +29,7 @@ double clear_volume(double extent) {
 }
 
 // Returns whether four points, evenly spaced in the view, clearly span a solid. They do so for nearly all
-// clouds. The check takes 20 ns, which is little compared with the 220 ns of the box of 300 points.
+// clouds. The check takes 20 ns. Fitting the box of 300 points takes 220 ns.
 bool four_points_span_solid(const PointView& points, double extent) {
   const std::size_t step = points.count / 4;
   const Coordinates p = load_point(points, 0), a = load_point(points, step), b = load_point(points, 2 * step),

@@ -36,19 +36,19 @@ using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 /// valid points.
 FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
-/// Returns the coordinate axes or the axes of one of DiTO's triangles (Larsson, Kallberg 2011): those with
-/// the smallest half surface, measured on `few` in floats. `supports` must be along dop14, with points; `few`
-/// are support_or_all_points().
+/// Returns the axes with the smallest half surface among the coordinate axes and the axes of DiTO's triangles
+/// (Larsson, Kallberg 2011). The surface is measured on `few` in floats. `supports` must be along dop14, with
+/// points. `few` must be the result of support_or_all_points().
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame);
 
-/// Returns the axes of the smallest box around the hull; for more than 128 vertices those of the smallest box
-/// that a search finds. `summary` must be of the same points.
+/// Returns the axes of the smallest box around the hull. If the hull has more than 128 vertices, it is the
+/// smallest box that a search finds. `summary` must be of the same points.
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
                              const Execution& execution);
 
-/// Return axes, the first of which is `up`, a unit vector. With those of yaw_axes() the area seen from above
-/// is the minimum; with those of lshape_axes() the points are closest to the sides. `supports` must be along
-/// dop26, with points.
+/// Returns axes, the first of which is `up`, a unit vector. For the axes of yaw_axes() the area seen from
+/// above is the minimum. For the axes of lshape_axes() the points are closest to the sides. `supports` must
+/// be along dop26, with points.
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                          const Eigen::Vector3d& up, const Execution& execution);
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,

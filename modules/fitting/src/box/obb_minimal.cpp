@@ -60,8 +60,8 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
     if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
-// Hulls of more vertices are only searched from many frames, because the time for all pairs of edges grows
-// quadratically.
+// All pairs of edges are compared for hulls of at most this number of vertices. For larger hulls this would
+// take too long, because the time grows quadratically.
 constexpr std::size_t kExhaustive = 128;
 
 // Numbers of frames in the search. `random_starts` are the random frames among the starts. `rotated_starts`

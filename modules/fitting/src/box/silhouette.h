@@ -49,7 +49,7 @@ class Silhouette {
 
   /// Returns projection.corners, the corners of the silhouette along u x v, counter-clockwise, in the
   /// coordinates (u, v). The polygon is convex up to rounding. Its edges are the edges between a facet that
-  /// faces the viewer and a facet that does not, so nothing needs to be sorted: O(vertices).
+  /// faces the viewer and a facet that does not, so nothing needs to be sorted. O(vertices).
   const std::vector<Eigen::Vector2d>& project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                                               Projection& projection) const;
 

@@ -22,8 +22,8 @@ constexpr std::size_t kFewPoints = 500;
 
 // If a chunk of a source has more candidates than this, only its extreme points are stored. If all chunks
 // together have more than 8 times this number, only the extreme points of all chunks are stored. This is not
-// done for points in memory, because their candidates take only a few times the memory of the points. Also,
-// on a smooth surface, where all points are extreme, the hull would be computed twice.
+// done for points in memory, because their candidates take only a few times the memory of the points.
+// Furthermore, it would compute the hull twice on a smooth surface, where all points are extreme.
 constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,

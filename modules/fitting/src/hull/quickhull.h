@@ -57,7 +57,7 @@ class Quickhull {
 
   const std::vector<Coordinates>& points_;
   std::vector<Facet> facets_;
-  std::vector<std::int32_t> facet_from_;  // for each point: the new facet whose horizon edge begins there
+  std::vector<std::int32_t> facet_from_;  // per point, the new facet whose horizon edge begins at the point
 };
 
 }  // namespace pcl_bv

@@ -10,8 +10,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct Supports;
 
-/// How a fit runs: threads, instruction set and supports that are already known. No value of these members
-/// changes a bit of the result.
+/// Threads, instruction set and known supports for a fit. None of them changes a bit of the result.
 struct Execution {
   ParallelPolicy parallel = Serial{};  ///< Threads that the fit may use.
   UsableIsa isa = Isa::automatic;      ///< `automatic` is resolved when an Execution is made, not copied.

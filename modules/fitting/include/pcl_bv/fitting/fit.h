@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Functions that fit bounding volumes to points. All of them keep the guarantees of docs/numerics.md: each
-// finite point is inside the volume by exact real arithmetic, and the result has the same bits for every
+// Functions that fit bounding volumes to points. All of them give the guarantees of docs/numerics.md. Each
+// valid point is inside the volume by exact real arithmetic, and the result has the same bits for every
 // instruction set and thread count. "The paper" is the first entry of docs/references.md.
 #pragma once
 

@@ -50,7 +50,7 @@ class Partial {
   /// but sphere-exact, because points deep inside the cloud can change these volumes.
   static bool can_fit(const Method& method);
 
-  /// Fits the volume around all points; returns their status, rank and counts. O(m log m) for m extreme
+  /// Fits the volume around all points. Returns their status, rank and counts. O(m log m) for m extreme
   /// points. Throws std::invalid_argument unless can_fit(method), and if Execution::supports is set.
   EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
                        const MethodOptions& options = {}) const;

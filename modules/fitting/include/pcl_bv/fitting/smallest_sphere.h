@@ -16,14 +16,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A point outside a sphere; no point if squared_distance < 0.
+/// A point outside a sphere. If squared_distance < 0, there is no such point.
 struct FarPoint {
   double squared_distance = -1;  ///< From the centre, as squared_distance() (kernels/distances.h) returns it.
   std::size_t index = 0;         ///< Index of the point in the cloud.
   Coordinates point{};           ///< Coordinates of the point.
 };
 
-/// The farthest point in each octant() around a centre; of equally far points the one with the smallest
+/// The farthest point in each octant() around a centre. Of equally far points it is the one with the smallest
 /// index.
 using OctantPoints = std::array<FarPoint, 8>;
 

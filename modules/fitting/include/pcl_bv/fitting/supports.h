@@ -25,8 +25,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct Support {
   double low = 0;           ///< Exact minimum of n . p, rounded down to a double; never -0.
   double high = 0;          ///< Exact maximum of n . p, rounded up to a double; never -0.
-  SupportPoint low_point;   ///< Point with the minimum n . p; of several the one with the smallest index.
-  SupportPoint high_point;  ///< Point with the maximum n . p; of several the one with the smallest index.
+  SupportPoint low_point;   ///< The point with the minimum n . p and, of several, the smallest index.
+  SupportPoint high_point;  ///< The point with the maximum n . p and, of several, the smallest index.
 };
 
 /// What to find along each direction.
