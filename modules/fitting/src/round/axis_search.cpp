@@ -30,7 +30,7 @@ std::vector<Eigen::Vector3d> hemisphere() {
 
 // Moves to the best of eight neighbours if it is better than `best`. Otherwise halves the step and rotates
 // the pattern of the neighbours by the angle with the cosine 3/5 and the sine 4/5. Without the rotation, a
-// ridge between the neighbours' directions would stop the search.
+// ridge along the pattern could stop the search.
 void improve(Rated& best, double step, double last_step,
              const std::function<double(const Eigen::Vector3d&)>& size) {
   constexpr int kMostMoves = 400;
