@@ -15,7 +15,7 @@
 
 namespace pcl_bv {
 
-/// The plane perpendicular to `up`, with the axes `east` and `north`: x and y if up is z.
+/// The plane perpendicular to `up`, with the orthonormal axes `east` and `north`.
 struct Ground {
   explicit Ground(const Eigen::Vector3d& unit_up);
 
@@ -28,12 +28,12 @@ struct Ground {
   Eigen::Vector3d up, east, north;
 };
 
-/// Corners of a convex polygon, counter-clockwise. On the stack for small clusters, of which a sweep has
-/// hundreds.
+/// Corners of a convex polygon, counter-clockwise. Outlines of small clusters need no allocation, because a
+/// sweep has hundreds of them.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
 /// Returns the convex outline of the points seen from above, in local coordinates, up to rounding. It has one
-/// corner or more. `supports` must be along dop26, with points. The same bits for every execution.
+/// corner or more. `supports` must be along dop26, with points. The bits are the same for every execution.
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution);
 
