@@ -83,7 +83,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.ground.sensor);
   visit(S{"ground.sensor_height",
           "m",
-          "Height of the origin above the ground",
+          "Height of the sensor (the origin with plane) above the ground",
           {},
           "estimated",
           "--sensor-height",
@@ -166,7 +166,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.volumes);
   visit(S{"growth",
           "sequential, stationary, deferred",
-          "Growth of EPOS spheres: sequential, stationary, deferred",
+          "Growth of Ritter and EPOS spheres: sequential, stationary, deferred",
           {},
           {},
           "--growth",
