@@ -108,7 +108,7 @@ void cast(const Ray& ray, const PlacedObject& object, Hit& hit) {
 
 double cast_ground(const Ray& ray) {
   const Vec3 d = ray.direction;
-  const double descent_rate = street_slope * d.x - d.z;  // the ray's descent to the ground, metres per metre of range
+  const double descent_rate = street_slope * d.x - d.z;  // towards the ground, metres per metre of range
   const auto on_road = [&d](double range) {
     return range * d.y < street_curb_left && range * d.y > street_curb_right;
   };
