@@ -35,7 +35,7 @@ class InterruptAction {
 
 /// A collective call. Processes all jobs. In order of descending file size, each job goes to the rank that
 /// has the fewest bytes so far. The first rank writes the results in the order of the jobs and returns the
-/// status of the run; the other ranks return Status::done.
+/// status of the run. The other ranks return Status::done.
 Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
                     InterruptAction& interrupted);
 
