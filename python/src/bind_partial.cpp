@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Partial results of clouds in parts, and masks of the points inside volumes.
+// Python's Partial and RegionMask.
 
 #include "pcl_bv/fitting/partial.h"
 

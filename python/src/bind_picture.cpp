@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Output: pictures, and files in the format of their extension.
+// Output of pictures and of files. The extension of a file selects its format.
 
 #include "bind.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Adds volumes, coloured by label or, if all have the same label, by method.
+/// Adds volumes. They are coloured by label or, if all volumes have the same label, by method.
 void add_volumes(const std::vector<LabelledVolume>& volumes, Picture& picture) {
   const auto several = [&](const LabelledVolume& v) { return v.number != volumes.front().number; };
   const bool labelled = std::any_of(volumes.begin(), volumes.end(), several);

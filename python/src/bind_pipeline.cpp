@@ -15,12 +15,12 @@ namespace {
 
 using namespace py::literals;
 
-/// A pipeline that several threads may call: frames are processed one after another.
+/// A pipeline that several threads may call. Frames are processed one after another.
 class PipelineObject {
  public:
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
 
-  /// Returns the warnings that this pipeline has not given before.
+  /// Processes a frame. Returns the warnings that this pipeline has not given before.
   std::vector<std::string> process(const Frame& frame, FrameResult& result) {
     const std::lock_guard lock(mutex_);
     if (frame.header.seq == 0) {

@@ -13,7 +13,7 @@ namespace {
 using namespace py::literals;
 using Self = const VolumeObject&;
 
-/// Whether the argument is a single point instead of rows of points.
+/// Returns whether the argument is a single point instead of rows of points.
 bool is_one_point(py::handle object) {
   if (py::isinstance<py::array>(object)) {
     const auto array = py::reinterpret_borrow<py::array>(object);
@@ -24,7 +24,7 @@ bool is_one_point(py::handle object) {
          !py::hasattr(object[py::int_(0)], "__len__");  // an element with a length is a row
 }
 
-/// Three numbers, which may be NaN or infinite.
+/// Returns three numbers, which may be NaN or infinite.
 Eigen::Vector3d point_of(py::handle object) {
   const py::array_t<double> numbers = doubles(object, "points");
   if (numbers.size() != 3) raise_value_error("points", "expected three numbers, got " + repr_text(object));

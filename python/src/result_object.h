@@ -24,7 +24,7 @@ struct ResultObject {
   }
 };
 
-/// A cluster of a result, which it keeps alive.
+/// A cluster of a result. It keeps the result alive.
 struct ClusterObject {
   std::shared_ptr<const ResultObject> owner_result;
   std::size_t id = 0;
