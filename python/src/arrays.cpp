@@ -18,7 +18,7 @@ bool is_native(const py::dtype& type) {
   return type.byteorder() == '=' || type.byteorder() == '|';
 }
 
-/// Returns an advice for the error message about an array with numbers of this type, or "" if there is none.
+/// Returns advice for the error message about an array with numbers of this type, or "" if there is none.
 std::string advice_for(const py::dtype& type) {
   if (type.kind() == 'c') return ": use array.real";
   if (type.kind() == 'f' || type.kind() == 'i' || type.kind() == 'u' || type.kind() == 'O')

@@ -29,8 +29,8 @@ std::string quoted(const std::string& text) {
   return yaml + '"';
 }
 
-constexpr int max_depth = 16;                // settings nest 4 deep; stops at lists that contain themselves
-constexpr std::size_t max_values = 100'000;  // 16 nested lists can have 2^16 values or more
+constexpr int max_depth = 16;                // settings nest 4 deep; a list may contain itself
+constexpr std::size_t max_values = 100'000;  // a few nested lists can have very many values
 
 /// Counters of yaml_of(), for the limits above.
 struct YamlCounters {

@@ -96,7 +96,7 @@ Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::han
     Hull::Triangle& triangle = triangles.emplace_back();
     std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(), [](double number) {
       const bool whole = number >= 0 && number <= 2147483647.0 && number == std::floor(number);
-      return whole ? static_cast<std::int32_t>(number) : -1;  // no vertex has this index: the constructor throws
+      return whole ? static_cast<std::int32_t>(number) : -1;  // invalid index: the constructor throws
     });
   }
   std::vector<HullPlane> half_spaces;
