@@ -14,7 +14,7 @@ namespace pcl_bv::python {
 struct ClustersObject {
   Clusters found;
   std::size_t points = 0;
-  std::vector<std::int64_t> class_of{};  ///< Empty without classes.
+  std::vector<std::int64_t> class_of{};  ///< Class of each cluster; empty without classes.
   std::vector<std::int32_t> labels{};    ///< Label of each point; -1: none. Empty after unpickling.
 
   /// Returns the labels. The first call after unpickling computes them. Unpickling does not compute them,

@@ -9,7 +9,7 @@
 
 namespace pcl_bv::python {
 
-/// The result for a frame, and the frame's points, which its pictures and clusters need.
+/// The result for a frame, and the frame's points. Pictures and clusters of the result need these points.
 struct ResultObject {
   FrameResult result;
   PointArray points;

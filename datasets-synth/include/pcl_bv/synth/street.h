@@ -30,7 +30,7 @@ inline constexpr double street_curb_height = 0.12;    ///< Metres from the road 
 inline constexpr double street_curb_left = 7.1;       ///< y of the left curb; the road is to its right.
 inline constexpr double street_curb_right = -3.9;     ///< y of the right curb; the road is to its left.
 inline constexpr double street_max_range = 100;       ///< Metres; farther surfaces give no return.
-inline constexpr double street_range_noise = 0.02;    ///< Standard deviation along the ray, metres.
+inline constexpr double street_range_noise = 0.02;    ///< Standard deviation of the range, metres.
 inline constexpr double street_frame_seconds = 0.1;   ///< Time between two sweeps, seconds.
 
 /// Options of make_street_frame().
