@@ -51,8 +51,8 @@ class PacketVisitor {
 /// Calls visitor.visit() for packets until the ball enters all other boxes after the time that visit()
 /// returned last. With every `isa`, visit() receives every point that the ball touches by then, as decided by
 /// Sphere(point, radius).intersect(). Which other points visit() receives, and in which order, depends on
-/// `isa`. (Vector kernels visit boxes in the order of their entry times.) For an empty tree visit() is not
-/// called. The caller must hold a FloatEnvironment.
+/// `isa`. (Vector kernels visit boxes with early entry times first.) For an empty tree visit() is not called.
+/// The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 }  // namespace pcl_bv
