@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A copy of points as structure of arrays (Karlsson, Winberg and Larsson 2010, Figure 1), in the order in
-// which vector registers load them. Useful if several volumes are fitted to one cloud.
+// which vector registers load them. The copy is useful if several volumes are fitted to one cloud.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// points or 8 double points). The memory is aligned to 64 bytes. The last group is padded with a valid
 /// point, if there is one.
 ///
-/// Coordinates keep their bits, NaN and infinity included, and points keep their order: point i of view() is
+/// Coordinates keep their bits, NaN and infinity included, and points keep their order. Point i of view() is
 /// the i-th point visited by the assigned view. So PointView::index() of view() is the index in the cloud if
 /// a whole cloud was assigned. Otherwise it is the position in the slice or in the index list, whose element
 /// at this position is the index in the cloud.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The input of all kernels: a non-owning view that fits every layout of points.
+// The input of all kernels, which is a non-owning view that fits every layout of points.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class PointSource;
 /// in memory; fits and verify() also take points of a PointSource.
 ///
 /// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records they need
-/// no alignment. They may be NaN or infinite: functions that read them drop such points.
+/// no alignment. They may be NaN or infinite. Functions that read the coordinates drop such points.
 struct PointView {
   const std::byte* data = nullptr;        ///< Address of x of the first point.
   std::size_t stride = 0;                 ///< Records: bytes from one point's x to the next point's x.
