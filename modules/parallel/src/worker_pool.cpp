@@ -29,7 +29,7 @@ thread_local bool inside_region = false;
 // parallel stages of a frame.
 constexpr std::chrono::milliseconds kSpinTime{2};
 
-// Spins until the condition holds, but for at most kSpinTime. Returns whether it holds.
+// Spins until the condition holds, but for at most kSpinTime. Returns whether the condition holds.
 template <typename Condition>
 bool spin_until(const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + kSpinTime;

@@ -55,8 +55,8 @@ using ParallelPolicy = std::variant<Serial, OpenMP, Threads, Executor>;
 /// Executor without `run`.
 unsigned thread_count(const ParallelPolicy& policy);
 
-/// Returns the same policy with at most `threads` threads (0 is treated as 1); Serial for one thread. Throws
-/// like thread_count().
+/// Returns the same policy with at most `threads` threads (0 is treated as 1). For one thread this is Serial.
+/// Throws like thread_count().
 ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 
 }  // namespace pcl_bv
