@@ -29,8 +29,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// In layouts with kWholePoints, a register holds whole points (x, y, z and a fourth number). In layouts with
-// kTriples, registers hold consecutive triples x, y, z. In all other layouts a register holds one axis.
+// If kWholePoints is true for a layout, a register holds whole points (x, y, z and a fourth number). If
+// kTriples is true, registers hold consecutive triples x, y, z. Otherwise a register holds one axis.
 // axis_of() returns the axis of a lane, or 3 for a fourth number.
 template <Layout layout>
 inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide) &&

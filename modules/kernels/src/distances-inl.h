@@ -103,7 +103,7 @@ HWY_INLINE V<D> distances_in_float(D d, const FloatCenter& center, V<D> x, V<D> 
   return hn::MulAdd(qz, qz, hn::MulAdd(qy, qy, hn::Mul(qx, qx)));
 }
 
-// Returns a threshold: every point whose squared distance in float is at most the threshold has a
+// Returns a threshold. Every point whose squared distance in float is at most the threshold has a
 // squared_distance() below `limit`. The threshold is negative if no float has this property.
 //
 // Let u = 2^-24. The error of a coordinate of q is at most 2.1 u of the coordinate plus 3.1 u of the rounding

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "targets.h"
-// Order matters: targets.h configures Highway.
+// targets.h must be included before Highway's headers, because it configures Highway.
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 

@@ -193,7 +193,7 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
 }
 
 /// As load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
-/// could extend from one coordinate into the next, so such points are loaded one by one.
+/// could extend from one coordinate into the next, so the points of such a packet are loaded one by one.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {

@@ -65,7 +65,7 @@ Direction SupportDirections::scaled_support_direction(std::size_t support) const
 
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
   if (!other.found) return;
-  // Equal points need no arithmetic. There are many in a cloud of one value or of beams without a return.
+  // Equal points need no arithmetic. Clouds may have many of them (beams without a return, for example).
   const int order = !best.found                 ? 1
                     : other.point == best.point ? 0
                                                 : compare_along(direction, other.point, best.point);

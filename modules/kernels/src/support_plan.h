@@ -38,7 +38,7 @@ struct CenteredExtent {
 /// Which points must be compared exactly for one support.
 struct SupportCandidates {
   enum class Kind {
-    none,   ///< No point: the support cannot exceed its bound.
+    none,   ///< No point, because the support is below its bound.
     every,  ///< All valid points have exactly the same projection.
     some    ///< The points whose rounded projection is at least the threshold.
   };
@@ -70,8 +70,8 @@ class SupportPlan {
   double pair_error_;  // error bound of the difference of two projections
 };
 
-/// Selects the points that are compared exactly: those whose rounded projection, relative to `center` and in
-/// the view's scalar type, is at least `threshold` (a value of that type).
+/// Selects the points that are compared exactly. These are the points whose rounded projection, relative to
+/// `center` and in the view's scalar type, is at least `threshold` (a value of that type).
 struct RoundedFilter {
   Coordinates center;
   double threshold;

@@ -14,7 +14,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Maximum number of half-spaces: the number of facets of a polytope with 26 vertices.
+/// Maximum number of half-spaces, which is the maximum number of facets of a polytope with 26 vertices.
 inline constexpr std::size_t kMaxHalfSpaces = 48;
 
 /// The half-space of all q with n . q below `limit`, where q is a point relative to a centre. The boundary n

@@ -3,7 +3,7 @@
 
 // Tests which points are inside at least one of several convex regions, in the scalar type of the points. A
 // point stays undecided only if it is within the error bound of a surface, or if it is in the box of a region
-// whose coordinates are too large for sums.
+// whose coordinates are too large to be summed without overflow.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ enum class RegionShape : std::uint8_t {
   planes    ///< n . q <= limit for each half-space.
 };
 
-/// A convex region: a shape within a box. RegionShape says which members a shape uses.
+/// A convex region, which is a shape within a box. RegionShape says which members each shape uses.
 struct ConvexRegion {
   RegionShape shape = RegionShape::box;
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.

@@ -31,7 +31,7 @@ struct SweptBall {
   SweptBall(const BoxLevels& boxes, const Coordinates& from, const Coordinates& direction, double radius);
 
   /// Returns a time in the frame of the boxes. Boxes that the ball enters after this time contain no point
-  /// that it touches before t.
+  /// that the ball touches before t.
   float latest_entry(double t) const { return static_cast<float>(t * time * (1 + 0x1p-16)) + margin; }
 };
 
@@ -39,9 +39,9 @@ struct SweptBall {
 class PacketVisitor {
  public:
   /// Called with the index of a packet and with one bit per point of the packet. The bit is set if the ball
-  /// may touch the point; at least one bit is set. Returns a time in the frame of the boxes: boxes that the
-  /// ball enters later need not be visited. The time is SweptBall::latest_entry() of the earliest touch so
-  /// far, or the largest float before the first touch.
+  /// may touch the point; at least one bit is set. Returns the latest entry time, in the frame of the boxes,
+  /// of boxes that must still be visited. This is SweptBall::latest_entry() of the earliest touch so far, or
+  /// the largest float before the first touch.
   virtual float visit(std::size_t packet, std::uint32_t points) = 0;
 
  protected:
