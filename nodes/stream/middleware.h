@@ -43,16 +43,16 @@ class MessageSender {
   /// Announces the settings that apply from now on, as a text of to_yaml().
   virtual void announce_settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
 
-  /// As FrameSink::offer_settings().
+  /// Same as FrameSink::offer_settings().
   virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// Shows a line to the viewers.
   virtual void notify(const std::string& /*line*/) {}
 
-  /// As FrameSink::take_warnings().
+  /// Same as FrameSink::take_warnings().
   virtual std::vector<std::string> take_warnings() { return {}; }
 
-  /// As FrameSink::close().
+  /// Same as FrameSink::close().
   virtual void close() {}
 };
 
@@ -73,7 +73,7 @@ class MessageReceiver {
   /// the receiver decides which messages are lost and reports losses by take_warnings().
   virtual bool next(ReceivedMessage& message, std::chrono::milliseconds timeout) = 0;
 
-  /// As FrameSource::take_warnings().
+  /// Same as FrameSource::take_warnings().
   virtual std::vector<std::string> take_warnings() { return {}; }
 };
 

@@ -9,7 +9,7 @@
 
 namespace pcl_bv {
 
-/// As summarize(), but the supports are only along dop6 and have no points. Needs a FloatEnvironment.
+/// Same as summarize(), but the supports are only along dop6 and have no points. Needs a FloatEnvironment.
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution);
 
 }  // namespace pcl_bv

@@ -192,7 +192,7 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
   }
 }
 
-/// As load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
+/// Same as load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
 /// could extend from one coordinate into the next, so the points of such a packet are loaded one by one.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
@@ -203,7 +203,7 @@ HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t f
   load_packet<layout>(d, points, first, x, y, z);
 }
 
-/// As load_packet(), but lane i holds point first + i.
+/// Same as load_packet(), but lane i holds point first + i.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {

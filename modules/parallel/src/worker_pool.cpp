@@ -200,7 +200,9 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   }
   const auto done = [&] { return task.active == 0; };
   if (done_.wait_for(lock, kSpinTime, done)) return;
-  exclude_processor(-1);  // the caller now frees its processor by waiting; the others may be busy
+  // Helpers may now use the caller's processor too. It is free while the caller waits, and the other processors
+  // may be busy.
+  exclude_processor(-1);
   done_.wait(lock, done);
 }
 

@@ -41,8 +41,10 @@ enum class Op : std::uint8_t {
 
 /// Bytes of a record before its fields, which are the opcode and the length.
 inline constexpr std::size_t kRecordStart = 9;
-/// Bytes of the whole footer record, and of the footer record and the magic number at the file's end.
-inline constexpr std::size_t kFooterBytes = kRecordStart + 20, kFileEnd = kFooterBytes + 8;
+/// Bytes of the footer record, including its opcode and length.
+inline constexpr std::size_t kFooterBytes = kRecordStart + 20;
+/// Bytes at the end of a file: the footer record, then the magic number.
+inline constexpr std::size_t kFileEnd = kFooterBytes + 8;
 /// Bytes of a message's fields before its data.
 inline constexpr std::size_t kMessageStart = 22;
 

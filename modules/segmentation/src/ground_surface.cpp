@@ -32,7 +32,8 @@ constexpr float max_fall = 0.06F;
 // Metres since ground was seen, for the innermost cells. It is not 0 because the plane around the sensor is
 // only an estimate there.
 constexpr float first_since_ground = 2;
-constexpr float never_seen = 1000;  // metres since ground was seen
+// since_ground while no ground has been seen. Larger than every distance within the cells.
+constexpr float never_seen = 1000;
 constexpr float roughness = 0.02F;  // metres from the lowest to the middle point of bare ground
 
 }  // namespace

@@ -35,7 +35,7 @@ class GroundSurface {
     RingRow height;        // expected height of the ground
     RingRow slope;         // slope of the ground, outwards
     RingRow last_ground;   // height where ground was last seen
-    RingRow since_ground;  // metres since ground was last seen
+    RingRow since_ground;  // metres from the last cell with ground
     void mix_with_neighbours(float width);
   };
 

@@ -36,7 +36,8 @@ bool is_valid(const double (&p)[3]) {
   return pcl_bv::is_valid(Coordinates{p[0], p[1], p[2]});
 }
 
-// Stores the valid points of a part, from the beginning of the part on.
+// Copies the valid points of a part of `points` to `valid`, without gaps, starting at position part.begin.
+// Sets their box and number in `part`.
 template <typename T>
 void copy_valid_part(const PointView& points, ValidPoints<T>& valid, CopyPart<T>& part) {
   const FloatEnvironment environment;

@@ -89,8 +89,9 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
   return side;
 }
 
-// Runs the dual simplex method (Lemke 1954). The weights are valid after every step. The limit on the number
-// of steps ends a possible cycle.
+// Finds three planes, and weights >= 0 with which their normals sum to `direction`, by the dual simplex method
+// (Lemke 1954). The weights have this property, up to rounding, after every step, so the search may stop at any
+// step. The limit on the number of steps ends a possible cycle.
 PlaneBody::PlaneVertex PlaneBody::optimal_vertex(const Eigen::Vector3d& direction) const {
   PlaneVertex vertex{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)

@@ -29,8 +29,8 @@ struct Result {
   Status status = Status::done;
 };
 
-/// Either writes `text`, the next part of a long report, empties it and returns true, or returns false and
-/// leaves `text` unchanged.
+/// Takes the next part of a long report. If it is the report's turn, writes the part, empties `text` and
+/// returns true. Otherwise returns false and leaves `text` unchanged.
 using WriteEarly = std::function<bool(std::string& text)>;
 
 /// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the result

@@ -29,7 +29,7 @@ std::vector<ConfigProblem> problems_of(const StreamConfig& config);
 /// Returns the allowed range of a whole number as text, such as " of at least 1 and at most 1000".
 std::string whole_number_range(const NumberRange& range);
 
-/// As read_text(), but errors of whole numbers also state the allowed range. Thus the errors for "-1" and
+/// Same as read_text(), but errors of whole numbers also state the allowed range. Thus the errors for "-1" and
 /// "1e300" have the same words as the error for a 0 that is too small.
 template <typename T>
 void read_setting(const Setting& setting, std::string_view text, T& value) {

@@ -166,7 +166,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.volumes);
   visit(S{"growth",
           "sequential, stationary, deferred",
-          "Growth of Ritter and EPOS spheres: sequential, stationary, deferred",
+          "Sphere growth (Ritter, EPOS): sequential, stationary, deferred",
           {},
           {},
           "--growth",
@@ -193,7 +193,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
 }
 
-/// As visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
+/// Same as visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
 template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   using S = Setting;

@@ -28,8 +28,8 @@ struct Ground {
   Eigen::Vector3d up, east, north;
 };
 
-/// Corners of a convex polygon, counter-clockwise. Outlines of small clusters need no allocation, because a
-/// sweep has hundreds of them.
+/// Corners of a convex polygon, counter-clockwise. Up to 1024 corners are stored without an allocation, which
+/// would cost more than the outline of a small cluster. A sweep can have thousands of small clusters.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
 /// Returns the convex outline of the points seen from above, in local coordinates, up to rounding. It has one

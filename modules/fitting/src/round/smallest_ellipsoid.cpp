@@ -26,7 +26,8 @@ constexpr std::size_t kMostPairs = 40;
 constexpr int kMostSweeps = 256;
 constexpr double kSettled = 1e-7;
 
-// Maximises det X by exchanges of weight between points.
+// Finds the weights that maximise det X, which the top of the file defines. Each step moves weight from one
+// point to another.
 class Ascent {
  public:
   Ascent(const std::vector<Eigen::Vector3d>& points, int dimensions)

@@ -42,7 +42,7 @@ class ClusterPipeline : public FramePipeline {
   using FramePipeline::FramePipeline;
   using FramePipeline::process;
 
-  /// As FramePipeline::process(). If `cloud` is null, throws std::invalid_argument and leaves `result`
+  /// Same as FramePipeline::process(). If `cloud` is null, throws std::invalid_argument and leaves `result`
   /// unchanged.
   void process(const typename Cloud::ConstPtr& cloud, FrameResult& result) {
     process(make_frame<PointT>(cloud), result);

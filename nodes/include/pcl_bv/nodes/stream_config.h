@@ -41,7 +41,7 @@ struct StreamConfig {
   PipelineConfig pipeline;
   RunnerConfig runner;
 
-  /// As PipelineConfig::validate(), for the settings of the pipeline and the runner.
+  /// Same as PipelineConfig::validate(), for the settings of the pipeline and the runner.
   std::vector<std::string> validate() const;
 };
 
@@ -57,7 +57,7 @@ class ConfigError : public std::runtime_error {
 /// ConfigError if the file cannot be read, is not YAML, or has an unknown key or a value that is not allowed.
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
-/// As read_stream_config(), but parses `text`. Errors use `name` as the file name.
+/// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name.
 StreamConfig parse_stream_config(const std::string& text, const std::string& name,
                                  const StreamConfig& defaults = {});
 

@@ -35,10 +35,11 @@ class ConvexBody {
   /// Returns whether the body has no point.
   bool empty() const { return !shape_; }
 
-  /// Returns the body transformed from its current pose. It contains every transformed point of this body, by
-  /// exact arithmetic on the stored matrices. The result exceeds the exact body by the rounding errors of the
-  /// coordinates. If the matrix is not exactly a rotation, the result also grows by the scaling error of the
-  /// matrix. A call takes 1.5 us for every kind of volume.
+  /// Returns the body moved by `transform`. The result contains the exact image of every point of this body,
+  /// where the elements of `transform` are taken as exact numbers. It may be larger than the exact image, by
+  /// the rounding errors of the coordinates. If the linear part is not exactly a rotation, the result also
+  /// grows, because the radius is multiplied by an upper bound of the matrix norm. A call takes 1.5 us for
+  /// every kind of volume.
   ///
   /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
   /// time, not the body of the previous step.
