@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fits volumes to a PCL cloud with single function calls: no class, no pipeline.
+// Fits volumes to a PCL cloud with single function calls, without a class or a pipeline.
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/fit_cloud.h>
 #include <pcl_bv/fitting/methods.h>
@@ -43,7 +43,7 @@ int main() {
   pcl_bv::AnyVolume smallest_box;  // gets the same bits as from a fit to the whole cloud
   tiles.fit(*pcl_bv::find_method("obb-min"), smallest_box);
 
-  // A structure of arrays (points/point_groups.h), useful for several fits to the same points.
+  // A copy as a structure of arrays (points/point_groups.h), for several fits to the same points.
   const pcl_bv::PointGroups groups(pcl_bv::point_view(cloud));
   pcl_bv::fit_kdop(groups.view(), pcl_bv::KdopSet::dop26(), kdop);
 

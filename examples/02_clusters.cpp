@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Extracts clusters with the interface of PCL and fits a k-DOP to each.
+// Extracts clusters with the interface of PCL and fits a k-DOP to each cluster.
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/bounding_volume_estimation.h>
 #include <pcl_bv/segmentation/extract_clusters.h>
@@ -18,7 +18,7 @@ int main() {
     cloud->push_back(p);
   }
 
-  // The setters and the result are those of pcl::EuclideanClusterExtraction.
+  // The setters and the result are the same as those of pcl::EuclideanClusterExtraction.
   pcl_bv::EuclideanClusterExtraction<pcl::PointXYZI> extraction;
   extraction.setInputCloud(cloud);
   extraction.setClusterTolerance(0.5);

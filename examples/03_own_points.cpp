@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clusters and boxes of points of your own type, in your own memory: without PCL and without copying them.
+// Finds clusters and boxes of points of your own type, without PCL and without copying the points.
 #include <pcl_bv/fitting/fit.h>
 #include <pcl_bv/segmentation/euclidean_clusters.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Calls the pipeline from the program's own loop: it starts no thread and reads and writes no files.
+// Calls the pipeline from the program's own loop. The pipeline starts no thread and accesses no file.
 #include <pcl/point_types.h>
 #include <pcl_bv/nodes/cluster_pipeline.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs the pipeline behind a queue: the sensor's callback only pushes clouds, and a thread of the runner
-// processes them.
+// Runs the pipeline behind a queue. The sensor's callback only pushes clouds into the queue, and a thread of
+// the StreamRunner processes the clouds.
 #include <pcl/point_types.h>
 #include <pcl_bv/nodes/cluster_pipeline.h>
 #include <pcl_bv/nodes/stream_runner.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Filters a robot's own points: points inside its inflated links are dropped before all other steps.
+// Filters the points on a robot's own arm. Points inside the inflated links are dropped first.
 #include <pcl_bv/nodes/frame_pipeline.h>
 
 #include <iostream>
@@ -18,7 +18,7 @@ int main() {
   pcl_bv::PipelineConfig config;
   config.ground.method = pcl_bv::GroundMethod::none;
   config.filter.range_min = 0;
-  pcl_bv::RegionConfig arm;  // volumes, or a file with volumes as for --drop-inside arm.json --padding 0.05
+  pcl_bv::RegionConfig arm;  // same as --drop-inside arm.json --padding 0.05, with volumes instead of a file
   arm.volumes.emplace_back(pcl_bv::Capsule({0, 0.3, -0.2}, {0.5, 0.3, -0.2}, 0.04));
   arm.padding = 0.05;
   config.filter.regions = {arm};

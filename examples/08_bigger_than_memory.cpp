@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fits volumes to a file that may be larger than memory: its points are read in blocks, as often as the fits
-// need.
+// Fits volumes to a file that may be larger than memory. The points are read in blocks, and a fit may read
+// the file several times.
 #include <pcl_bv/fitting/fit.h>
 #include <pcl_bv/io/cloud_file.h>
 

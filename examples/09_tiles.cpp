@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fits volumes to a cloud whose parts are on many machines or in many files, from a short message for each
-// part.
+// Fits volumes to a cloud whose parts are on many machines or in many files. Each part is sent as a short
+// message.
 #include <pcl_bv/fitting/methods.h>
 #include <pcl_bv/fitting/partial.h>
 
@@ -21,7 +21,7 @@ int main() {
   for (std::size_t first = 0; first < whole.count; first += 20'000) {
     const pcl_bv::Partial part(whole.slice(first, 20'000));  // on the machine that has the part
     const std::vector<std::byte> message = part.to_bytes();  // a few kilobytes
-    // On the machine that fits the volumes; messages may arrive in any order.
+    // The next line runs on the machine that fits the volumes. Messages may arrive in any order.
     all.merge(pcl_bv::Partial::from_bytes(message.data(), message.size()));
     std::cout << "a part of 20000 points: " << message.size() << " bytes\n";
   }

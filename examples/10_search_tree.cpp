@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs an algorithm of PCL with the search tree of pcl_bv: only setSearchMethod() is added.
+// Runs an algorithm of PCL with the search tree of pcl_bv, which is set by setSearchMethod().
 #include <pcl/point_types.h>
 #include <pcl/segmentation/extract_clusters.h>
 #include <pcl_bv/nodes_pcl/point_tree_search.h>
@@ -15,7 +15,7 @@ int main() {
     cloud->push_back({x, 0.1F * static_cast<float>(i % 50), 0.3F * static_cast<float>(i % 2)});
   }
 
-  // false: neighbours within a radius are not sorted by distance, which is faster.
+  // The argument false means that neighbours within a radius are not sorted by distance, which is faster.
   const auto tree = std::make_shared<pcl_bv::PointTreeSearch<pcl::PointXYZ>>(false);
   pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
   extraction.setInputCloud(cloud);

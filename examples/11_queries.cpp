@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Queries of one sweep: nearest point, points in view, collision along a path, ray hit, contact of a robot
-// arm.
+// Five queries of one sweep: the nearest point, the points in view, a collision along a path, the hit of a
+// ray and the contact of a robot arm.
 #include <pcl_bv/trees/collision.h>
 #include <pcl_bv/trees/point_tree.h>
 #include <pcl_bv/volumes/frustum.h>
@@ -26,12 +26,12 @@ int main() {
                   seen);
   std::cout << "nearest point " << nearest->index << ", " << seen.size() << " points in view\n";
 
-  // Paths of 4 m and 6 m, with the radius of the robot: the longer path hits the wall.
+  // Two paths, 4 m and 6 m long, as capsules with the radius of the robot. The longer path hits the wall.
   const bool short_path = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {4, 0, 1}, 0.5));
   const bool long_path = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {6, 0, 1}, 0.5));
   const auto hit = tree.first_hit({0, 0, 1}, {1, 0, 0}, 0.05);
 
-  // An arm of two links: first at the pose of its model, then 4.08 m ahead of it.
+  // An arm of two links is tested at the pose of its model and 4.08 m ahead of that pose.
   const pcl_bv::MovingVolumes arm(
       {pcl_bv::Capsule({0, 0, 1}, {0.5, 0, 1}, 0.1), pcl_bv::Aabb({0.5, -0.1, 0.9}, {0.9, 0.1, 1.1})});
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fits oriented boxes to a PCL cloud, among them an upright box with length, width, height and yaw.
+// Fits an upright box and the minimum-volume box to a PCL cloud.
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/bounding_volume_estimation.h>
 #include <pcl_bv/estimation/fit_cloud.h>

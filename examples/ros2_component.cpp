@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A component for rclcpp that publishes markers of the objects in each cloud.
+// A ROS 2 component that receives clouds and publishes markers of the objects in each cloud.
 
 #include <pcl_bv/nodes/frame_pipeline.h>
 #include <pcl_bv/nodes/stream_config.h>

@@ -12,7 +12,7 @@ namespace pcl_bv {
 SplitMix64::SplitMix64(std::initializer_list<std::uint64_t> keys) : state_(0) {
   for (const std::uint64_t key : keys)
     state_ = next() ^ key;
-  // Mix the last key too: initial states that differ by one would otherwise give overlapping streams.
+  // Mix the last key too, because initial states that differ by one would give overlapping streams.
   state_ = next();
 }
 
@@ -33,7 +33,7 @@ double SplitMix64::uniform(double low, double high) {
 }
 
 double SplitMix64::normal() {
-  const double u = 1.0 - uniform();  // in (0, 1]: its logarithm is finite
+  const double u = 1.0 - uniform();  // in (0, 1], so that the logarithm is finite
   const double angle = 2.0 * std::numbers::pi * uniform();
   return std::sqrt(-2.0 * std::log(u)) * std::cos(angle);
 }

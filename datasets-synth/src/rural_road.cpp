@@ -24,7 +24,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 struct Sensor {
   std::size_t beams, columns;
-  double height, pitch, roll;  // metres; degrees, positive nose down; degrees, positive left side down
+  double height, pitch, roll;  // metres; degrees, > 0: nose down; degrees, > 0: left side down
 };
 
 Sensor sensor_of(std::size_t beams) {
@@ -110,9 +110,9 @@ struct Return {
   ReturnKind kind = ReturnKind::nothing;
 };
 
-// Adds noise, missing returns and false returns to a hit. Grass may stop a ray before the ground
-// (`descent_rate`: the ray's descent, metres per metre of range; above(range): the ray's height above the
-// ground). A reflected ray returns from below the ground.
+// Adds noise, missing returns and false returns to a hit. Grass may stop a ray before the ground.
+// The false return of a reflected ray is below the ground. `descent_rate` is the ray's descent in metres per
+// metre of range. above(range) is the ray's height above the ground.
 template <typename Above>
 Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double descent_rate,
                  Above above) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The rural road as a table of rows: each row repeats one kind of object along the infinite road.
+// The rural road as a table of rows. Each row repeats one kind of object along the infinite road.
 #include "rural_road_layout.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct Row {
   double share;    // probability that a slot has a group
   Motion motion;
   double speed;           // m/s forward, if `motion` is `constant_speed`
-  bool tilted;            // the object's up axis is normal to the ground instead of vertical
-  bool allowed_on_ditch;  // allowed where the roadside is a ditch
+  bool tilted;            // whether the object's up axis is normal to the ground instead of vertical
+  bool allowed_on_ditch;  // whether a group may be where the roadside is a ditch
   int max_group_size;     // maximum number of objects in a group
 };
 
@@ -58,21 +58,21 @@ constexpr std::array rows{
 // clang-format on
 
 constexpr std::size_t kMembers = 4;         // ids per slot
-constexpr double kMaxObjectDistance = 130;  // metres of road, ahead and behind, with objects
+constexpr double kMaxObjectDistance = 130;  // metres along the road from the sensor's car
 
 // Maps 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
 std::uint64_t zigzag(std::int64_t i) {
   return i >= 0 ? 2 * static_cast<std::uint64_t>(i) : 2 * static_cast<std::uint64_t>(-(i + 1)) + 1;
 }
 
-// Distance that the row's slots have moved along the road, metres.
+// Returns the distance that the row's slots have moved along the road, metres.
 double travelled_distance(const Row& row, std::uint64_t seed, double seconds) {
   return row.motion == static_object    ? 0
          : row.motion == constant_speed ? row.speed * seconds
                                         : driven_distance(seed, seconds);
 }
 
-// Lowest ground height below an upright object: the height of its base.
+// Returns the lowest ground height below an upright object, which is the height of the object's base.
 double lowest_ground_below(const World& world, const PlacedObject& object) {
   const Box3& bounds = object.model.bounds;
   const double half = std::min(6.0, std::max(bounds.hi.x, bounds.hi.y));
@@ -160,7 +160,7 @@ std::vector<PlacedRoadObject> place_road_objects(const World& world, std::uint64
     const auto last = static_cast<std::int64_t>(
         std::ceil((sensor_distance + kMaxObjectDistance - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
-      // The car that carries the sensor takes the slots near 0: this row moves with it.
+      // Skip the slots near 0 of the row that moves with the sensor's car: that car is there.
       if (rows[row].motion == with_sensor_car &&
           std::abs((static_cast<double>(slot) + 0.5) * rows[row].spacing) < 12)
         continue;

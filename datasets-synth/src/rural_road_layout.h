@@ -17,11 +17,12 @@ struct PlacedRoadObject {
   double yaw_rate = 0;  ///< rad/s
 };
 
-/// Returns the objects up to about 130 m along the road from the sensor's car, by ascending id.
+/// Returns the objects within about 130 m of the sensor's car along the road, by ascending id.
 std::vector<PlacedRoadObject> place_road_objects(const World& world, std::uint64_t seed, double seconds);
 
-/// Returns position and axes of an object on the road, without a model. The forward axis is along the road,
-/// or opposite if `backward`. The up axis is the ground's normal if `tilted`, otherwise vertical.
+/// Returns an object without a model, with position and axes. The forward axis points along the road, or
+/// opposite if `backward` is true. The up axis is the ground's normal if `tilted` is true, otherwise
+/// vertical.
 PlacedObject on_road(const World& world, const RoadPosition& position, bool backward, bool tilted);
 
 inline constexpr double own_lane = -1.75;  ///< Metres left of the middle of the road.

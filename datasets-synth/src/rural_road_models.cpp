@@ -40,7 +40,7 @@ Model make_avenue_tree(SplitMix64& random) {
   return assemble(SynthObjectKind::tree, std::move(parts));
 }
 
-// A bridge over the road and its ditches. y is the direction across the road.
+// A bridge over the road and its ditches. The y axis is across the road.
 Model make_bridge(SplitMix64& random) {
   const double soffit = random.uniform(4.6, 5.2), half_width = random.uniform(2, 4);
   return assemble(SynthObjectKind::bridge, {box({{-half_width, -13, soffit}, {half_width, 13, soffit + 0.9}}),

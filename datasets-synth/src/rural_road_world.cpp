@@ -13,7 +13,7 @@ namespace pcl_bv::rural_road {
 namespace {
 
 constexpr double kBend = 60;             // metres from one bend of the road to the next
-constexpr double kCurvature = 0.045;     // 1/m: 30 degrees a second at 11.6 m/s
+constexpr double kCurvature = 0.045;     // 1/m; gives 30 degrees per second at 11.6 m/s
 constexpr double kClothoid = 4;          // metres over which the curvature of a bend rises and falls
 constexpr double kSample = 0.25;         // metres between two samples of the road
 constexpr double kRoadHalfLength = 200;  // metres of sampled road, ahead and behind
@@ -28,8 +28,8 @@ double keyed_uniform(std::uint64_t seed, std::uint64_t purpose, std::int64_t ind
   return SplitMix64({seed, purpose, static_cast<std::uint64_t>(index)}).uniform();
 }
 
-// Heading after a bend, radians. Headings alternate between left and right, so that the road keeps its mean
-// direction and never crosses itself.
+// Returns the heading after a bend, radians. Headings alternate between left and right, so that the road
+// keeps its mean direction and never crosses itself.
 double heading_after(std::uint64_t seed, std::int64_t bend) {
   const double size = 0.35 + 0.23 * keyed_uniform(seed, 1, bend);
   return bend % 2 == 0 ? size : -size;
@@ -105,8 +105,8 @@ RoadPosition Road::road_position_of(double x, double y, double guess, int steps)
   return {along, (y - middle.y) * std::cos(angle) - (x - middle.x) * std::sin(angle)};
 }
 
-// Cycles of 18 s: 4 s acceleration, 9 s at constant speed, 3 s braking, then 2 s at standstill (even cycles)
-// or at 3 m/s (odd cycles).
+// The car drives in cycles of 18 s: 4 s acceleration, 9 s at constant speed, 3 s braking, then 2 s at
+// standstill (even cycles) or at 3 m/s (odd cycles).
 double driven_distance(std::uint64_t seed, double seconds) {
   constexpr double kCycle = 18;
   double distance = 0;
@@ -142,8 +142,9 @@ double World::side_profile(Roadside side, std::uint64_t key, double away) const 
   return t < 1 ? -0.5 * depth * (1 + std::cos(std::numbers::pi * t)) : 0;
 }
 
-// Height profile across the road: a camber of 2 % down to both sides, then the profile of the roadside,
-// blended with that of the previous stretch over the first kBlend metres.
+// Returns the height across the road, without the hills. The road has a camber of 2 % down to both kerbs. The
+// profile of the roadside begins at the kerb. Over the first kBlend metres of a stretch, it is blended with
+// the profile of the previous stretch.
 double World::profile(double along, double left) const {
   const double away = std::abs(left);
   const double camber = -0.02 * std::min(away, kKerb);
@@ -184,7 +185,7 @@ double World::roughness(const RoadPosition& position) const {
   return paved ? 0.003 : away < 8 ? 0.02 : 0.04;
 }
 
-// Short up to 5.5 m from the middle of the road, high in and behind ditches.
+// Grass is short within 5.5 m of the middle of the road and highest where the roadside is a ditch.
 double World::grass(const RoadPosition& position) const {
   const double away = std::abs(position.left);
   const Roadside side = roadside_at(position.along, position.left > 0);
@@ -211,7 +212,7 @@ Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
     RoadPosition position{world.road.guess(at), 0};
     for (std::size_t k = 0; k < kSide; ++k) {
       const double across = y_ + kCell * static_cast<double>(k);
-      // Two steps are enough: the guess is only 0.25 m away.
+      // Two steps are enough, because the guess is only 0.25 m away.
       position = world.road.road_position_of(at, across, position.along, 2);
       const auto column =
           static_cast<std::uint64_t>(static_cast<std::int64_t>(left) + static_cast<std::int64_t>(i));
@@ -243,8 +244,8 @@ double Terrain::grass(double x, double y) const {
 }
 
 // Marches along the ray, then bisects. The slope of the ground is at most 1 except on the banks of ditches,
-// so the ray's height decreases by at most `speed` per metre of range: a step of clearance / speed misses no
-// ground.
+// so the ray's height above the ground decreases by at most `speed` per metre of range. A step of
+// clearance / speed therefore misses no ground.
 double Terrain::cast(Vec3 origin, Vec3 direction) const {
   const double level = std::hypot(direction.x, direction.y);
   const double speed = 1.0 * level + std::abs(direction.z);

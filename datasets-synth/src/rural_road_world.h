@@ -22,19 +22,19 @@ struct RoadPosition {
 /// Profile of the roadside. Each side of the road has one profile per stretch of 40 m.
 enum class Roadside : std::uint8_t { kerb, ditch, verge };
 
-/// The road's middle as a curve, sampled from 200 m before to 200 m after the distance `around`.
+/// The middle of the road as a curve, sampled from 200 m before to 200 m after the distance `around`.
 class Road {
  public:
   Road(std::uint64_t seed, double around);
 
-  Vec3 at(double along) const;         ///< Point of the middle, with z = 0.
+  Vec3 at(double along) const;         ///< Point of the road's middle, with z = 0.
   double heading(double along) const;  ///< Radians left of +x, -0.6 to 0.6.
 
   /// Returns the road coordinates of a point within 100 m of the road's middle, by an iterative search for
-  /// the nearest point of the middle. `guess`: initial distance along the road.
+  /// the nearest point of the middle. `guess` is the initial distance along the road.
   RoadPosition road_position_of(double x, double y, double guess, int steps = 4) const;
 
-  /// Returns the distance along the road of the first sample beyond `x`: a guess for road_position_of().
+  /// Returns the distance along the road of the first sample beyond `x`, as a guess for road_position_of().
   double guess(double x) const;
 
   static double curvature(std::uint64_t seed, double along);  ///< 1/m, positive to the left.
@@ -52,18 +52,18 @@ double driven_distance(std::uint64_t seed, double seconds);
 
 class World {
  public:
-  /// The world around the distance `along`, for points within 100 m of the road there.
+  /// Creates the world around the distance `along`, for points within 100 m of the road's point there.
   World(std::uint64_t seed, double along);
 
   Road road;
 
   Roadside roadside_at(double along, bool left) const;
 
-  /// Height of the ground without its roughness, metres.
+  /// Returns the height of the ground without its roughness, metres.
   double height(double x, double y) const;
   double height(double x, double y, const RoadPosition& position) const;
 
-  /// Unit normal of the ground, by differences over 1.2 m.
+  /// Returns the unit normal of the ground, from height differences over 1.2 m.
   Vec3 normal(double x, double y) const;
 
   double roughness(const RoadPosition& position) const;  ///< Largest deviation from height(), metres.
@@ -82,13 +82,14 @@ class Terrain {
  public:
   Terrain(const World& world, std::uint64_t seed, double x, double y);
 
-  /// Height of the ground, interpolated bilinearly, metres. Outside the grid: -infinity.
+  /// Returns the height of the ground, interpolated bilinearly, metres. Outside the grid, returns -infinity.
   double height(double x, double y) const;
 
-  /// Range at which the ray hits the ground, metres; infinity if it does not within 100 m.
+  /// Returns the range at which the ray hits the ground, metres. If there is no hit within 100 m, returns
+  /// infinity.
   double cast(Vec3 origin, Vec3 direction) const;
 
-  /// Height of the grass, metres; 0: none or outside the grid.
+  /// Returns the height of the grass, metres. If there is no grass, and outside the grid, returns 0.
   double grass(double x, double y) const;
 
  private:

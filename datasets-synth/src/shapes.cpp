@@ -14,7 +14,7 @@ namespace {
 
 using Offset = std::array<double, 3>;
 
-/// Returns a unit vector uniform on the sphere: z is uniform in [-1, 1] (Archimedes).
+/// Returns a unit vector uniform on the sphere. Its z is uniform in [-1, 1] (Archimedes).
 Offset uniform_direction(SplitMix64& random) {
   const double z = random.uniform(-1, 1);
   const double angle = random.uniform(0, 2 * std::numbers::pi);

@@ -38,7 +38,7 @@ void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t
   const bool dropped = random.uniform() < std::max(dropped_share, hit.loss_probability);
   const bool reflected = ground && random.uniform() < reflected_share;
   if (hit.range >= street_max_range || dropped) return;
-  // The sensor assumes that a mirrored ray goes straight on: the false return lies below the ground.
+  // The sensor assumes that a reflected ray goes straight on, so the false return lies below the ground.
   const double range = reflected ? hit.range * random.uniform(1.15, 1.6) : hit.range;
   const Vec3 point = (range + noise) * ray.direction;
   cloud.xyz[3 * i] = static_cast<float>(point.x);

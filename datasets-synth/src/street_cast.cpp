@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Intersects rays with convex solids in the object's frame: each solid gives one interval of ranges.
+// Intersects rays with convex solids in the object's frame. Each solid gives one interval of ranges.
 #include "street_cast.h"
 
 #include <algorithm>
@@ -26,8 +26,8 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Clips the span to the ranges with speed * range <= distance: the part of the ray inside a half-space.
-/// `distance`: signed distance from the ray's origin to the plane, positive inside.
+/// Clips the span to the ranges with speed * range <= distance, where the ray is inside a half-space.
+/// `distance` is the signed distance from the ray's origin to the plane, positive inside.
 void clip(Span& span, double speed, double distance) {
   if (speed > 0) {
     span.exit = std::min(span.exit, distance / speed);
@@ -86,7 +86,7 @@ double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
   for (const Box3& pocket : part.pockets) {
     if (!contains_point(pocket, entry)) continue;
     const double end = clip_box(ray, pocket).exit;
-    // A pocket at the solid's edge may contain the whole chord: the ray then passes through.
+    // If a pocket at the solid's edge contains the rest of the ray's span, the ray passes through.
     if (end >= span.exit) return infinity;
     return end;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The street as a table of rows: each row repeats one kind of object along the infinite road.
+// The street as a table of rows. Each row repeats one kind of object along the infinite road.
 #include "street_layout.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double road_center = 0.5 * (street_curb_left + street_curb_right);
 constexpr double ego_speed = 8;  // m/s along the road
 
-/// A row of slots along the road, all moving at `speed` over the ground. Each slot has an object with
+/// A row of slots along the road. All slots move at `speed` over the ground. Each slot has an object with
 /// probability `share`.
 struct Row {
   Model (*make)(SplitMix64& random);
@@ -25,11 +25,11 @@ struct Row {
   double side;     // metres left of the middle of the road
   double share;    // probability that a slot has an object
   double speed;    // m/s forward
-  bool tilted;     // the object's up axis is normal to the slope instead of vertical
+  bool tilted;     // whether the object's up axis is normal to the slope instead of vertical
 };
 
-// Objects of different rows are at least 0.7 m apart in y, whatever the random sizes, so that clustering with
-// a tolerance of 0.5 m never joins two objects. Half widths in metres: cars 1.02 and hedges 0.42 including
+// Objects of different rows are at least 0.7 m apart in y for all random sizes, so that clustering with a
+// tolerance of 0.5 m never joins two objects. Half widths in metres: cars 1.02 and hedges 0.42 including
 // their yaw, posts 0.3, people 0.34, trees 1.5, houses 4.6 including their bays. The cars in the sensor's
 // lane have their centres at least 8 m ahead of or behind the sensor.
 // clang-format off
@@ -90,8 +90,8 @@ PlacedObject place(std::uint64_t seed, double seconds, std::size_t row_number, s
   const double along = (static_cast<double>(slot) + 0.5) * row.spacing + row.shift +
                        random.uniform(-row.jitter, row.jitter) + (row.speed - ego_speed) * seconds;
   const double across = road_center + row.side;
-  // Objects right of the road's middle face forward, objects left of it face backward: parked cars then point
-  // in their lane's direction and houses face the road. A moving object faces its direction of motion.
+  // A moving object faces its direction of motion. Other objects face forward right of the road's middle and
+  // backward left of it, so that parked cars point in their lane's direction and houses face the road.
   const bool backward = row.speed != 0 ? row.speed < 0 : row.side > 0;
   const double yaw = backward ? std::numbers::pi : 0;
   PlacedObject object;

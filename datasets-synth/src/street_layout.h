@@ -30,8 +30,8 @@ struct PlacedObject {
 /// Returns the objects nearer than street_max_range, by ascending id.
 std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame);
 
-/// Returns the distance from the sensor to an object's box in the object's x-y plane: a lower bound on the
-/// range of the object's returns.
+/// Returns the distance from the sensor to an object's box in the object's x-y plane. It is a lower bound on
+/// the range of the object's returns.
 double min_range(const PlacedObject& object);
 
 }  // namespace pcl_bv

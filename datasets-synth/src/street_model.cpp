@@ -56,7 +56,7 @@ Model make_lamp_post(SplitMix64& random) {
 }
 
 Model make_sign_post(SplitMix64& random) {
-  const double plate = random.uniform(1.7, 2.2);  // height of its middle
+  const double plate = random.uniform(1.7, 2.2);  // height of the middle of the plate
   std::vector<Part> parts{extrude(Axis::z, regular_polygon(12, 0.05), 0, plate + 0.35),
                           extrude(Axis::x, regular_polygon(16, 0.3, 0, plate), -0.08, -0.05)};
   return assemble(SynthObjectKind::pole, std::move(parts));

@@ -18,7 +18,7 @@ struct SolidHalfSpace {
   double offset;
 };
 
-/// A convex solid: the intersection of the half-spaces. Without half-spaces, the ellipsoid inscribed in
+/// A convex solid: the intersection of the half-spaces or, if there are none, the ellipsoid inscribed in
 /// `bounds`.
 struct Part {
   Box3 bounds;

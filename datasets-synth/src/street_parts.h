@@ -28,11 +28,11 @@ std::vector<Point2> regular_polygon(int corners, double radius, double u = 0, do
 Part box(const Box3& bounds);
 Part ellipsoid(Vec3 center, Vec3 radii);
 
-/// Returns an ellipsoid of leaves. Rays near its rim often pass through.
+/// Returns an ellipsoid of leaves. Rays near its rim often pass through it.
 Part leaves(Vec3 center, Vec3 radii);
 
-/// Intersects the part with the half-space normal . p <= normal . point. Does not update `part.bounds`, so
-/// cut off only corners and edges.
+/// Intersects the part with the half-space normal . p <= normal . point. Does not update `part.bounds`.
+/// Use it therefore only to cut off corners and edges.
 void cut(Part& part, Vec3 normal, Vec3 point);
 
 /// Combines the parts to one model, whose bounds are the union of the parts' bounds.

@@ -12,8 +12,8 @@ namespace pcl_bv {
 namespace {
 
 /// Adds the object to the columns whose rays may hit it. If the sensor is inside the object's footprint
-/// (below a bridge), these are all columns. Otherwise the azimuths of the box's corners bound the columns;
-/// each corner's azimuth is within pi of the azimuth of the box's middle.
+/// (below a bridge), these are all columns. Otherwise they lie between the smallest and the largest azimuth
+/// of the corners of the object's box. The azimuth of each corner is within pi of that of the box's middle.
 void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
   const double nearest = min_range(object);
   if (nearest == 0) {
@@ -28,7 +28,7 @@ void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObj
   double high = 0;
   for (const double x : {box.lo.x, box.hi.x}) {
     for (const double y : {box.lo.y, box.hi.y}) {
-      for (const double z : {box.lo.z, box.hi.z}) {  // tilted boxes: top and bottom differ in azimuth
+      for (const double z : {box.lo.z, box.hi.z}) {  // top and bottom of a tilted box differ in azimuth
         const Vec3 corner = object.to_sensor({x, y, z});
         const double turn = std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2 * std::numbers::pi);
         low = std::min(low, turn);

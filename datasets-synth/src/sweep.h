@@ -11,7 +11,7 @@
 
 namespace pcl_bv {
 
-/// Returns the azimuth of the middle of a column, radians: from pi (backward) clockwise to -pi.
+/// Returns the azimuth of the middle of a column, radians. Azimuths run clockwise from pi (backward) to -pi.
 double azimuth_of(double column, std::size_t columns);
 
 struct Candidate {
@@ -19,8 +19,8 @@ struct Candidate {
   const PlacedObject* object;
 };
 
-/// Returns for each column the objects that its rays may hit, nearest first. The result points into
-/// `objects`.
+/// Returns for each column the objects that the rays of the column may hit, nearest first. The result points
+/// into `objects`.
 std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
                                                          std::size_t columns);
 

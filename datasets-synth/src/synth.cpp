@@ -99,7 +99,7 @@ std::uint64_t whole_number(std::string_view what, std::string_view text, std::ui
   return value;
 }
 
-/// Splits NAME[:COUNT[:SEED]] at the colons. `count_name` names COUNT in the error message.
+/// Splits NAME[:COUNT[:SEED]] at the colons. `count_name` is the name of COUNT in the error message.
 std::vector<std::string_view> split_spec(std::string_view text, std::string_view count_name) {
   std::vector<std::string_view> parts = split(text);
   if (parts.size() > 3) {

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Volumes around points: what there is, how tight each is, and the proof that nothing is outside."""
+"""Fits all kinds of volumes to points, prints their sizes and proves that no point is outside."""
 
 import numpy as np
 

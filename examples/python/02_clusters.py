@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ground away, clusters, a box around each, a picture of it: python3 02_clusters.py [CLOUD [PICTURE.png]]."""
+"""Removes the ground, finds clusters, fits a box to each cluster and draws a picture.
+
+Usage: python3 02_clusters.py [CLOUD [PICTURE.png]]
+"""
 
 import sys
 
@@ -10,7 +13,7 @@ import pcl_bv
 
 cloud = pcl_bv.read(sys.argv[1] if len(sys.argv) > 1 else "synth:street:60000:2")
 xyz = np.stack([cloud[name].ravel() for name in "xyz"], axis=1)
-xyz = xyz[np.linalg.norm(xyz, axis=1) > 1]  # dead beams are points at 0, 0, 0
+xyz = xyz[np.linalg.norm(xyz, axis=1) > 1]  # rays without a return are points at 0, 0, 0
 
 ground = pcl_bv.ground(xyz)
 objects = xyz[~ground.mask]

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A recording, frame by frame, into objects that keep their ids: python3 03_pipeline.py [RECORDING]."""
+"""Detects and tracks the objects in each frame of a recording.
+
+Usage: python3 03_pipeline.py [RECORDING]
+"""
 
 import sys
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A cloud in parts: each process sees its own points, and what they hand back are some kilobytes."""
+"""Fits a box to a cloud in parts. Each process reads only its own part and returns a few kilobytes."""
 
 import functools
 import operator
@@ -14,7 +14,7 @@ PARTS, EACH = 8, 50_000
 
 
 def points_of(part):
-    """In earnest: one of many files."""
+    """Generates the points of one part. A real program reads one of many files here."""
     return np.random.default_rng(part).normal(size=(EACH, 3)).astype(np.float32)
 
 

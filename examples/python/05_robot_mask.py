@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points on a robot's own arm leave the cloud: a volume for each link, moved with it, grown by 5 cm."""
+"""Finds the points on a robot's own arm. The volume of each link moves with it and is inflated by 5 cm."""
 
 import numpy as np
 

@@ -1,5 +1,6 @@
-# cmake -DPAGE=page.html -DOUT=page.cpp -P embed.cmake: the page as a function of C++. The page's bytes are
-# written as numbers, since a raw string literal would end wherever the page holds its closing delimiter.
+# cmake -DPAGE=page.html -DOUT=page.cpp -P embed.cmake: writes the page as a C++ function. The bytes of the
+# page are written as numbers, because a raw string literal would end where the page contains its closing
+# delimiter.
 file(READ ${PAGE} bytes HEX)
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
 string(REGEX REPLACE "((0x..,){24})" "\\1\n" bytes "${bytes}")

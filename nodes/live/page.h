@@ -10,7 +10,7 @@ namespace pcl_bv {
 
 /// Returns the page as one HTML file, which page/bundle.cmake assembles from the files in page/. The page
 /// connects to the server that it was loaded from. If kPageData is replaced by an element with the id "data"
-/// that contains one frame, the page shows that frame instead.
+/// that contains one frame, the page shows this frame and does not connect.
 std::string_view live_page();
 
 inline constexpr std::string_view kPageData = "<!-- data -->";

@@ -14,12 +14,13 @@
 
 namespace pcl_bv {
 
-/// Maximum number of points in a page, at 22 bytes of text each (27 with intensity). Larger clouds are
-/// subsampled evenly.
+/// Maximum number of points in a page. Each point takes 22 bytes of text, or 27 with intensity. Larger clouds
+/// are subsampled evenly.
 inline constexpr std::size_t kMaxPagePoints = 500'000;
 
-/// Returns the page as HTML. `labels` are those of labels_of(); empty: all points belong to cluster 0.
-/// Coordinates are stored as float32 relative to the middle of all volumes, rounded to whole numbers.
+/// Returns the page as HTML. `labels` is the result of labels_of(). If it is empty, all points belong to
+/// cluster 0. Coordinates are stored as float32 relative to the middle of all volumes, which is rounded to
+/// whole numbers.
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
                       const std::vector<std::uint32_t>& labels, std::size_t max_points = kMaxPagePoints);
 

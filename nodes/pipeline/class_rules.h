@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cluster settings and methods of each class of points, from a configuration.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +19,12 @@ class ClassRules {
   ClassRules() = default;
   explicit ClassRules(const PipelineConfig& config);
 
-  /// Returns the settings for classes without settings of their own.
+  /// Returns the settings for classes that have no ClassConfig.
   const ClusterSettings& default_settings() const { return default_settings_; }
-  /// Returns the settings of each class that has its own.
+  /// Returns the settings of each class that has a ClassConfig.
   const std::vector<ClassSettings>& class_settings() const { return class_settings_; }
 
-  /// Returns the methods for objects of this class; nullopt means that points have no classes.
+  /// Returns the methods for objects of the class `value`. nullopt means that points have no classes.
   const std::vector<const Method*>& methods_of(std::optional<std::int64_t> value) const;
 
  private:

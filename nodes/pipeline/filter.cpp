@@ -64,19 +64,19 @@ bool PointFilter::keeps_all() const {
 }
 
 // Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,
-// not on regions. The comparison of distances has no branch.
+// not on regions. Distances are compared without a branch.
 template <typename T, typename Take>
 void PointFilter::each_distance(const PointView& points, const Take& take) const {
-  const double min2 = min2_, max2 = max2_;  // local copies: members would be read again after each store
+  const double min2 = min2_, max2 = max2_;  // copies, because members would be read again after each store
   for (std::size_t i = 0; i < points.count; ++i) {
     T p[3];
     load_point(points, i, p);
     const double x = p[0], y = p[1], z = p[2];
     const double distance2 = (x * x + y * y) + z * z;
-    // The squares of finite floats are finite in double: one comparison instead of three.
+    // The squares of finite floats are finite in double, so one comparison replaces three.
     const bool valid =
         sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
-    // No branch: beams without a return come at random.
+    // A branch would be mispredicted, because beams without a return come at random.
     bool in_range = (distance2 >= min2) & (distance2 <= max2);
     if (has_own_box_) {
       in_range = in_range && !(x >= low_.x() && x <= high_.x() && y >= low_.y() && y <= high_.y() &&

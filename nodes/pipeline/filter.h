@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The filter stage: which points enter the pipeline.
+// The filter stage, which selects the points that enter the pipeline.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@
 
 namespace pcl_bv {
 
-/// Whether a point is kept, or why it is dropped. `region`: it is inside a region to drop, or outside all
-/// regions to keep.
+/// Whether a point is kept, or the reason why it is dropped. `region` means that the point is inside a region
+/// to drop, or outside all regions to keep.
 enum class Verdict : std::uint8_t { kept, nonfinite, range, region };
 
-/// Memory that calls reuse.
+/// Memory that calls of PointFilter::classify() reuse.
 struct FilterScratch {
   std::vector<Verdict> verdicts;
   std::vector<std::uint8_t> inside;
@@ -31,7 +31,7 @@ struct FilterScratch {
 
 /// The part of the points that one thread filters.
 struct FilterPart {
-  std::size_t begin, end;  ///< Range of points in the view.
+  std::size_t begin, end;  ///< Range of point numbers in the view.
   std::size_t kept;
   Counts counts;
   FilterScratch scratch;
@@ -43,15 +43,15 @@ class PointFilter {
   /// Reads the files of regions that have no volumes. Throws IoError if a file cannot be read.
   PointFilter(const FilterConfig& config, UsableIsa isa);
 
-  /// Whether all finite points are kept.
+  /// Returns whether all finite points are kept.
   bool keeps_all() const;
 
-  /// Computes the verdict of each point in memory. The square of a float is exact in double and the sum of
-  /// three is rounded twice, so the relative error of a distance is below 2e-16.
+  /// Computes the verdict of each point in memory. For float32, the relative error of a distance is below
+  /// 2e-16, because the square of a float is exact in double and the sum of three squares is rounded twice.
   void classify(const PointView& points, FilterScratch& scratch) const;
 
-  /// Replaces `kept` by the numbers of the points that are kept, in the order of the view, and adds the
-  /// others to `counts`. Throws std::length_error for more than 2^31 - 1 points.
+  /// Replaces `kept` by the numbers of the points that are kept, in the order of the view. Counts the dropped
+  /// points by reason in `counts`. Throws std::length_error for more than 2^31 - 1 points.
   void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
               PointParts<FilterPart>& parts, Counts& counts) const;
 
@@ -73,7 +73,7 @@ class PointFilter {
 /// Adds the number of points with each verdict to `counts`.
 void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts);
 
-/// The filtered points of a view that is too large for index lists; dropped points become NaN.
+/// The filtered points of a view that is too large for index lists. Dropped points become NaN.
 class FilteredPoints final : public PointSource {
  public:
   /// Stores the view, which must not have an index list, and the owner of its points.
@@ -84,7 +84,7 @@ class FilteredPoints final : public PointSource {
   /// Counts the dropped points by reason, in one pass over all points.
   Counts count(const ParallelPolicy& policy) const;
 
-  /// Loaded points keep their numbers in the view.
+  /// Returns the filtered points of a range. The loaded points keep their numbers in the view.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:
@@ -95,7 +95,8 @@ class FilteredPoints final : public PointSource {
 
 /// Returns the points of a cloud in memory that have these numbers. The numbers are not checked.
 inline PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
-  // Numbers count from the first point of the cloud, but the data of a slice begin at its own first point.
+  // The numbers count from the first point of the cloud, but the data of a slice begin at the slice's first
+  // point.
   const bool moved = cloud.indices == nullptr && cloud.order == PointOrder::records && cloud.data != nullptr;
   if (moved) cloud.data -= cloud.stride * cloud.first;
   cloud.first = 0;

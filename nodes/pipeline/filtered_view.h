@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The filter stage of the pipeline alone, for clouds that are not in memory.
+// The filter stage without the rest of the pipeline, for clouds that are not in memory.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,14 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Result of filter_points().
 struct FilteredView {
-  PointView points;  ///< As many as the input; dropped points are NaN.
+  PointView points;  ///< As many points as the input has; dropped points are NaN.
   Counts counts;     ///< Number of dropped points by reason; all 0 if the filter keeps every point.
-  std::shared_ptr<const PointSource> owner;  ///< Source of `points`; null if they are the input.
+  std::shared_ptr<const PointSource> owner;  ///< Source of `points`; null if `points` is the input.
 };
 
 /// Returns a view of `points` that filters them as FramePipeline does, whenever they are loaded. The view
-/// refers to the input, which must outlive it. The function makes one pass over the points to count those
-/// that are dropped, or none if the filter keeps all. Throws std::invalid_argument for an index list, and
+/// refers to the input, which must outlive it. Makes one pass over the points to count the dropped ones, or
+/// no pass if the filter keeps all points. Throws std::invalid_argument if `points` has an index list, and
 /// IoError if a region file cannot be read.
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution);
 

@@ -26,7 +26,7 @@ namespace {
 
 class Stopwatch {
  public:
-  double lap() {  // milliseconds since the last call, or since construction
+  double lap() {  // milliseconds since the last lap(), or since construction
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
   }
@@ -35,7 +35,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// A valid configuration and what is derived from it.
+// A valid configuration and the data derived from it.
 struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
@@ -92,8 +92,8 @@ struct FramePipeline::State {
   TrackedVolumes tracks;
 };
 
-// A large cloud that is only filtered is filtered chunk by chunk whenever it is loaded. This holds for clouds
-// in memory and in files, so that both give the same bits.
+// If a large cloud needs only the filter, it is filtered chunk by chunk whenever it is loaded. This holds for
+// clouds in memory and in files, so that both kinds give the same bits.
 PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PointView& cloud = frame.points;
   result.passed_filter.clear();
@@ -143,7 +143,7 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
   return subset(points, result.ground.rest);
 }
 
-// Makes all points one object, if the number of points is allowed.
+// Makes all points one object, if the object is neither too small nor too large.
 void make_one_cluster(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
@@ -176,8 +176,8 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.rules.default_settings(), now.rules.class_settings(),
                             result.clusters, result.class_of, now.execution.parallel);
   }
-  // Frees the memory of the clustering before the fits: for a million clusters of four points, finding them
-  // takes 550 MB, and their volumes take 300 MB.
+  // Frees the memory of the clustering before the fits. For a million clusters of four points, the clustering
+  // needs 550 MB and the volumes need 300 MB, and both would be in memory at the same time.
   constexpr std::size_t many = 250'000;
   if (result.clusters.size() >= many) {
     clusterer = EuclideanClusterer();
@@ -217,7 +217,7 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
   if (now.reads_points) return;
-  result.counts.nonfinite = result.results.front().dropped;  // no earlier stage has counted them
+  result.counts.nonfinite = result.results.front().dropped;  // no earlier stage has counted nonfinite points
   result.clusters.offsets.back() = result.results.front().used;
 }
 

@@ -17,17 +17,17 @@ namespace pcl_bv {
 namespace {
 
 // Smallest share of points beyond 100 m that gives a warning. A sensor on a motorway may have a tenth of its
-// points there.
+// points there without a problem.
 constexpr double kMinFarShare = 0.2;
 
-// Share of ground below which another up direction is searched. Streets have 30 % to 60 % ground, cluttered
-// ones 13 %.
+// Share of ground below which another up direction is searched. In streets, 30 % to 60 % of the points are
+// ground; in cluttered streets, 13 %.
 constexpr double kLittleGround = 0.15;
 
 struct Found {
   const Frame& frame;
   const FrameResult& result;
-  bool& searched;  // whether another up direction was searched because of little ground
+  bool& searched;  // whether little ground has led to a search for another up direction
 
   const PipelineConfig& config() const { return *result.config; }
   bool zones() const { return config().ground.method == GroundMethod::zones; }
@@ -66,7 +66,8 @@ std::string no_ground(const Found& f) {
 std::string little_ground(const Found& f) {
   const double share = f.ground_share();
   if (f.config().ground.method == GroundMethod::none || share == 0 || share >= kLittleGround) return {};
-  // Search only once: a cluttered stream has little ground in every frame, and a search takes milliseconds.
+  // Search only once, because a cluttered stream has little ground in every frame and a search takes
+  // milliseconds.
   if (std::exchange(f.searched, true)) return {};
   const auto other = f.other_up();
   if (!other) return {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Settings that the configuration does not give keep the defaults of the method.
+// Settings that are not given in the configuration keep the defaults of the method.
 
 #include "ground.h"
 

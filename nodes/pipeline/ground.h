@@ -9,15 +9,15 @@
 
 namespace pcl_bv {
 
-/// Clouds with fewer points give no warnings about settings.
+/// Smallest number of points for which there are warnings about settings.
 inline constexpr std::size_t kFewPoints = 100;
 
 /// Returns the settings of split_ground() for one plane.
 GroundPlaneSettings plane_settings(const GroundConfig& config);
 
-/// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists are
-/// empty. Zones are centred at `sensor`; the configured sensor height is ignored if that position is
-/// estimated. Reuses the memory of `zones`.
+/// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists of
+/// `split` are empty. Zones are centred at `sensor`. If `sensor` is estimated, the configured sensor height
+/// is ignored. Reuses the memory of `zones`.
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
                   const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split);
 

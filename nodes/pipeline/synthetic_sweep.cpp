@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Does not use datasets-synth: casting rays would take longer than processing the frames.
+// The sweep is not made by datasets-synth, because casting rays would take longer than processing the frames.
 
 #include "synthetic_sweep.h"
 
@@ -15,7 +15,7 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t object_count = 100;
-constexpr double golden_angle = 2.399963229728653;  // radians; directions become evenly spread
+constexpr double golden_angle = 2.399963229728653;  // radians; spreads directions evenly
 
 struct Upright {
   double x, y, height;
@@ -26,8 +26,8 @@ Upright point_on_ground(std::size_t i, double share, double sensor_height) {
   return {distance * std::cos(angle), distance * std::sin(angle), -sensor_height};
 }
 
-// The points of an object follow a low-discrepancy sequence: from 30 points on, neighbours are nearer than
-// 0.5 m.
+// The points of an object follow a low-discrepancy sequence. If an object has 30 or more points, neighbours
+// are nearer to each other than 0.5 m.
 Upright point_on_object(std::size_t i, double sensor_height) {
   const auto object = static_cast<double>(i % object_count), n = static_cast<double>(i / object_count);
   const double distance = 6 + object / 3, angle = golden_angle * object;

@@ -11,8 +11,9 @@
 
 namespace pcl_bv {
 
-/// Returns a sweep of `points` points that fits the settings: half of them on level ground around the sensor,
-/// half on a hundred objects, two metres wide, on that ground. All points have class 0.
+/// Returns a sweep of `points` points that fits the settings. Half of them are on level ground around the
+/// sensor. The other half are on a hundred objects on that ground, each two metres wide. All points have
+/// class 0.
 Frame synthetic_sweep(std::size_t points, const PipelineConfig& config);
 
 }  // namespace pcl_bv

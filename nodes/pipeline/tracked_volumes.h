@@ -13,32 +13,32 @@
 
 namespace pcl_bv {
 
-/// The time of the tracks: the stamps if they advance, otherwise the recording times. Some drivers write the
-/// same stamp into every message or set their clock back.
+/// The time of the tracks. It follows the stamps if they advance, otherwise the recording times. Some drivers
+/// write the same stamp into every message or set their clock back.
 class TrackClock {
  public:
-  /// Returns the time of the next frame, nanoseconds; it begins at the first stamp. It never decreases, and
-  /// one step is at most two seconds.
+  /// Returns the time of the next frame, nanoseconds. The time begins at the first stamp. It never decreases,
+  /// and one step is at most two seconds.
   std::int64_t at(std::int64_t stamp_ns, std::int64_t recorded_ns);
-  /// Returns where the last step came from.
+  /// Returns which times the last step used, see TrackTime.
   TrackTime source() const { return source_; }
 
  private:
   bool started_ = false;
-  std::int64_t now_ns_ = 0, stamp_ns_ = 0, recorded_ns_ = 0;  // of the last frame
+  std::int64_t now_ns_ = 0, stamp_ns_ = 0, recorded_ns_ = 0;  // times of the last frame
   TrackTime source_ = TrackTime::stamps;
 };
 
 /// The tracker of a stream and the filters of its boxes.
 class TrackedVolumes {
  public:
-  /// Fills result.tracks and gives the axes of each oriented box the order and directions of the object's
-  /// last box. If requested, smooths the yaw of upright boxes and grows their sizes. `clusters` holds the
-  /// points of each cluster.
+  /// Fills result.tracks. Gives the axes of each oriented box the order and directions of the object's last
+  /// box. If requested, smooths the yaw of upright boxes and grows their sizes. `clusters` holds the points
+  /// of each cluster.
   void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
               FrameResult& result);
 
-  /// Deletes all tracks. Their ids are still not reused.
+  /// Deletes all tracks. The ids of deleted tracks are not reused.
   void reset() {
     tracker_.reset();
     clock_ = TrackClock();
@@ -52,7 +52,7 @@ class TrackedVolumes {
   TrackClock clock_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
-  std::vector<const Method*> methods_;  // methods that filters_ is for
+  std::vector<const Method*> methods_;  // methods whose boxes `filters_` filters
   std::vector<BoxFilter> filters_;      // filter of method m of track slot s: s * methods_.size() + m
 };
 

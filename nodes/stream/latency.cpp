@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bins of equal width in the logarithm of the duration.
+// The bins have equal width in the logarithm of the duration.
 
 #include "pcl_bv/nodes/latency.h"
 

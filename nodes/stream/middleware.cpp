@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the folder of the program and that of this library, if it is a shared library.
+// Returns the folder of the program, and the folder of this library if it is a shared library.
 std::array<fs::path, 2> folders() {
   std::error_code unknown;
   Dl_info info{};

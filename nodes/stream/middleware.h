@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Interfaces for sending and receiving messages: recordings, viewers and networks. Network modules are loaded
-// at first use.
+// Interfaces for sending messages to recordings, viewers and networks, and for receiving messages. Network
+// modules are loaded when they are first used.
 #pragma once
 
 #include <chrono>
@@ -28,29 +28,31 @@ class MessageSender {
  public:
   virtual ~MessageSender() = default;
 
-  /// Announces a topic; called once, before its first message. Returns the topic's number for the other
-  /// calls.
+  /// Announces a topic. Called once, before the first message of the topic. Returns the topic's number for
+  /// the other member functions.
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
-  /// Returns whether anybody would receive the next message of a topic. If not, the message is not made.
+  /// Returns whether there is a receiver for the next message of a topic. If not, the caller need not make
+  /// this message.
   virtual bool has_subscribers(std::size_t /*topic*/) const { return true; }
 
-  /// Sends a message: plain CDR with its encapsulation header, or JSON text. Throws as FrameSink::write().
+  /// Sends a message, which is plain CDR with its encapsulation header, or JSON text. Throws as
+  /// FrameSink::write().
   virtual void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) = 0;
 
-  /// Announces the settings that apply from now on, as written by to_yaml().
+  /// Announces the settings that apply from now on, as a text of to_yaml().
   virtual void announce_settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
 
-  /// As FrameSink::offer_settings().
+  /// Same as FrameSink::offer_settings().
   virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// Shows a line to the viewers.
   virtual void notify(const std::string& /*line*/) {}
 
-  /// As FrameSink::take_warnings().
+  /// Same as FrameSink::take_warnings().
   virtual std::vector<std::string> take_warnings() { return {}; }
 
-  /// As FrameSink::close().
+  /// Same as FrameSink::close().
   virtual void close() {}
 };
 
@@ -71,34 +73,37 @@ class MessageReceiver {
   /// the receiver decides which messages are lost and reports losses by take_warnings().
   virtual bool next(ReceivedMessage& message, std::chrono::milliseconds timeout) = 0;
 
-  /// As FrameSource::take_warnings().
+  /// Same as FrameSource::take_warnings().
   virtual std::vector<std::string> take_warnings() { return {}; }
 };
 
-/// A kind of transport, implemented by a module that middleware() loads.
+/// A kind of transport. It is implemented by a module that middleware() loads.
 class Middleware {
  public:
   virtual ~Middleware() = default;
 
   /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). Throws
-  /// IoError if the network cannot be used, and std::invalid_argument for an invalid topic name or an invalid
-  /// value of an environment variable.
+  /// IoError if the network cannot be used. Throws std::invalid_argument for an invalid topic name or an
+  /// invalid value of an environment variable.
   virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) = 0;
 
-  /// Creates a carrier. `address` is for modules that need one ("localhost:8765"). Throws as receiver().
+  /// Creates a sender. `address` is for modules that need an address ("localhost:8765"). Throws as
+  /// receiver().
   virtual std::unique_ptr<MessageSender> carrier(const std::string& address) = 0;
 };
 
-/// Returns the module with this name and loads it at its first use. It is never unloaded.
+/// Returns the module with this name. The first call for a name loads the module, which is never unloaded.
 ///
-/// "dds": ROS 2 topics by Eclipse Cyclone DDS; docs/ros.md lists the environment variables that it uses.
-/// "ws": WebSockets for the viewers of Foxglove and for our page; only a carrier; docs/live.md. The module is
-/// the file pcl_bv/pcl_bv_NAME.so in the library folder next to the program or next to this library. Throws
-/// IoError if it is not installed or has another version.
+/// - "dds": ROS 2 topics by Eclipse Cyclone DDS. docs/ros.md lists the environment variables that it uses.
+/// - "ws": WebSockets for the viewers of Foxglove and for our page (docs/live.md). It cannot receive
+///   messages.
+///
+/// The module is the file pcl_bv/pcl_bv_NAME.so in the library folder next to the program or next to this
+/// library. Throws IoError if it is not installed or has another version.
 Middleware& middleware(const std::string& name);
 
-/// Functions that a module exports as `extern "C"`: its version, which must equal that of the library, and
-/// its instance.
+/// Functions that a module exports as `extern "C"`. They return the module's version, which must equal the
+/// version of the library, and its Middleware object.
 using MiddlewareVersion = const char* (*)();
 using MiddlewareInstance = Middleware* (*)();
 inline constexpr const char* kMiddlewareVersion = "pcl_bv_middleware_version";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One worker thread, one mutex, two condition variables.
+// The runner has one worker thread, one mutex for all state, and two condition variables.
 
 #include "pcl_bv/nodes/stream_runner.h"
 
@@ -97,7 +97,7 @@ struct StreamRunner::State {
   std::mutex join_mutex;
 };
 
-// Runs a callback whose exceptions drop no frame.
+// Runs a callback. Counts its exceptions in callback_errors and drops no frame for them.
 template <typename Do>
 void StreamRunner::State::call_guarded(Do&& callback) {
   if (!exception_message(callback)) return;
@@ -105,7 +105,7 @@ void StreamRunner::State::call_guarded(Do&& callback) {
   ++stats.callback_errors;
 }
 
-// Waits for a frame, a lost frame or the end. Calls on_silence once if this takes longer than watchdog_s.
+// Waits for a frame, a lost frame or the end. Calls on_silence once if no frame comes for watchdog_s.
 void StreamRunner::State::wait_for_work(std::unique_lock<std::mutex>& lock) {
   const auto something = [this] { return ending || !frames.empty() || !losses.empty(); };
   if (config.watchdog_s <= 0) return arrived.wait(lock, something);
@@ -124,7 +124,7 @@ void StreamRunner::State::wait_for_work(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-// Returns the next frame or lost frame by number, or monostate at the end.
+// Waits. Then returns the frame or lost frame with the smallest number, or monostate at the end.
 StreamRunner::State::Task StreamRunner::State::take() {
   std::unique_lock lock(mutex);
   working = false;
@@ -189,7 +189,7 @@ void StreamRunner::State::run() {
     worker_id = std::this_thread::get_id();
   }
   for (;;) {
-    const Task task = take();  // declared here: its points are freed before the wait for the next one
+    const Task task = take();  // declared here, so that its points are freed before the next wait
     if (const auto* queued = std::get_if<QueuedFrame>(&task)) {
       work_on(*queued);
     } else if (const auto* lost = std::get_if<Lost>(&task)) {
@@ -200,7 +200,7 @@ void StreamRunner::State::run() {
   }
 }
 
-// count_arrival(), count() and record_loss() require that the mutex is locked.
+// State::count_arrival(), count() and record_loss() must be called with `mutex` locked.
 void StreamRunner::State::count_arrival() {
   ++stats.frames.in;
   last_arrival = Clock::now();
@@ -214,7 +214,8 @@ void StreamRunner::State::count(Loss loss) {
                          : totals.dropped_error);
 }
 
-// Copies only the header and the file name. The caller frees the points after unlocking the mutex.
+// Copies only the header and the file name of the frame. The caller frees the points after unlocking the
+// mutex.
 void StreamRunner::State::record_loss(const Frame& frame, Loss loss, std::string reason) {
   count(loss);
   if (ended || losses.size() >= kMaxUnreported || (ending && ++lost_while_ending > kMaxUnreported)) return;
@@ -249,7 +250,7 @@ bool StreamRunner::push(Frame frame) {
           "StreamRunner::push: the frame has points but no owner");
   State& s = *state_;
   if (frame.taken == Clock::time_point()) frame.taken = Clock::now();
-  State::QueuedFrame oldest;  // declared before `lock`: freed after unlocking
+  State::QueuedFrame oldest;  // declared before `lock`, so that it is freed after unlocking
   std::unique_lock lock(s.mutex);
   s.count_arrival();
   const bool block = s.config.policy == QueuePolicy::block;
@@ -301,7 +302,7 @@ void StreamRunner::stop(End end) {
   }
   s.arrived.notify_all();
   s.not_full.notify_all();
-  if (from_callback) return;  // a thread cannot join itself; it ends after the callback
+  if (from_callback) return;  // the worker cannot join itself; it ends after the callback
   const std::lock_guard joining(s.join_mutex);
   if (s.worker.joinable()) s.worker.join();
 }

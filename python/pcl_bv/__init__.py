@@ -10,11 +10,11 @@
 """
 
 from . import _pcl_bv
-from ._pcl_bv import *  # noqa: F401,F403 - all that it has is public
+from ._pcl_bv import *  # noqa: F401,F403 - all its names are public
 from ._pcl_bv import __version__
 
 __all__ = ["__version__"] + [name for name in dir(_pcl_bv) if not name.startswith("_")]
-for _name in __all__[1:]:  # tracebacks and pickles then show pcl_bv instead of pcl_bv._pcl_bv
+for _name in __all__[1:]:  # so that tracebacks and pickles contain pcl_bv instead of pcl_bv._pcl_bv
     if isinstance(getattr(_pcl_bv, _name), type):
         getattr(_pcl_bv, _name).__module__ = "pcl_bv"
 del _name

@@ -132,7 +132,7 @@ class Hull(Volume):
     @property
     def rank(self) -> int: ...
 
-# Returns a volume; for a list of methods a list of volumes; with labels a dict of these by label.
+# Returns a volume, or a list of volumes if `method` is a list. With labels, returns a dict of these by label.
 def fit(
     points: ArrayLike,
     method: Union[str, Sequence[str]],

@@ -8,8 +8,8 @@
 namespace pcl_bv::python {
 namespace {
 
-// Clears Python's current error. Throws KeyboardInterrupt and the like instead, because a Ctrl-C may
-// interrupt any Python code.
+// Clears Python's current error. Throws the error if it is no Exception, such as a KeyboardInterrupt, because
+// Ctrl-C may interrupt any Python code.
 void clear_error() {
   if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_Exception) == 0)
     throw py::error_already_set();
@@ -22,9 +22,9 @@ void raise_value_error(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
-// Imports the module `warnings` first. If it is not loaded, CPython prints the warning in C and clears a
-// KeyboardInterrupt raised meanwhile: of 60 interrupts just before the first warning, 24 were lost on a busy
-// machine.
+// Imports the module `warnings` first. If this module is not loaded, CPython prints the warning in C and
+// clears a KeyboardInterrupt that is raised meanwhile. On a busy machine, 24 of 60 interrupts just before the
+// first warning were lost.
 void warn(const std::string& text) {
   py::module_::import("warnings");
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
@@ -39,7 +39,7 @@ std::string repr_text(py::handle value) {
   const py::object repr = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
   Py_ssize_t size = 0;
   const char* const characters = repr ? PyUnicode_AsUTF8AndSize(repr.ptr(), &size) : nullptr;
-  if (characters == nullptr) {  // repr() failed (nested too deep), or has a lone surrogate
+  if (characters == nullptr) {  // repr() failed (nested too deep) or has a lone surrogate
     clear_error();
     return std::string("one of ") + Py_TYPE(value.ptr())->tp_name;
   }
@@ -192,7 +192,7 @@ Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
     raise_value_error(name, "expected a matrix of 4 x 4 numbers, got " + repr_text(matrix));
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
-  // Allows poses in float. Transformed volumes are inflated by the deviation.
+  // The tolerance allows poses in float. Transformed volumes are inflated by the deviation.
   constexpr double max_deviation = 1e-6;
   if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > max_deviation)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Converts arguments of Python calls to C++ values. An invalid argument raises a TypeError or a ValueError
-// whose message gives the argument, its value and the allowed values, unlike the errors of pybind11's own
-// conversions.
+// Converts arguments of Python calls to C++ values. An invalid argument raises a TypeError or a ValueError.
+// Its message gives the argument, the value and the allowed values. The errors of pybind11's own conversions
+// do not give them.
 #pragma once
 
 #include "pcl_bv/fitting/execution.h"
@@ -25,16 +25,16 @@ void warn(const std::string& text);
 
 double number(py::handle value, const char* name, const NumberRange& range);
 std::size_t whole_number(py::handle value, const char* name, const NumberRange& range);
-/// A signed integer of 64 bits.
+/// Returns a signed integer of 64 bits.
 std::int64_t signed_number(py::handle value, const char* name);
 std::string text(py::handle value, const char* name);
 std::filesystem::path path(py::handle value, const char* name);
 
-/// Three finite numbers.
+/// Returns three finite numbers.
 Eigen::Vector3d vector3(py::handle value, const char* name);
 
-/// Parses a text as the configuration does (read_text() of nodes/settings.h): the name of an enumerator or of
-/// a direction.
+/// Parses the name of an enumerator or of a direction, as in configuration files (read_text() of
+/// nodes/settings.h).
 template <typename T>
 T parse_text(py::handle value, const char* name) {
   T read;
@@ -46,24 +46,25 @@ T parse_text(py::handle value, const char* name) {
   return read;
 }
 
-/// The up direction: "x", "-z", ... or three numbers.
+/// Returns the up direction, given as "x", "-z", ... or as three numbers.
 Eigen::Vector3d up_argument(py::handle value);
 
-/// The method with this name or alias.
+/// Returns the method with this name or alias.
 const Method* method_of(py::handle name);
 
-/// The methods of a name or of a list of names; "all" stands for methods_of_all(). Sets `single` to
-/// whether `names` is the name of a single method.
+/// Returns the methods of a name or of a list of names. The name "all" means methods_of_all(). Sets `single`
+/// to whether `names` is the name of a single method.
 std::vector<const Method*> methods_of(py::handle names, bool& single);
 
-/// The policy for a number of threads. 1: the calling thread; 0: all processors.
+/// Returns the policy for a number of threads. 1 means the calling thread, 0 means all processors.
 ParallelPolicy policy_of(py::handle threads);
 Execution execution_of(py::handle threads, py::handle isa);
 
-/// A rigid motion from a 4 x 4 matrix with the last row 0 0 0 1. The rotation must be orthonormal to 1e-6.
+/// Returns the rigid motion of a 4 x 4 matrix. The last row must be 0 0 0 1, and the rotation must be
+/// orthonormal to 1e-6.
 Eigen::Isometry3d isometry(py::handle matrix, const char* name);
 
-/// Returns an object's text for error messages: its repr(), at most 60 characters, or its type if repr()
+/// Returns a text for an object in error messages: at most 60 characters of its repr(), or its type if repr()
 /// fails.
 std::string repr_text(py::handle value);
 

@@ -12,13 +12,13 @@ bool is_real(const py::dtype& type) {
   return type.kind() == 'f' && (type.itemsize() == 4 || type.itemsize() == 8);
 }
 
-/// Whether the type has this machine's byte order. numpy's marks are '=' (this machine's), '|' (one byte),
-/// '<', '>'.
+/// Returns whether the type has this machine's byte order. numpy's marks are '=' (this machine's), '|' (one
+/// byte), '<', '>'.
 bool is_native(const py::dtype& type) {
   return type.byteorder() == '=' || type.byteorder() == '|';
 }
 
-/// Advice for the error message about an array with numbers of this type; "" for none.
+/// Returns advice for the error message about an array with numbers of this type, or "" if there is none.
 std::string advice_for(const py::dtype& type) {
   if (type.kind() == 'c') return ": use array.real";
   if (type.kind() == 'f' || type.kind() == 'i' || type.kind() == 'u' || type.kind() == 'O')
@@ -45,9 +45,9 @@ std::string shape_of(const py::array& array) {
                         (one_point ? ": for one point pass [point]" : ""));
 }
 
-/// Detects arrays with one point per column, as nuScenes' (4, N): a point usually has 3 to 12 numbers. If
-/// there are fewer rows than columns, refuses 256 or more columns, and warns about 17 to 255 columns in 3 to
-/// 8 rows.
+/// Detects arrays with one point per column, such as the (4, N) of nuScenes. A point usually has 3 to 12
+/// numbers. If there are fewer rows than columns, refuses 256 or more columns, and warns about 17 to 255
+/// columns in 3 to 8 rows.
 void check_layout(const char* name, const py::array& array) {
   const py::ssize_t columns = array.shape(array.ndim() - 1),
                     rows = array.size() / std::max<py::ssize_t>(columns, 1);
@@ -61,32 +61,32 @@ void check_layout(const char* name, const py::array& array) {
   if (first >= 3 && first <= 8) warn(std::string(name) + ": " + problem);
 }
 
-/// Calls numpy.asarray(). Raises a TypeError with the argument's name if that fails.
+/// Calls numpy.asarray(). If the call fails, raises a TypeError with the argument's name.
 py::array as_numpy_array(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
   if (array) return array;
   py::error_already_set error;
   if (!error.matches(PyExc_Exception)) throw error;  // a KeyboardInterrupt
-  // numpy's reason, such as a tensor in GPU memory or rows of unequal length.
+  // The reason is numpy's text, for example about a tensor in GPU memory or rows of unequal length.
   const std::string reason = py::str(error.value()).cast<std::string>();
   throw py::type_error(std::string(name) + ": expected an array, got " + repr_text(object) +
                        (reason.empty() ? "" : ": " + reason));
 }
 
-/// Masked numbers become NaN, so that their points are dropped and counted.
+/// Replaces masked numbers by NaN, so that their points are dropped and counted.
 py::array without_mask(const py::array& array, const char* name) {
   if (!is_masked(array)) return array;
   if (!is_real(array.dtype())) refuse_numbers(name, array.dtype(), true);
   return array.attr("filled")(std::nan(""));
 }
 
-/// Converts whole numbers of a list to float64: unlike an array, a list has no type that the user has chosen.
-/// Refuses numbers beyond 2^53.
+/// Converts whole numbers of a list to float64, because a list has no type that the user has chosen, unlike
+/// an array. Refuses numbers above 2^53 in magnitude.
 py::array from_list(const py::array& array, py::handle object, const char* name) {
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u') return array;
-  const py::int_ limit(std::int64_t{1} << 53);  // Python integers: numpy would compare in float64
+  const py::int_ limit(std::int64_t{1} << 53);  // Python integers, because numpy would compare in float64
   const auto value_of = [&](const char* which) { return py::int_(array.attr(which)()); };
   const bool exact = array.size() == 0 || (value_of("max") <= limit && value_of("min") >= -limit);
   if (!exact)
@@ -116,7 +116,7 @@ py::object columns_xyz(py::handle object, const char* name) {
   return object[wanted];
 }
 
-/// Points of a packed array (N, 3) of floats or doubles.
+/// Returns the points of a packed array (N, 3) of floats or doubles.
 PointArray packed(py::array array) {
   PointArray points;
   const auto count = static_cast<std::size_t>(array.shape(0));
@@ -132,7 +132,7 @@ PointArray copied(const py::array& rows) {
   return packed(py::array_t<double, py::array::c_style | py::array::forcecast>(xyz));
 }
 
-/// Points of an array (N, 3 or more): a view if possible, otherwise a copy.
+/// Returns the points of an array (N, 3 or more), as a view if possible, otherwise as a copy.
 PointArray rows_of(const py::array& array) {
   const py::dtype type = array.dtype();
   const auto size = static_cast<std::size_t>(type.itemsize());
@@ -158,7 +158,7 @@ struct Field {
   py::ssize_t offset;
 };
 
-/// Finds a field by its lower-case name or, if there is none, by its upper-case name, as for files.
+/// Finds a field by its lower-case name or else by its upper-case name, as for files.
 Field field_of(const py::dtype& record, const char* field, const char* name) {
   const py::object fields = record.attr("fields");
   const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));
@@ -170,12 +170,12 @@ Field field_of(const py::dtype& record, const char* field, const char* name) {
   return {in_record, py::dtype::from_args(found[0]), found[1].cast<py::ssize_t>()};
 }
 
-/// Whether float32 represents all numbers of the type exactly.
+/// Returns whether float32 represents all numbers of the type exactly.
 bool fits_float32(const py::dtype& type) {
   return type.kind() == 'f' ? type.itemsize() == 4 : type.itemsize() <= 2;
 }
 
-/// Points of a one-dimensional array of records: a view if possible, otherwise a copy.
+/// Returns the points of a one-dimensional array of records, as a view if possible, otherwise as a copy.
 PointArray records_of(const py::array& array, const char* name) {
   const py::dtype record = array.dtype();
   const Field x = field_of(record, "x", name), y = field_of(record, "y", name),

@@ -11,8 +11,8 @@ namespace pcl_bv::python {
 
 namespace py = pybind11;
 
-/// A view of points and the array that owns them. Constructing and destroying it needs the GIL; reading the
-/// points does not.
+/// A view of points, and the array that owns the points. Constructing and destroying a PointArray needs the
+/// GIL. Reading the points does not.
 struct PointArray {
   py::array owner;
   PointView view;
@@ -24,32 +24,37 @@ struct PointArray {
 /// - an array of records of any shape with the fields x, y, z (or X, Y, Z) of float32, float64 or integers of
 ///   up to 32 bits;
 /// - a table with named columns, of which x, y and z are used;
-/// - any other object that numpy.asarray() converts to one of these arrays. Whole numbers of lists, up to
-///   2^53, become float64. An empty list has no points.
+/// - any other object that numpy.asarray() converts to one of these arrays. Whole numbers of lists become
+///   float64 and are allowed up to 2^53. An empty list has no points.
 ///
-/// The points are not copied if x, y, z are adjacent and the rows are any positive distance apart. Copied are
-/// arrays in Fortran order, with backward or overlapping rows, with x, y, z that are not adjacent, of
-/// integers, with the other byte order, and masked arrays, whose masked numbers become NaN.
+/// The points are not copied if x, y, z are adjacent and the rows do not overlap, with any positive distance
+/// between rows. Copies are made of
 ///
-/// Raises a TypeError for other types of numbers, a ValueError for other shapes. If there are fewer rows than
-/// columns, each column is probably a point: 256 or more columns raise a ValueError, 17 to 255 columns in 3
-/// to 8 rows a UserWarning.
+/// - arrays in Fortran order and arrays with backward or overlapping rows;
+/// - arrays in which x, y, z are not adjacent;
+/// - arrays of integers or with the other byte order;
+/// - masked arrays. Their masked numbers become NaN.
+///
+/// Raises a TypeError for other types of numbers, and a ValueError for other shapes. If there are fewer rows
+/// than columns, each column is probably a point. In this case 256 or more columns raise a ValueError, and 17
+/// to 255 columns in 3 to 8 rows give a UserWarning.
 PointArray points_of(py::handle object, const char* name = "points");
 
-/// Whether the object is an array with a mask (numpy.ma).
+/// Returns whether the object is an array with a mask (numpy.ma).
 bool is_masked(py::handle object);
 
-/// Numbers of any shape, as doubles in C order.
+/// Returns an array of numbers of any shape as doubles in C order.
 py::array_t<double> doubles(py::handle object, const char* name);
 
-/// Integers, one for each of `count` points.
+/// Returns an array of integers, one for each of `count` points.
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count);
 
-/// The labels of `count` points, from an array or from an object with the attribute `labels`. The labels -1
-/// (none) and -2 (ground) become 4294967295 and 4294967294.
+/// Returns the labels of `count` points, from an array or from an object with the attribute `labels`. The
+/// labels -1 (none) and -2 (ground) become 4294967295 and 4294967294.
 std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count);
 
-/// Makes an array read-only. The arrays of volumes are copies: writing to one would not change the volume.
+/// Makes an array read-only. The arrays of volumes are copies, so writing to an array would not change its
+/// volume.
 py::array read_only(py::array array);
 py::array array_of(const Eigen::Vector3d& v);
 py::array array_of(const Eigen::MatrixXd& m);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The functions that define the parts of the module. Docstrings begin with a signature and a line "--":
+// The functions that define the parts of the module. Docstrings begin with a signature and a line "--".
 // inspect.signature() and help() show this signature.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace pcl_bv::python {
 
-/// Returns the docstring of a constructor: the signature at the beginning of its class's docstring, for
-/// inspect.signature().
+/// Returns the docstring of a constructor, for inspect.signature(). It is the signature at the beginning of
+/// the docstring of the class.
 std::string init_doc(std::string_view class_doc);
 
 void bind_volumes(pybind11::module_& module);

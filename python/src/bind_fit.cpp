@@ -102,17 +102,17 @@ constexpr const char* fit_doc =
 Fits a bounding volume to points. Every finite point is inside the volume, by exact arithmetic.
 
 points: (N, 3 or more) float32 or float64 with any positive distance between rows, (H, W, 3 or more), or
-    records with fields x, y, z; not copied. Rows that are not finite are dropped and counted.
+    records with fields x, y, z. They are not copied. Points that are not finite are dropped and counted.
 method: a name of pcl_bv.methods() or its alias, or a list of them. 'all': every method but the hull.
-labels: an integer for each point, or Clusters: one volume is fitted per label. Negative labels: no volume.
+labels: an integer for each point, or Clusters. One volume is fitted per label, and none for negative labels.
 up: the direction opposite to gravity, used by obb-yaw and obb-lshape: 'x', '-z', ... or three numbers.
 growth: how sphere-ritter and sphere-epos* grow the sphere: 'sequential', 'stationary' or 'deferred'.
 threads: number of threads; 0: all processors. isa: one of instruction_sets. Neither changes the result.
 
-Returns a volume in the frame and unit of the points. A list of methods gives a list of volumes. With labels:
-a dict from label (ascending) to volume or list. Without finite points: an empty volume with the status
-'no_valid_points'. Raises TypeError for other types of numbers, ValueError for an unknown method, a wrong
-shape or a wrong value.
+Returns a volume in the frame and unit of the points, or a list of volumes for a list of methods. With labels,
+returns a dict from label (ascending) to volume or list. Without finite points, the volume is empty and has
+the status 'no_valid_points'. Raises TypeError for other types of numbers, and ValueError for an unknown
+method, a wrong shape or a wrong value.
 
 >>> import numpy, pcl_bv
 >>> corners = numpy.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]], numpy.float32)
@@ -128,11 +128,12 @@ True
 constexpr const char* verify_doc = R"(verify(volume, points, *, threads=1)
 --
 
-Tests for every finite point whether it is inside the volume, exactly (rational arithmetic where doubles are
-not sufficient).
+Tests for every finite point whether it is inside the volume. The test is exact, with rational arithmetic
+where doubles are not sufficient.
 
-Returns a Verification: checked, the number of finite points; outside, the number of them outside; worst, the
-largest distance outside a face or surface, in the points' unit. Raises as fit().
+Returns a Verification with checked, the number of finite points, outside, the number of finite points outside
+the volume, and worst, the largest distance outside a face or surface in the points' unit. Raises errors as
+fit() does.
 
 >>> import numpy, pcl_bv
 >>> points = numpy.random.default_rng(1).normal(size=(1000, 3))

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Partial results of clouds in parts, and masks of the points inside volumes.
+// Python's Partial and RegionMask.
 
 #include "pcl_bv/fitting/partial.h"
 
@@ -83,14 +83,15 @@ py::object mask_contains(const RegionMask& mask, py::handle points, py::handle t
 constexpr const char* partial_doc = R"(Partial(points=None, first=0, *, threads=1)
 --
 
-A partial result of a part of a cloud, from which the volumes of the whole cloud are fitted: a few kilobytes,
-for clouds in many files or on many machines. Immutable; can be pickled.
+A partial result of a part of a cloud. The volumes of the whole cloud are fitted from the merged partial
+results of its parts. A Partial has a few kilobytes and serves for clouds in many files or on many machines.
+It is immutable and can be pickled.
 
-points: as for fit(); None: no points, the start value of a sum.
-first: the index of the first point in the whole cloud. No point may be in two parts.
+points: as for fit(). None: no points, as start value of a sum.
+first: the index of the part's first point in the whole cloud. No point may be in two parts.
 
-The volumes do not depend on the parts or on the order of merging, to the last bit. They equal those of a fit
-of the whole cloud, except for the last bits of sphere-exact and obb-yaw of more than 4096 points.
+The volumes do not depend on the parts or on the order of merging, to the last bit. The volumes equal those of
+a fit of the whole cloud, except for the last bits of sphere-exact and obb-yaw of more than 4096 points.
 
 >>> import functools, numpy, operator, pcl_bv
 >>> points = numpy.random.default_rng(1).normal(size=(9000, 3))
@@ -103,9 +104,9 @@ True
 constexpr const char* partial_merge_doc = R"(merge(self, other, /)
 --
 
-Returns the partial result of the points of both, as self + other does. Neither argument changes.
+Returns the partial result of the points of self and other, as self + other does. Neither argument changes.
 
-Raises ValueError if a point is in both, or if one has float32 and the other has float64.
+Raises ValueError if a point is in both, or if the points of one are float32 and those of the other float64.
 
 >>> import pcl_bv
 >>> len(pcl_bv.Partial([[0., 0, 0]]).merge(pcl_bv.Partial([[1., 1, 1]], first=1)))
@@ -127,7 +128,8 @@ array([2., 2., 2.])
 constexpr const char* to_bytes_doc = R"(to_bytes(self, /)
 --
 
-Returns bytes for a file or a message: about 2 kB and 32 bytes per stored point. The same on every machine.
+Returns bytes for a file or a message: about 2 kB, and 32 bytes per stored point. They are the same on every
+machine.
 
 >>> import pcl_bv
 >>> part = pcl_bv.Partial([[0., 0, 0], [2, 2, 2]])

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Output: pictures, and files in the format of their extension.
+// Output of pictures and of files. The extension of a file selects its format.
 
 #include "bind.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Adds volumes, coloured by label or, if all have the same label, by method.
+/// Adds volumes. They are coloured by label or, if all volumes have the same label, by method.
 void add_volumes(const std::vector<LabelledVolume>& volumes, Picture& picture) {
   const auto several = [&](const LabelledVolume& v) { return v.number != volumes.front().number; };
   const bool labelled = std::any_of(volumes.begin(), volumes.end(), several);
@@ -156,7 +156,7 @@ constexpr const char* show_doc =
 Returns a Picture of points and volumes, for a notebook or a file.
 
 points: as for fit(), or None. volumes: a volume, a list, or a dict by label, as returned by fit().
-labels: the cluster of each point, which selects its colour; -1: none, -2: ground; or Clusters, or a Result.
+labels: the cluster of each point (-1: none, -2: ground), Clusters, or a Result. Clusters select the colours.
 view: 'iso', 'top', 'front' or 'side'. up: as for fit(). width, height: 16 to 16384 pixels.
 
 >>> import numpy, pcl_bv
@@ -190,13 +190,15 @@ constexpr const char* write_doc = R"(write(path, what, labels=None)
 
 Writes a file atomically, in the format of its extension.
 
-.json, .csv, .ply, .vtp, .png, .svg: a Result, a volume, a list of volumes, or a dict of these by label, as
-    returned by fit(). .json and .csv: as pcd_bv writes them (a Result: as bv_stream). .ply and .vtp: meshes.
-.png, .svg: also a Picture. .html: a Result, as the page of Result.page().
-.pcd: points, as for fit(); records with all their fields. labels: an integer for each point, which becomes
-    the field `label`.
+.json, .csv, .ply, .vtp, .png, .svg: `what` is a Result, a volume, a list of volumes, or a dict of these by
+    label, as returned by fit(). .json and .csv have the format of pcd_bv, or of bv_stream for a Result. .ply
+    and .vtp contain meshes.
+.png, .svg: `what` may also be a Picture.
+.html: `what` is a Result. The file is the page of Result.page().
+.pcd: `what` is points as for fit(). Records are written with all their fields. labels has an integer for each
+    point, which becomes the field `label`.
 
-Raises OSError if the file cannot be written, ValueError for another extension.
+Raises OSError if the file cannot be written, and ValueError for another extension.
 
 >>> import os, pcl_bv, tempfile
 >>> folder = tempfile.TemporaryDirectory()

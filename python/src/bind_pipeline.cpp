@@ -15,12 +15,12 @@ namespace {
 
 using namespace py::literals;
 
-/// A pipeline that several threads may call: frames are processed one after another.
+/// A pipeline that several threads may call. Frames are processed one after another.
 class PipelineObject {
  public:
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
 
-  /// Returns the warnings that this pipeline has not given before.
+  /// Processes a frame. Returns the warnings that this pipeline has not given before.
   std::vector<std::string> process(const Frame& frame, FrameResult& result) {
     const std::lock_guard lock(mutex_);
     if (frame.header.seq == 0) {
@@ -103,15 +103,15 @@ const std::string& pipeline_doc() {
 
 Detects objects frame by frame, as bv_stream and pcd_bv do: filter, ground, clusters, volumes, tracks.
 
-config: a dict, the text of a configuration file, or a path to one; keys as below, nested by stage.
-preset: 'road' (the defaults), 'indoor' or 'table'.
-    Regions may also have 'volumes', a list of volumes, instead of a 'file'.
+config: a dict, the text of a configuration file, or the path of a configuration file. The keys are those
+    below, nested by stage. In a dict, a region may have 'volumes' (a list of volumes) instead of a 'file'.
+preset: 'road' (the defaults), 'indoor' or 'table'. config overrides it.
 settings: stages as keyword arguments, which override config: cluster={'tolerance': 0.3}, volumes=['obb-yaw'],
     threads=0.
 
-Raises ValueError for an unknown key and for a value that is not allowed, with key, value and range; OSError
+Raises ValueError with key, value and range for an unknown key or a value that is not allowed, and OSError
 for a file that cannot be read. Warns (UserWarning) about a setting that has no effect. Threads may share a
-pipeline: they wait for one another.
+pipeline. It processes one frame at a time.
 
 Settings, with defaults, [units] and ranges:
 )" + settings_text() +
@@ -133,17 +133,17 @@ constexpr const char* process_doc =
 
 Processes one frame. Frames of a stream must be passed in the order of their stamps. Releases the GIL.
 
-points: as for fit(), in the sensor's frame, metres; not copied. The result keeps the array alive; later
-    changes of the array appear in pictures.
-stamp_ns: when the sensor took the frame, nanoseconds. Tracking needs it.
+points: as for fit(), in the sensor's frame, metres. They are not copied. The result keeps the array alive.
+    Later changes of the array appear in the result's pictures.
+stamp_ns: time at which the sensor took the frame, nanoseconds. Tracking needs it.
 frame_id, seq: stored in the result. Without seq, or with 0, the pipeline counts the frames.
 pose: pose of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
 classes: an integer for each point, for cluster.class_field and cluster.classes.
-recorded_ns: when the frame was recorded or received, nanoseconds. Tracking uses it if the stamps do not
-    advance, and warns once (UserWarning).
+recorded_ns: time at which the frame was recorded or received, nanoseconds. Tracking uses it if the stamps do
+    not advance, and warns once (UserWarning).
 
-Returns a Result. Raises as fit(). Warns (UserWarning, each kind once per pipeline and setting) if no ground
-is found, if everything is ground, and if the points do not lie around the sensor.
+Returns a Result. Raises errors as fit() does. Warns (UserWarning, each kind once per pipeline and setting)
+if no ground is found, if everything is ground, and if the points do not lie around the sensor.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Input: clouds from files, recordings and generators.
+// Input of clouds from files, recordings and generators.
 
 #include <chrono>
 #include <mutex>
@@ -23,8 +23,8 @@ namespace {
 
 using namespace py::literals;
 
-/// Calls read(). If it throws IoError, raises FileNotFoundError if the file does not exist; otherwise throws
-/// the error with the file's name in its message.
+/// Calls read(). If read() throws IoError because the file does not exist, raises FileNotFoundError. Throws
+/// other IoErrors with the file's name in the message.
 template <typename Read>
 auto with_read_errors(const std::string& name, const Read& read) {
   try {
@@ -42,7 +42,7 @@ auto with_read_errors(const std::string& name, const Read& read) {
   }
 }
 
-/// Issues a note about an input, if there is one, as a UserWarning.
+/// Issues a note about an input as a UserWarning. An empty note is ignored.
 void warn_about_note(const std::string& name, const std::string& note) {
   if (!note.empty()) warn(name + ": " + note);
 }
@@ -54,7 +54,7 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
     RawCloud cloud = clouds.load(number);
     warnings = clouds.warnings();
     return cloud;
-  } catch (const IoError& error) {  // add the warnings: damage may be the reason
+  } catch (const IoError& error) {  // add the warnings, because damage may be the reason
     std::string text = error.what();
     for (const std::string& warning : clouds.warnings())
       text.append("; ").append(warning);
@@ -62,7 +62,7 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
   }
 }
 
-/// Sets `warnings` to the warnings about a recording.
+/// Loads a cloud. Sets `warnings` to the warnings about the recording.
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
                     std::size_t bin_fields, const ParallelPolicy& policy,
                     std::vector<std::string>& warnings) {

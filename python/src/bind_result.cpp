@@ -42,8 +42,8 @@ py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   throw py::key_error(std::string(method->name) + " is not a method of this pipeline");
 }
 
-/// Returns the indices of the cluster's points. Computes them from the labels if the pipeline has made no
-/// index list, because all valid points that passed the filter are one cluster.
+/// Returns the indices of the cluster's points. The pipeline makes no index list if all valid points that
+/// passed the filter are one cluster. In this case, computes the indices from the labels.
 py::object indices_of(const ClusterObject& cluster) {
   const FrameResult& result = cluster.owner_result->result;
   if (!result.clusters.indices.empty() || result.clusters.cluster_size(cluster.id) == 0)
@@ -98,7 +98,7 @@ py::dict times_of(const Shared& self) {
                   "track"_a = ms.track, "total"_a = ms.total);
 }
 
-/// Returns the labels as int32, in which kLabelNone and kLabelGround are -1 and -2.
+/// Returns the labels as int32. kLabelNone becomes -1, kLabelGround becomes -2.
 py::object labels_array(const Shared& self) {
   std::vector<std::uint32_t> labels;
   {
@@ -220,7 +220,7 @@ notebook shows the same page with at most 50000 points; write('x.html', result) 
 '<!DOCTYPE html>'
 )";
 
-// Each point takes 22 bytes in the notebook's file.
+// A limit, because each point takes 22 bytes in the notebook's file.
 constexpr std::size_t kMaxCellPoints = 50'000;
 
 std::string in_a_notebook(const std::string& page) {

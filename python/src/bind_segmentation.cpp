@@ -20,8 +20,7 @@ std::size_t size_or_unlimited(py::handle value, const char* name) {
   return value.is_none() ? std::numeric_limits<std::size_t>::max() : whole_number(value, name, {1, kNoLimit});
 }
 
-/// Returns the settings of one class: those in the dict, and `others` for the settings that are not in the
-/// dict.
+/// Returns the settings of one class. Settings that are not in the dict are taken from `others`.
 ClassSettings class_settings(std::int64_t value, py::handle settings_dict, const ClusterSettings& others) {
   ClassSettings own{value, others};
   if (!py::isinstance<py::dict>(settings_dict))
@@ -85,8 +84,8 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// Issues the warnings of FrameWarnings about a frame with this ground and nothing else. Removes "ground."
-/// from the names of settings, so that they are the names of ground()'s arguments.
+/// Issues the warnings of FrameWarnings about a frame for which only this ground has been computed. Removes
+/// "ground." from the names of settings, so that the warnings have the names of the arguments of ground().
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();
   pipeline.ground = config;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A class for each shape, whose properties have the same names as in files.
+// A Python class for each shape. Its properties have the same names as in files.
 
 #include "bind.h"
 #include "read_shapes.h"
@@ -20,7 +20,7 @@ ShapeObject<Shape> object_of(Shape shape) {
   return object;
 }
 
-/// Defines the class of a shape. Pickling stores the arguments of the constructor; `make` is the constructor.
+/// Defines the class of a shape. `make` is the constructor. Pickling stores the arguments of the constructor.
 template <typename Shape, typename Make>
 py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const char* name, const char* doc,
                                                   Make make) {
@@ -40,14 +40,14 @@ py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const cha
   return type;
 }
 
-/// Defines a property for an argument of the constructor; `i` is its index in arguments_of().
+/// Defines a property for an argument of the constructor. `i` is the index of the argument in arguments_of().
 template <typename Shape, typename Class>
 void property(Class& type, const char* name, std::size_t i, const char* doc) {
   type.def_property_readonly(
       name, [i](const ShapeObject<Shape>& v) { return py::object(arguments_of(v.shape())[i]); }, doc);
 }
 
-/// Returns the shape of an argument, which must be of the same class.
+/// Returns the shape of an argument. The argument must be of the class of `Shape`.
 template <typename Shape>
 const Shape& same_shape(py::handle other) {
   if (!py::isinstance<ShapeObject<Shape>>(other))

@@ -13,7 +13,7 @@ namespace {
 using namespace py::literals;
 using Self = const VolumeObject&;
 
-/// Whether the argument is a single point instead of rows of points.
+/// Returns whether the argument is a single point instead of rows of points.
 bool is_one_point(py::handle object) {
   if (py::isinstance<py::array>(object)) {
     const auto array = py::reinterpret_borrow<py::array>(object);
@@ -24,7 +24,7 @@ bool is_one_point(py::handle object) {
          !py::hasattr(object[py::int_(0)], "__len__");  // an element with a length is a row
 }
 
-/// Three numbers, which may be NaN or infinite.
+/// Returns three numbers, which may be NaN or infinite.
 Eigen::Vector3d point_of(py::handle object) {
   const py::array_t<double> numbers = doubles(object, "points");
   if (numbers.size() != 3) raise_value_error("points", "expected three numbers, got " + repr_text(object));
@@ -93,9 +93,13 @@ constexpr const char* volume_doc =
 Volumes are immutable. Two volumes are equal if they have the same class and the same parameters, regardless
 of their fits. Volumes have no hash. Pickling preserves every bit. Returned arrays are read-only copies.
 
-Results of the fit (None for a volume that is not the result of a fit): method, its name; status, 'ok',
-'degenerate' (flat points), 'no_valid_points' or 'failed', with its reason; used and dropped, numbers of
-points; fit_rank, number of dimensions that the points span, 0 to 3.
+Results of the fit. They are None for a volume that is not the result of a fit.
+
+method: name of the method.
+status: 'ok', 'degenerate' (flat points), 'no_valid_points' or 'failed'.
+reason: why the fit failed.
+used, dropped: numbers of points.
+fit_rank: number of dimensions that the points span, 0 to 3.
 
 >>> import pcl_bv
 >>> box = pcl_bv.fit([[0., 0, 0], [1, 2, 0], [float('nan'), 0, 0]], 'aabb')
@@ -108,8 +112,8 @@ constexpr const char* contains_doc = R"(contains(self, points, /)
 
 Returns whether points are inside: a bool for three numbers, an array of bool for points as for fit().
 
-Conservative: rounding can only give True for a point just outside. False for points that are not finite and
-for an empty volume.
+The test is conservative: rounding can only give True for a point just outside. The result is False for points
+that are not finite and for an empty volume.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([0, 0, 0], 2).contains([0, 0, 2])

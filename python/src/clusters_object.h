@@ -14,11 +14,11 @@ namespace pcl_bv::python {
 struct ClustersObject {
   Clusters found;
   std::size_t points = 0;
-  std::vector<std::int64_t> class_of{};  ///< Empty without classes.
-  std::vector<std::int32_t> labels{};    ///< Of all points; -1: none. Empty after unpickling.
+  std::vector<std::int64_t> class_of{};  ///< Class of each cluster; empty without classes.
+  std::vector<std::int32_t> labels{};    ///< Label of each point; -1: none. Empty after unpickling.
 
-  /// Returns the labels. Computes them first after unpickling: unpickling itself does not, because a pickle
-  /// of a few bytes may claim 2^31 points. Needs the GIL.
+  /// Returns the labels. The first call after unpickling computes them. Unpickling does not compute them,
+  /// because a pickle of a few bytes may claim 2^31 points. Needs the GIL.
   const std::vector<std::int32_t>& computed_labels() {
     if (labels.size() != points) label_points();
     return labels;

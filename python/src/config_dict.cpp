@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Converts dicts to YAML, so that the parser of configuration files checks both.
+// Converts dicts to YAML, so that the parser of configuration files also checks dicts.
 
 #include "config_dict.h"
 
@@ -29,8 +29,8 @@ std::string quoted(const std::string& text) {
   return yaml + '"';
 }
 
-constexpr int max_depth = 16;                // settings nest 4 deep; a list that contains itself never ends
-constexpr std::size_t max_values = 100'000;  // 16 nested lists that each hold the next twice: 2^16 values
+constexpr int max_depth = 16;                // settings nest 4 deep; a list may contain itself
+constexpr std::size_t max_values = 100'000;  // a few nested lists can have very many values
 
 /// Counters of yaml_of(), for the limits above.
 struct YamlCounters {
@@ -92,8 +92,8 @@ std::string yaml_of(py::handle value, const std::string& key, YamlCounters& coun
   return yaml;
 }
 
-/// Regions that are given by volumes, which YAML cannot express. The constructor removes the volumes from the
-/// settings and leaves a file name in their place; put_into() adds them to the parsed configuration.
+/// Regions that are given by volumes, which YAML cannot express. The constructor replaces the volumes in the
+/// settings by a file name. put_into() adds the volumes to the parsed configuration.
 class RegionVolumes {
  public:
   explicit RegionVolumes(const py::dict& settings) : settings_(settings) {
@@ -132,7 +132,7 @@ class RegionVolumes {
 
  private:
   py::dict settings_;
-  std::vector<std::vector<AnyVolume>> volumes_;  // of each region; empty: the region has a file
+  std::vector<std::vector<AnyVolume>> volumes_;  // volumes of each region; empty if it has a file
 };
 
 /// Parses a dict. Removes "Pipeline: line 1: " from error messages, because a dict has no lines.

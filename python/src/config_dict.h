@@ -10,15 +10,20 @@
 
 namespace pcl_bv::python {
 
-/// Returns the configuration. `config`: None, a dict, the text of a configuration file, or a path to one.
-/// `preset`: None or a name; `config` overrides it. `settings`: a dict that overrides both. Raises a
-/// ValueError, with the messages of the configuration file's parser, for unknown keys and invalid values.
+/// Returns the configuration.
+///
+/// - `config` is None, a dict, the text of a configuration file, or the path of a configuration file.
+/// - `preset` is None or a name. Settings in `config` override the preset.
+/// - `settings` is a dict that overrides `config` and `preset`.
+///
+/// For unknown keys and invalid values, raises a ValueError with the message of the configuration file's
+/// parser.
 PipelineConfig config_of(pybind11::handle config, pybind11::handle preset, const pybind11::dict& settings);
 
 /// Returns all settings as a dict that config_of() accepts.
 pybind11::dict dict_of(const PipelineConfig& config);
 
-/// Returns a text with the default, unit, range and description of each setting, for the docstring.
+/// Returns a text with the default, unit, range and description of each setting, for Pipeline's docstring.
 std::string settings_text();
 
 }  // namespace pcl_bv::python

@@ -10,8 +10,8 @@
 namespace pcl_bv::python {
 namespace {
 
-/// Sorts point indices by label, stably. Counting sort in O(n) if all labels are less than the number of
-/// points, as those of clusters are; otherwise O(n log n).
+/// Sorts point indices by label, stably. If all labels are less than the number of points, as the labels of
+/// clusters are, uses a counting sort in O(n). Otherwise takes O(n log n).
 void sort_by_label(const std::vector<std::int64_t>& of, std::vector<std::int32_t>& numbers) {
   const auto label_of = [&](std::int32_t i) { return of[static_cast<std::size_t>(i)]; };
   std::int64_t max_label = -1;

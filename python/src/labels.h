@@ -9,12 +9,12 @@
 
 namespace pcl_bv::python {
 
-/// One view for each label, of the points with this label.
+/// The points of a view, grouped by label: one view per label.
 class LabelGroups {
  public:
-  /// `labels`: an integer for each point, or an object with the attribute `labels` such as Clusters. Points
-  /// with a negative label are in no group. Labels of type uint32 are converted to int32 first, so that
-  /// pcd_bv's labels for ground and none are negative.
+  /// `labels` has an integer for each point, or is an object with the attribute `labels`, such as Clusters.
+  /// Points with a negative label are in no group. Labels of type uint32 are first converted to int32, so
+  /// that pcd_bv's labels for ground and none become negative.
   LabelGroups(py::handle labels, const PointView& points);
 
   std::size_t size() const { return views_.size(); }

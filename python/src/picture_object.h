@@ -20,13 +20,13 @@ struct PictureObject {
   std::shared_ptr<const ResultObject> result{};  ///< The result that the picture shows, or null.
   PointArray points{};                           ///< The points, if there is no result.
   std::vector<std::uint32_t> labels{};
-  Picture picture{};  ///< Refers to the members above.
+  Picture picture{};  ///< Has references to the other members.
 
   py::bytes png() const;
   std::string svg() const;
 };
 
-/// Returns the live view's page with a result, as HTML.
+/// Returns the page of the live view with this result, as HTML.
 std::string page_of_result(const ResultObject& result, std::size_t max_points);
 
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The precompiled header of the extension: parsing pybind11 alone takes 3 s.
+// The precompiled header of the extension. It saves time, because parsing pybind11 alone takes 3 s.
 #pragma once
 
 #include <pybind11/numpy.h>

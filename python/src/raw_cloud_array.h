@@ -9,14 +9,14 @@
 
 namespace pcl_bv::python {
 
-/// Returns an array of records with the cloud's fields, without a copy: the array owns the cloud's memory.
-/// The shape is (height, width) for an organised cloud, otherwise (width,). Padding, and fields whose name
-/// occurs before, become unnamed bytes.
+/// Returns an array of records with the cloud's fields. The array takes over the cloud's memory, without a
+/// copy. The shape is (height, width) for an organised cloud, otherwise (width,). Padding and fields with the
+/// name of an earlier field become unnamed bytes.
 py::array array_of_cloud(RawCloud&& cloud);
 
-/// Writes a .pcd file. `points`: as for points_of(); records are written with all their fields. Raises a
-/// TypeError for a field that the format cannot hold. `labels`: None, or the values of the additional field
-/// `label`.
+/// Writes a .pcd file. `points` are as for points_of(). Records are written with all their fields. `labels`
+/// is None or has the values of the additional field `label`. Raises a TypeError for a field that the format
+/// cannot hold.
 void write_cloud(const std::filesystem::path& path, py::handle points, py::handle labels);
 
 }  // namespace pcl_bv::python

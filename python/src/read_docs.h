@@ -9,16 +9,18 @@ namespace pcl_bv::python {
 inline constexpr const char* read_doc = R"(read(path, *, topic=None, number=0, bin_fields=0, threads=1)
 --
 
-Reads a cloud: an array of records with all fields of the file; shape (height, width) for organised clouds.
+Reads a cloud. Returns an array of records with all fields of the file. For an organised cloud, the shape is
+(height, width).
 
 path: .pcd, .ply, .las, .bin (KITTI, nuScenes), 'synth:NAME[:POINTS[:SEED]]', or a recording (.mcap, .db3,
     .bag, .pcap), of which cloud `number` is read. frames() reads a whole recording faster.
 topic: the topic of a recording; None: the only topic with clouds.
-bin_fields: number of float32 per point of a .bin, 3 to 32; 0: from the name: 5 for .pcd.bin, otherwise 4.
+bin_fields: number of float32 per point of a .bin file, 3 to 32. 0: chosen by the file name, 5 for .pcd.bin,
+    otherwise 4.
 
-Issues a UserWarning for data that is ignored or damaged: points after the last one, a VIEWPOINT (not
-applied), damage in a recording. Raises FileNotFoundError, OSError for a file that cannot be read, ValueError
-for a topic that the recording does not have.
+Issues a UserWarning for data that is ignored or damaged: surplus data after the last point, a VIEWPOINT (not
+applied), damage in a recording. Raises FileNotFoundError, OSError for a file that cannot be read, and
+ValueError for a topic that the recording does not have.
 
 >>> import pcl_bv
 >>> cloud = pcl_bv.read('synth:street:1000:1')
@@ -34,15 +36,16 @@ Returns an iterator over the Frames of a source, for Pipeline.process().
 
 source: a folder of clouds or a file, a recording (.mcap, .db3 or its folder, .bag, .pcap), 'dds:TOPIC', or
     'synth:street-sequence[:FRAMES[:SEED]]'.
-rate: frame rate in Hz; None: the stamps of a recording, 10 Hz for other sources. Frames are not delayed to
-    this rate.
+rate: frame rate in Hz. None: the stamps of a recording, or 10 Hz for other sources. The iterator does not
+    wait to keep this rate.
 poses: a file of the sensor's poses, in KITTI's or TUM's format.
 class_field: an integer field of the clouds, for Frame.classes.
 stamps: 'rate', 'name' (times in file names, or stamps of messages) or 'auto'.
 
 Issues UserWarnings as read() does.
 
-Raises FileNotFoundError, OSError for a source or frame that cannot be read. The next frame may be valid.
+Raises FileNotFoundError, and OSError for a source or a frame that cannot be read. After an OSError for a
+frame, the next frame may be valid.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True})
@@ -53,7 +56,7 @@ Raises FileNotFoundError, OSError for a source or frame that cannot be read. The
 )";
 
 inline constexpr const char* frame_doc =
-    R"(A cloud of a source, with its stamp. Its memory lives as long as arrays of its points.
+    R"(A cloud of a source, with its stamp. The points stay valid as long as an array of them exists.
 
 >>> import pcl_bv
 >>> next(pcl_bv.frames('synth:street-sequence:1')).points.shape[1]
@@ -61,7 +64,7 @@ inline constexpr const char* frame_doc =
 )";
 
 inline constexpr const char* frames_class_doc =
-    R"(The iterator that frames() returns. Threads may share it: each frame is given to one thread.
+    R"(The iterator that frames() returns. Threads may share it. Each frame is given to one thread.
 
 >>> import pcl_bv
 >>> len(list(pcl_bv.frames('synth:street-sequence:2')))
@@ -74,8 +77,8 @@ inline constexpr const char* read_volumes_doc = R"(read_volumes(path)
 Reads all volumes of a JSON file written by pcd_bv, bv_stream, write() or by hand. Every number is restored
 exactly.
 
-Volumes with "empty": true are skipped. Raises FileNotFoundError; OSError for a file with other content, with
-the first entry that cannot be read ('clusters[0].volumes[2]').
+Volumes with "empty": true are skipped. Raises FileNotFoundError, and OSError for a file with other content.
+The message of the OSError gives the first entry that cannot be read ('clusters[0].volumes[2]').
 
 >>> import os, pcl_bv, tempfile
 >>> folder = tempfile.TemporaryDirectory()

@@ -15,15 +15,15 @@ double real(py::handle value, const char* name) {
   return number(value, name, any_number);
 }
 
-/// Three numbers, which may be NaN or infinite as those of empty volumes: the shapes' constructors check
-/// them.
+/// Returns three numbers. They may be NaN or infinite, as in empty volumes. The constructors of the shapes
+/// check them.
 Eigen::Vector3d three_numbers(py::handle value, const char* name) {
   const py::array_t<double> numbers = doubles(value, name);
   if (numbers.size() != 3) raise_value_error(name, "expected three numbers, got " + repr_text(value));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
-/// Numbers of the shape (n, columns). An empty list is also allowed.
+/// Returns an array of numbers of the shape (n, columns). An empty list is also allowed.
 py::array_t<double> table(py::handle value, const char* name, py::ssize_t columns) {
   py::array_t<double> numbers = doubles(value, name);
   if (numbers.size() > 0 && (numbers.ndim() != 2 || numbers.shape(1) != columns))
@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> vectors(py::handle value, const char* name) {
   return list;
 }
 
-/// The axes are the rows of the argument and the columns of the returned matrix.
+/// Returns a matrix with the axes as columns. The axes are the rows of the argument.
 Eigen::Matrix3d axes(py::handle value) {
   const std::vector<Eigen::Vector3d> rows = vectors(value, "axes");
   if (rows.size() != 3) raise_value_error("axes", "expected (3, 3) numbers, got " + repr_text(value));
@@ -55,7 +55,7 @@ SlabVector slabs(py::handle value, const char* name) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
 }
 
-/// Returns the built-in set if one has these directions, otherwise a new set.
+/// Returns the built-in set with these directions or, if there is none, a new set.
 std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
   auto own = std::make_shared<const KdopSet>(std::move(directions));
   for (const DirectionSet set :
@@ -96,7 +96,7 @@ Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::han
     Hull::Triangle& triangle = triangles.emplace_back();
     std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(), [](double number) {
       const bool whole = number >= 0 && number <= 2147483647.0 && number == std::floor(number);
-      return whole ? static_cast<std::int32_t>(number) : -1;  // not a vertex: the constructor throws
+      return whole ? static_cast<std::int32_t>(number) : -1;  // invalid index: the constructor throws
     });
   }
   std::vector<HullPlane> half_spaces;

@@ -66,7 +66,8 @@ Sphere(center=[1, 2, 3], radius=4)
 inline constexpr const char* cylinder_doc = R"(Cylinder(center, axis, radius, half_height)
 --
 
-A cylinder: at most radius from the axis and half_height from the centre along it. The axis is normalised.
+A cylinder: the points at most radius from the axis and at most half_height from the centre along the axis.
+The axis is normalised.
 
 >>> import pcl_bv
 >>> pcl_bv.Cylinder([0, 0, 0], [0, 0, 2], 1, 3).axis
@@ -76,7 +77,8 @@ array([0., 0., 1.])
 inline constexpr const char* capsule_doc = R"(Capsule(a, b, radius)
 --
 
-A capsule: at most radius from the segment between a and b. If the radius is negative, the capsule is empty.
+A capsule: the points at most radius from the segment between a and b. If the radius is negative, the capsule
+is empty.
 
 >>> import pcl_bv
 >>> pcl_bv.Capsule([0, 0, 0], [0, 0, 2], 1).aabb()
@@ -109,8 +111,8 @@ faces. A fitted hull has the planes of its faces and of its axis-aligned box.
 inline constexpr const char* overlaps_doc = R"(overlaps(self, other, /)
 --
 
-Returns whether two volumes of the same class overlap. Conservative: only True may be wrong. False if either
-is empty.
+Returns whether two volumes of the same class overlap. The test is conservative: only True may be wrong.
+If either volume is empty, returns False.
 
 >>> import pcl_bv
 >>> pcl_bv.Sphere([0, 0, 0], 1).overlaps(pcl_bv.Sphere([0, 0, 2], 1))
@@ -123,7 +125,8 @@ inline constexpr const char* merge_doc = R"(merge(self, other, /)
 Returns a new volume of the same class that contains both. If one volume is empty, returns the other. Neither
 argument changes.
 
-The result is exact for Aabb and Kdop, larger by rounding errors for Sphere, not the smallest box for Obb.
+For Aabb and Kdop the result is exact. For Sphere it is larger by rounding errors. For Obb it is not the
+smallest box.
 
 >>> import pcl_bv
 >>> pcl_bv.Aabb([0, 0, 0], [1, 1, 1]).merge(pcl_bv.Aabb([2, 0, 0], [3, 1, 1]))

@@ -9,7 +9,7 @@
 
 namespace pcl_bv::python {
 
-/// The result for a frame, and the frame's points, which its pictures and clusters need.
+/// The result for a frame, and the frame's points. Pictures and clusters of the result need these points.
 struct ResultObject {
   FrameResult result;
   PointArray points;
@@ -24,7 +24,7 @@ struct ResultObject {
   }
 };
 
-/// A cluster of a result, which it keeps alive.
+/// A cluster of a result. It keeps the result alive.
 struct ClusterObject {
   std::shared_ptr<const ResultObject> owner_result;
   std::size_t id = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The state includes the frame's points, because a result's picture shows them.
+// Pickling of results. The state includes the frame's points, because the picture of a result shows them.
 
 #include "result_state.h"
 
@@ -106,8 +106,8 @@ void take_volumes(const py::list& state, FrameResult& result) {
   }
 }
 
-/// Returns the indices of the points that passed the filter. If the pipeline has made no index list, these
-/// are the points of cluster 0.
+/// Returns the indices of the points that passed the filter. If the pipeline has made no index list, the
+/// points of cluster 0 are these points.
 std::vector<std::int32_t> kept(const ResultObject& self) {
   if (!self.result.filtered) return self.result.passed_filter;
   const std::vector<std::uint32_t> labels = labels_of(self.frame(), self.result);

@@ -7,10 +7,11 @@
 namespace pcl_bv::python {
 
 inline constexpr const char* clusters_doc =
-    R"(The clusters of a cloud, in descending order of size. Of equally large clusters the one with the
-smallest point index comes first.
+    R"(The clusters of a cloud, in descending order of size. Clusters of equal size are ordered by their
+smallest point index.
 
-clusters[i]: the point indices of a cluster, an int32 array. Arrays are read-only views of this object's data.
+clusters[i] is an int32 array of the point indices of cluster i. Arrays are read-only views of this object's
+data.
 
 >>> import pcl_bv
 >>> clusters = pcl_bv.cluster([[0., 0, 0], [9, 0, 0], [0.1, 0, 0]], 0.5)
@@ -24,16 +25,18 @@ inline constexpr const char* cluster_doc =
     R"(cluster(points, tolerance, *, min_size=1, max_size=None, min_points=1, tolerance_per_metre=0, oversized='drop', classes=None, class_settings=None, threads=1)
 --
 
-Points nearer to each other than `tolerance` (unit of the points, above 0) are one cluster: the partition of
-PCL's EuclideanClusterExtraction and, with min_points, of DBSCAN, by exact cells. points: as for fit(); points
-that are not finite are in no cluster.
+Groups points into clusters. Two points that are nearer to each other than `tolerance` (in the unit of the
+points, above 0) are in the same cluster. The result is the partition of PCL's EuclideanClusterExtraction or,
+with min_points, of DBSCAN, computed by exact cells.
 
-min_size, max_size: clusters of fewer or more points are dropped and counted; None: no limit.
-min_points: DBSCAN's core condition: a core point has at least min_points points within the tolerance, itself
-    included. Points that are neither core points nor within the tolerance of a core point are noise.
+points: as for fit(). Points that are not finite are in no cluster.
+min_size, max_size: clusters with fewer or more points are dropped and counted; None: no limit.
+min_points: the core condition of DBSCAN. A core point has at least min_points points within the tolerance,
+    itself included. Points that are neither core points nor within the tolerance of a core point are noise.
 tolerance_per_metre: growth of the tolerance per metre of distance from the origin.
-oversized: what happens to clusters above max_size: 'drop', 'keep', or 'split' by half the tolerance.
-classes: an integer for each point: points of different classes never share a cluster.
+oversized: treatment of clusters with more than max_size points: 'drop', 'keep', or 'split' with half the
+    tolerance.
+classes: an integer for each point. Points of different classes never share a cluster.
 class_settings: {class: {'tolerance': .., 'min_size': .., 'max_size': .., 'drop': True}} for classes with
     other settings.
 threads: number of threads; 0: all processors. Does not change the result.
@@ -50,8 +53,8 @@ ValueError: tolerance: -1 is not above 0 and at most 1e+06
 )";
 
 inline constexpr const char* ground_class_doc =
-    R"(The result of ground(): found, normal and offset of the ground plane near the sensor, and the indices
-of ground and other points.
+    R"(The result of ground(): whether the ground is found, normal and offset of the ground plane near the
+sensor, and the indices of ground points and of other points.
 
 >>> import numpy, pcl_bv
 >>> level = numpy.array([[x, y, 0.] for x in range(10) for y in range(10)] + [[5, 5, 2.]])
@@ -64,9 +67,9 @@ inline constexpr const char* ground_doc =
     R"(ground(points, method='zones', *, up='z', sensor=None, sensor_height=None, distance=None, max_slope_degrees=None, threads=1)
 --
 
-Detects the ground and splits the points into ground and other points. Metres; points: as for fit(), x, y, z
-in the sensor's frame.
+Detects the ground and splits the points into ground and other points. Lengths are in metres.
 
+points: as for fit(), with x, y, z in the sensor's frame.
 method: 'zones' for uneven ground outdoors, 'plane' for floors and tables.
 up: the direction opposite to gravity: 'x', '-z', ... or three numbers.
 sensor: the centre of the zones; None: the origin or, if the points do not lie around it, the position where
@@ -75,9 +78,9 @@ sensor_height: height of the sensor (with 'plane': of the origin) above the grou
 distance: largest height of ground points above the ground; None: 0.15 for 'zones', 0.2 for 'plane'.
 max_slope_degrees: 0 to 89; None: 20 for 'zones', 15 for 'plane'.
 
-Returns a Ground. If no ground is found, found is False. Raises as cluster(). Warns (UserWarning) if no ground
-is found, if everything is ground, if the points do not lie around the sensor, and if far more points would be
-ground with the cloud turned upside down.
+Returns a Ground. If no ground is found, found is False. Raises errors as cluster() does. Warns
+(UserWarning) if no ground is found, if everything is ground, if the points do not lie around the sensor, and
+if far more points would be ground with the cloud turned upside down.
 
 >>> import pcl_bv
 >>> street = pcl_bv.read('synth:street:20000:1')
@@ -88,9 +91,13 @@ True
 inline constexpr const char* statistics_doc = R"(statistics(points, *, threads=1)
 --
 
-Returns statistics of a cloud for choosing a range or a tolerance, as a dict: box, the Aabb of the finite
-points that are not at 0,0,0; spacing, the median distance to the nearest point, or None; nonfinite and zero,
-numbers of points. points: as for fit().
+Returns statistics of a cloud for choosing a range or a tolerance, as a dict with the keys
+
+box: the Aabb of the finite points that are not at 0,0,0.
+spacing: the median distance from a point to its nearest other point, or None.
+nonfinite, zero: the number of points that are not finite, and that are at 0,0,0.
+
+points: as for fit().
 
 >>> import pcl_bv
 >>> pcl_bv.statistics([[0., 0, 0], [1, 1, 1], [1, 1, 3]])['spacing']

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads unpickled states. They come from outside the program, so they are checked like arguments.
+// Reads unpickled states. A state comes from outside the program, so it is checked like arguments.
 #pragma once
 
 #include "arguments.h"

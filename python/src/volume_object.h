@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The data of Python's volumes. They never change, so that threads may share them.
+// The data of Python's volumes. Volumes never change, so that threads may share them.
 #pragma once
 
 #include "arguments.h"
@@ -28,20 +28,20 @@ py::object to_python(AnyVolume&& volume, const Method* method = nullptr, const E
 /// Returns the volume of an argument. Raises a TypeError if the argument is not a volume.
 const VolumeObject& volume_of(py::handle value, const char* name);
 
-/// A volume and its label: its key in a dict, otherwise 0.
+/// A volume and its label. The label is the key of the volume in a dict, or 0 without a dict.
 struct LabelledVolume {
   std::int64_t number;
   const VolumeObject* volume;
 };
 
-/// Returns the volumes of an argument: None, a volume, a list of volumes, or a dict whose values are volumes
-/// or lists.
+/// Returns the volumes of an argument. It must be None, a volume, a list of volumes, or a dict whose values
+/// are volumes or lists of volumes.
 std::vector<LabelledVolume> volumes_of(py::handle value, const char* name);
 
 /// Returns the name of a status: "ok", "degenerate", "no_valid_points" or "failed".
 const char* status_name(EstimationStatus status);
 
-/// Returns the arguments of the constructor that gives the same shape, in order.
+/// Returns the arguments, in order, with which the constructor gives the same shape.
 py::tuple arguments_of(const Aabb& box);
 py::tuple arguments_of(const Kdop& kdop);
 py::tuple arguments_of(const Sphere& sphere);
@@ -51,11 +51,11 @@ py::tuple arguments_of(const Capsule& capsule);
 py::tuple arguments_of(const Ellipsoid& ellipsoid);
 py::tuple arguments_of(const Hull& hull);
 
-/// Converts the result of a fit to and from the state that pickle stores.
+/// Convert the result of a fit to and from the state that pickle stores.
 py::tuple fit_state(const VolumeObject& volume);
 void set_fit_state(py::handle state, VolumeObject& volume);
 
-/// Returns the repr(), with six digits: "Sphere(center=[1, 2, 3], radius=4, method='sphere-exact',
+/// Returns the repr() with six digits, for example "Sphere(center=[1, 2, 3], radius=4, method='sphere-exact',
 /// used=100)".
 std::string repr_of(const VolumeObject& volume);
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kManyPoints = 200'000;
 
-// Returns how long the call takes. This must be measured: 300 points take 0.2 us for a box, and about a
-// thousand times as long for a capsule.
+// Returns how long the call takes. The time must be measured because it depends on the method. For 300
+// points, a box takes 0.2 us and a capsule about a thousand times as long.
 template <typename Call>
 double seconds(const Call& call) {
   const auto begin = std::chrono::steady_clock::now();
@@ -32,7 +32,7 @@ void for_each_view(const std::vector<PointView>& views, const Execution& executi
   const auto larger = [&](std::size_t a, std::size_t b) {
     return std::make_pair(views[b].count, a) < std::make_pair(views[a].count, b);
   };
-  // Clusters usually come largest first: then there is nothing to sort and nothing to allocate.
+  // Clusters are usually in descending order of size. Then nothing is sorted or allocated.
   std::vector<std::size_t> order;
   const auto by_count = [](const PointView& a, const PointView& b) { return a.count > b.count; };
   if (!std::is_sorted(views.begin(), views.end(), by_count)) {
@@ -46,8 +46,8 @@ void for_each_view(const std::vector<PointView>& views, const Execution& executi
   for (; small < views.size() && views[nth(small)].count >= kManyPoints; ++small)
     fit(nth(small), {execution.parallel, execution.isa});
   if (small == views.size()) return;
-  // The time of one view of middle size predicts the time of the others; only the number of threads depends
-  // on it. The largest view would predict better, but while it is fitted all other threads wait.
+  // The time of one view of middle size predicts the time of the others. Only the number of threads depends
+  // on this prediction. The largest view would predict better, but all other threads wait while it is fitted.
   const Execution serial{Serial{}, execution.isa};
   const std::size_t probe =
       thread_count(execution.parallel) == 1 ? small : small + (views.size() - small) / 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Local coordinates for numerical work: relative to a point of the cloud and scaled to an extent of about 1.
+// Local coordinates for numerical work. They are relative to a point of the cloud, and the extent is about 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,9 @@
 
 namespace pcl_bv {
 
-/// Factor that makes the root of a squared_distance() an upper bound of the distance. The root is off by less
-/// than 4 2^-53 of itself; the margin 2^-49 is four times that (docs/numerics.md, Spheres).
+/// Factor that makes the square root of a squared_distance() an upper bound of the distance. The relative
+/// error of the root is less than 4 2^-53. The margin 2^-49 is four times this error (docs/numerics.md,
+/// Spheres).
 inline constexpr double kOutward = 1.0 + 0x1p-49;
 
 inline Eigen::Vector3d vector(const Coordinates& p) {
@@ -23,12 +24,12 @@ inline Eigen::Vector3d vector(const Coordinates& p) {
 /// Returns the largest extent along a coordinate axis, in the unit of the points; 0 if all points are equal.
 double widest_side(const Supports& supports);
 
-/// Returns the power of two that scales a positive extent into [1, 2): at most 2^1000, for extents of 2^-1000
-/// and below. Returns 1 for 0.
+/// Returns the power of two that scales a positive extent into [1, 2). For extents of 2^-1000 and below it is
+/// 2^1000. For extent 0 it is 1.
 double unit_scale(double extent);
 
-/// Local coordinates: relative to one of the cloud's points, in units of a power of two near the cloud's
-/// extent.
+/// Converts to and from local coordinates. They are relative to one of the cloud's points. Their unit is a
+/// power of two near the cloud's extent.
 class LocalFrame {
  public:
   /// The supports must have points and be of a cloud with at least one valid point.
@@ -40,8 +41,8 @@ class LocalFrame {
   Eigen::Vector3d local(const Coordinates& p) const { return (vector(p) - origin_) * scale_; }
   Eigen::Vector3d global(const Eigen::Vector3d& local) const { return origin_ + local / scale_; }
 
-  /// Returns p relative to `center`, both in the coordinates of the points, in local units. Each coordinate
-  /// is rounded once, by at most 2^-53 of itself.
+  /// Returns p - center in local units. The arguments are in the coordinates of the points. Each coordinate
+  /// of the result is rounded once, by at most 2^-53 of itself.
   Eigen::Vector3d relative_to(const Eigen::Vector3d& center, const Coordinates& p) const {
     return (vector(p) - center) * scale_;
   }
@@ -50,11 +51,11 @@ class LocalFrame {
   double length_down(double local) const { return divide_down(local, scale_); }
   double length_up(double local) const { return divide_up(local, scale_); }
 
-  /// Local units per unit of the points: a power of two.
+  /// Returns the number of local units per unit of the points, a power of two.
   double scale() const { return scale_; }
 
-  /// Returns a centre for the distance kernels. With it they measure in the unit of the points for float
-  /// clouds, in local units for double clouds.
+  /// Returns a centre for the distance kernels. With this centre the kernels measure in the unit of the
+  /// points for float clouds, and in local units for double clouds.
   DistanceCenter center(const Eigen::Vector3d& global) const {
     return {global.x(), global.y(), global.z(), kernel_scale_};
   }

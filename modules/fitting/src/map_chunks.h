@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parallel passes over the chunks of a cloud. Every pass of a kernel is built on this.
+// Parallel passes over the chunks of a cloud. Most passes of the fits over a cloud use map_chunks().
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace pcl_bv {
 
-/// Calls merge(map(chunk)) for each chunk of the points: map() in parallel, each call under a
-/// FloatEnvironment; merge() in the order of the chunks. At most `max_pending` results exist at a time, so
-/// memory is bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled
-/// without allocation and in the caller's FloatEnvironment.
+/// Calls merge(map(chunk)) for each chunk of the points. The calls of map() run in parallel, each under a
+/// FloatEnvironment. The calls of merge() are in the order of the chunks. At most `max_pending` results exist
+/// at a time, so memory is bounded for clouds of any size. A cloud of one chunk is processed without
+/// allocation and in the caller's FloatEnvironment, because a sweep has many such clouds.
 template <typename Partial, std::size_t max_pending = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);

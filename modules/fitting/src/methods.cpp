@@ -43,7 +43,7 @@ EstimationResult best(const PointView& points, const MethodOptions& options, Any
   return fit_smallest(points, best_candidates(), volume, execution, options);
 }
 
-// Returns the smallest set that contains the directions of both.
+// Returns the smallest set that contains the directions of `a` and `b`.
 DirectionSet union_of(DirectionSet a, DirectionSet b) {
   if (a == b || b == DirectionSet::dop6) return a;
   return a == DirectionSet::dop6 ? b : DirectionSet::dop26;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kFactors[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
 
-// Moves the origin: q' = q + d are the coordinates about the new one. Then sum q' = sum q + n d and
-// sum q'_i q'_j = sum q_i q_j + d_i sum q_j + d_j sum q_i + n d_i d_j.
+// Moves the origin of the moments. q' = q + d are the coordinates about the new origin. Then sum q' =
+// sum q + n d and sum q'_i q'_j = sum q_i q_j + d_i sum q_j + d_j sum q_i + n d_i d_j.
 void move_origin(const Coordinates& origin, const std::array<double, 3>& d, Moments& moments) {
   const double n = static_cast<double>(moments.count);
   const std::array<double, 3> s = moments.sum;

@@ -11,15 +11,16 @@
 
 namespace pcl_bv {
 
-/// Converts the moments to larger units: to an `exponent` not above the present one. Values that underflow
-/// are negligible beside the sums in these units.
+/// Converts the moments to larger units. `exponent` must not be above the present exponent. Values that
+/// underflow are negligible compared with the sums in the new units.
 void coarsen(int exponent, Moments& moments);
 
-/// Returns the moments of the points of both, about the origin of `first`. The exponent is the smaller of the
-/// two, reduced further if products of the distance between the origins could overflow.
+/// Returns the moments of the points of `first` and `second`, about the origin of `first`. The exponent is
+/// the smaller of the two exponents. It is reduced further if products of the distance between the origins
+/// could overflow.
 Moments merged(const Moments& first, const Moments& second);
 
-/// The moments of 2^k successive blocks; the number of the first block is a multiple of 2^k.
+/// The moments of 2^k successive blocks. The number of the first block is a multiple of 2^k.
 struct MomentNode {
   std::size_t first;   ///< Number of the first block.
   std::size_t blocks;  ///< Number of blocks, 2^k.
@@ -27,7 +28,8 @@ struct MomentNode {
 };
 
 /// Adds the moments of blocks in pairs, then these sums in pairs, and so on. The block numbers alone decide
-/// which sums are formed. So parts of a cloud that are summed separately give the bits of the whole cloud.
+/// which sums are formed. Therefore parts of a cloud that are summed separately give the same bits as the
+/// whole cloud.
 class MomentTree {
  public:
   /// Appends the block with number `block`, which must be higher than the numbers of all blocks appended
@@ -41,7 +43,7 @@ class MomentTree {
   /// of the number of blocks in each node, and all numbers must be higher than those appended before.
   void append(std::size_t first, const MomentTree& tree);
 
-  /// Returns the moments of all blocks; a count of 0 if there is no block.
+  /// Returns the moments of all blocks. If there is no block, the count is 0.
   Moments total() const;
 
   /// The nodes, in ascending order of their blocks. Which nodes exist depends on the appended blocks alone.

@@ -11,7 +11,7 @@
 
 namespace pcl_bv {
 
-/// Two unit vectors perpendicular to a unit vector; (u, v, axis) is right-handed.
+/// Two orthogonal unit vectors perpendicular to the unit vector `axis`. (u, v, axis) is right-handed.
 struct PlaneBasis {
   explicit PlaneBasis(const Eigen::Vector3d& axis) {
     Eigen::Vector3d least_aligned = Eigen::Vector3d::UnitX();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// If a few points clearly span a solid, the passes over all points that the definition of the rank needs are
-// skipped.
+// The definition of the rank needs several passes over all points. If a few points clearly span a solid,
+// these passes are skipped.
 
 #include "point_rank.h"
 
@@ -20,15 +20,16 @@
 namespace pcl_bv {
 namespace {
 
-// Limit of six times the volume of a tetrahedron. Above the limit, every slab around the tetrahedron is
-// thicker than that volume divided by 3 extent^2, the largest possible product of the lengths of two edges:
-// thicker than 2^-32 of the extent. A cloud of rank 2 is in a slab of 2^-35 of the extent.
+// Returns a limit for V, six times the volume of a tetrahedron. If V is above the limit, the tetrahedron
+// clearly spans a solid: every slab around it is thicker than V / (3 extent^2), because 3 extent^2 is the
+// largest possible product of the lengths of two edges. This is more than 2^-32 of the extent. A cloud of
+// rank 2 is in a slab of 2^-35 of the extent.
 double clear_volume(double extent) {
   return 0x1p-30 * extent * extent * extent;
 }
 
-// Whether four points, evenly spaced in the view, clearly span a solid. They decide for nearly all clouds, in
-// 20 ns; the box of 300 points takes 220 ns.
+// Returns whether four points, evenly spaced in the view, clearly span a solid. They do so for nearly all
+// clouds. The check takes 20 ns. Fitting the box of 300 points takes 220 ns.
 bool four_points_span_solid(const PointView& points, double extent) {
   const std::size_t step = points.count / 4;
   const Coordinates p = load_point(points, 0), a = load_point(points, step), b = load_point(points, 2 * step),
@@ -38,9 +39,9 @@ bool four_points_span_solid(const PointView& points, double extent) {
   return std::abs(dot3(normal, vector(c) - vector(p))) > clear_volume(extent);
 }
 
-// A simplex that grows point by point. A point is added, and raises the rank, if it is farther than a limit
-// from the point, line or plane of the points before. A triangle that is added is in no strip thinner than
-// 2^-19 of the extent.
+// A simplex that grows point by point. A point is added, and increases the rank, if it is farther than a
+// limit from the point, line or plane of the points before. No strip thinner than 2^-19 of the extent
+// contains the triangle of the first three points.
 class Simplex {
  public:
   explicit Simplex(double extent)
@@ -70,8 +71,9 @@ class Simplex {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), edge_ = origin_, normal_ = origin_;
 };
 
-// Whether a few points span `dimensions` dimensions so clearly that the exact definition cannot give fewer.
-// Tries four evenly spaced points of each chunk and all points of the first chunk, as far as they are needed.
+// Returns whether a few points span `dimensions` dimensions so clearly that the exact definition cannot give
+// fewer. Tries four evenly spaced points of each chunk and all points of the first chunk, and stops as soon
+// as these dimensions are spanned.
 bool clearly_spans(const PointView& points, double extent, int dimensions) {
   if (dimensions == 3 && points.source == nullptr && four_points_span_solid(points, extent)) return true;
   Simplex simplex(extent);
@@ -120,7 +122,7 @@ Outermost farthest(const PointView& points, const Execution& execution, const Me
   return best;
 }
 
-// Completes the axes by those that the points do not span.
+// Sets the axes of the dimensions that the points do not span.
 void complete_axes(Span& span) {
   const Eigen::Vector3d first = span.axes.col(0);
   if (span.rank == 1) span.axes.col(1) = PlaneBasis(first).u;
@@ -131,7 +133,7 @@ void complete_axes(Span& span) {
 
 Span span_of(const PointView& points, double scale, const Execution& execution) {
   Span span;
-  // All distances are 0: the tie rule selects the first point in lexicographic order.
+  // All distances are 0 here, so that the tie rule selects the first point in lexicographic order.
   const Coordinates start = farthest(points, execution, [](const Coordinates&) { return 0.0; }).point;
   const auto across = [&](const Coordinates& p) {
     Eigen::Vector3d q = (vector(p) - vector(start)) * scale;
@@ -147,8 +149,8 @@ Span span_of(const PointView& points, double scale, const Execution& execution) 
     const double distance = std::sqrt(found.squared_distance);
     if (!(distance > kFlat)) break;
     Eigen::Vector3d q = across(found.point);
-    // Orthogonalise once more: a removed component that was thousands of times longer has left its rounding
-    // error.
+    // Orthogonalise once more, because a removed component may have been thousands of times longer than q and
+    // its rounding error is still in q.
     for (int k = 0; k < span.rank; ++k)
       q -= dot3(span.axes.col(k), q) * span.axes.col(k);
     span.axes.col(span.rank) = unit3(q);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The rank of a cloud: the number of dimensions that it spans. All methods use this one definition.
+// The rank of a cloud, which is the number of dimensions that it spans. All methods use this definition.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,33 +12,33 @@
 
 namespace pcl_bv {
 
-/// Points that are thinner than this are flat. The unit is the extent rounded down to a power of two. In this
-/// unit the rounding of doubles moves points by about 2^-52, which is 2^-16 of the limit.
+/// Limit of the thickness below which points are flat. The unit is the extent rounded down to a power of two.
+/// In this unit the rounding of doubles moves points by about 2^-52, which is 2^-16 of the limit.
 inline constexpr double kFlat = 0x1p-36;
 
-/// The dimensions that points span, found one after another. p0 is the first point in lexicographic order of
-/// (x, y, z). p1 is the point farthest from p0, p2 from the line p0 p1, p3 from the plane p0 p1 p2; of
-/// equally far points the first in lexicographic order.
+/// The dimensions that points span. p0 is the first point in lexicographic order of (x, y, z). p1 is the
+/// point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
+/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken.
 struct Span {
   int rank = 0;  ///< Number of these three distances before the first that is not above kFlat.
 
-  /// Orthonormal. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the columns
-  /// before.
+  /// Orthonormal axes. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the
+  /// columns before it.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
-  /// The three distances in local units; kFlat for each distance that is not above it.
+  /// The three distances in local units. A distance that is not above kFlat is replaced by kFlat.
   Eigen::Vector3d distances = Eigen::Vector3d::Constant(kFlat);
 };
 
-/// Computes the span of a cloud with at least one valid point; `scale` is LocalFrame::scale() of the cloud.
-/// The same for every execution and every order of the points. O(n): a pass for p0 and a pass for each
-/// distance. Needs a FloatEnvironment.
+/// Computes the span of a cloud with at least one valid point. `scale` is LocalFrame::scale() of the cloud.
+/// The result is the same for every execution and every order of the points. O(n), in one pass for p0 and one
+/// pass for each distance. Needs a FloatEnvironment.
 Span span_of(const PointView& points, double scale, const Execution& execution);
 
-/// Returns the rank of span_of(); 0 without a valid point. `supports` must be of the same points. Four points
-/// that clearly span a solid decide; for nearly all clouds, these are the first four points inspected. O(n)
-/// if a cloud is flat to 2^-30 of its extent, unless its plane is perpendicular to a coordinate axis. Needs a
-/// FloatEnvironment.
+/// Returns the rank that span_of() defines, or 0 without a valid point. `supports` must be of the same
+/// points. If four points clearly span a solid, the rank is 3. For nearly all clouds, the first four points
+/// inspected do. O(n) if a cloud is flat to 2^-30 of its extent, unless its plane is perpendicular to a
+/// coordinate axis. Needs a FloatEnvironment.
 int point_rank(const PointView& points, const Supports& supports, const Execution& execution);
 
 }  // namespace pcl_bv

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks for points of a source that changed between the passes of a fit. Each pass compares its points with
-// the results of the first pass. Otherwise changed points could leave a list empty that must not be, or
-// exceed the range that the first pass found.
+// Detects that a source's points changed between the passes of a fit. Each pass compares its points with the
+// results of the first pass. Without this check, changed points could leave a list empty that must have
+// elements, or could be outside the range that the first pass found.
 #pragma once
 
 #include <stdexcept>

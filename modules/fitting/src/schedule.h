@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Decides how many threads pay off. Starting threads costs microseconds; on an idle pool tens of
-// microseconds.
+// Decides how many threads are worth their start. Starting threads costs microseconds, on an idle pool tens
+// of microseconds.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace pcl_bv {
 
-/// Returns the policy with at most one thread per 100 us of work; Serial if the work takes one thread less
-/// than 200 us.
+/// Returns the policy with at most one thread per 100 us of work. If one thread needs less than 200 us for
+/// the work, returns Serial.
 inline ParallelPolicy worthwhile(const ParallelPolicy& policy, double serial_seconds) {
   if (serial_seconds < 200e-6) return Serial{};
   return limit_threads(policy, static_cast<unsigned>(std::min(serial_seconds / 100e-6, 1024.0)));
 }
 
-/// Kinds of work, for each point, plane or vertex.
+/// Kinds of work on one point, plane or vertex.
 enum class Work {
   box,
   cube_support,
@@ -29,12 +29,12 @@ enum class Work {
   rank,
   verify,
   hull_plane,
-  silhouette  ///< A hull's vertex in a silhouette and in the rotating calipers.
+  silhouette  ///< One vertex of a hull, in the silhouette and in the rotating calipers.
 };
 
-/// Returns the time that one thread needs, in nanoseconds: for each point; for supports for each point and
-/// direction; for hulls for each plane or vertex. Only the order of magnitude matters. Measured on a Zen 5
-/// with the points in the third-level cache.
+/// Returns the time in nanoseconds that one thread needs per point. For supports it is the time per point and
+/// direction, for hull_plane the time per plane, for silhouette the time per vertex. Only the order of
+/// magnitude matters. Measured on a Zen 5 with the points in the third-level cache.
 constexpr double nanoseconds(Work work, Isa isa) {
   struct Cost {
     double scalar, bits128, avx2, avx512;
@@ -56,7 +56,7 @@ constexpr double nanoseconds(Work work, Isa isa) {
                               : cost.bits128;
 }
 
-/// Returns the policy for a pass over `count` items: points, or points times directions.
+/// Returns the policy for a pass over `count` items. An item is what nanoseconds() gives the time for.
 inline ParallelPolicy worthwhile(const Execution& execution, Work work, std::size_t count) {
   return worthwhile(execution.parallel, 1e-9 * nanoseconds(work, execution.isa) * static_cast<double>(count));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A vector that does not allocate while it is short. A sweep has thousands of small clusters, whose fits must
-// not allocate.
+// A vector that does not allocate memory while it is short. A sweep can have thousands of small clusters,
+// whose fits must not allocate.
 #pragma once
 
 #include <boost/container/small_vector.hpp>

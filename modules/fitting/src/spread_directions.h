@@ -11,9 +11,9 @@
 
 namespace pcl_bv {
 
-/// Returns the 49 directions with components 0, +-1 and +-2 of which none is a multiple of another. Every
-/// direction is within 15 degrees of one of them or of its opposite. They are the 13 directions of the cube
-/// and the types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008.
+/// Returns the 49 directions with components 0, +-1 and +-2 of which none is a multiple of another. They are
+/// the 13 directions of the cube and the types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008. Every direction
+/// is within 15 degrees of one of the 49 or of its opposite.
 std::vector<Direction> spread_directions();
 
 /// Returns the points with the minimum or the maximum projection along one of the directions, in the order of

@@ -21,7 +21,7 @@
 namespace pcl_bv {
 namespace {
 
-// Results of one chunk. `Found` is the result of a search for supports, or only a box.
+// Results of one chunk. `Found` is the result of a search for supports, only a box, or nothing.
 template <typename Found>
 struct Part {
   Found supports;
@@ -51,8 +51,9 @@ void finish(Moments moments, CloudSummary& summary) {
   }
 }
 
-// One pass: search(chunk) and the moments of each chunk in parallel, merge(found) in order. Returns the
-// moments of all points.
+// Makes one pass over the points. Calls search(chunk) and computes the moments of each chunk in parallel.
+// Calls merge(found) in the order of the chunks. `count` is the amount of work, as for worthwhile(). Returns
+// the moments of all points.
 template <typename Found, typename Search, typename Merge>
 Moments pass(const PointView& points, const Execution& execution, std::size_t count, const Search& search,
              const Merge& merge) {
@@ -71,7 +72,7 @@ Moments pass(const PointView& points, const Execution& execution, std::size_t co
   return moments.total();
 }
 
-// Summary of points whose supports and moments are known already.
+// Returns the summary of points whose supports and moments are known already.
 CloudSummary known_summary(const Supports& supports) {
   CloudSummary summary;
   summary.supports = supports;
@@ -89,7 +90,7 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
-  // Twice: the moments cost about as much as the supports.
+  // The factor 2 is there because the moments take about as much time as the supports.
   const Moments moments = pass<ChunkSupports>(
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
@@ -114,7 +115,8 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
     return summary;
   }
   summary.supports = empty_bounds(points);
-  // The moments cost about as much as a 26-DOP, the box next to nothing.
+  // The count is that of the supports of a 26-DOP, because the moments take about as much time. The time of
+  // the box is negligible.
   const Moments moments = pass<AxisExtents>(
       points, execution, kMaxDirections * points.count,
       [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },

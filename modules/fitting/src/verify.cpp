@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact predicates in rational arithmetic. A double computation with a rigorous error bound first accepts
-// nearly all points that are inside.
+// Exact predicates in rational arithmetic. Before that, a double computation with a rigorous error bound
+// accepts nearly all points that are inside.
 
 #include "pcl_bv/fitting/verify.h"
 
@@ -34,8 +34,8 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// Converts an exact excess to a distance, excess / scale. The result is 0 only if the excess is not positive,
-// so only if the point is inside by exact arithmetic.
+// Converts an exact excess to the distance excess / scale. The result is 0 only if the excess is not
+// positive, which means that the point is inside by exact arithmetic.
 double excess_distance(const Rational& excess, double scale) {
   if (excess <= 0) return 0.0;
   return std::max(static_cast<double>(excess) / scale, std::numeric_limits<double>::denorm_min());
@@ -51,7 +51,7 @@ double violation(const Aabb& box, const Eigen::Vector3d& p) {
   return worst;
 }
 
-// Upper bound of the rounding error of n . p in double.
+// Returns an upper bound of the rounding error of n . p in double arithmetic.
 double dot_error(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
   return 8 * kUnitRoundoff * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
 }
@@ -112,8 +112,8 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
   return worst;
 }
 
-// With U = 2^-53: q = p - center is off by U of itself, and the axis has about length 1. The errors of
-// q . axis and of |q x axis|, including that of the axis' length, are below 32 U |q|_1.
+// Let U = 2^-53. q = p - center has a relative error of U, and the axis has about length 1. The errors of
+// q . axis and of |q x axis|, including the error of the axis' length, are below 32 U |q|_1.
 double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
@@ -201,7 +201,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
 
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  constexpr std::size_t chunk_points = 4096;  // few: a point that needs rationals takes a microsecond
+  constexpr std::size_t chunk_points = 4096;  // small, because a point that needs rationals takes 1 us
   const auto check = [&](std::size_t chunk) {
     const std::size_t begin = chunk * chunk_points;
     const LoadedPoints part(points, begin, std::min(chunk_points, points.count - begin));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The temporary file is in the target's folder, so on the same file system: this makes the rename atomic.
+// The temporary file is in the target's folder, because rename() is atomic only within one file system.
 #include "pcl_bv/io/atomic_file.h"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ using Pieces = std::vector<std::string_view>;
 
 const char cannot_write[] = "cannot write: ";
 
-// Throws IoError with the reason in errno if a call failed.
+// Throws IoError with the reason in errno if `success` is false.
 void require(bool success) {
   if (!success) throw IoError(cannot_write + system_reason(errno));
 }
@@ -42,7 +42,7 @@ void write_all(const FileDescriptor& file, const Pieces& pieces) {
   }
 }
 
-// EINVAL is ignored: some file systems return it for the fsync of a folder.
+// Ignores EINVAL, because some file systems return it for the fsync of a folder.
 void sync_to_disk(const FileDescriptor& file) {
   int failed = 0;
   do
@@ -51,15 +51,15 @@ void sync_to_disk(const FileDescriptor& file) {
   require(failed == 0 || errno == EINVAL);
 }
 
-// 64 random bits, and O_EXCL at opening, so that no two writers share a temporary file, even on different
-// machines.
+// Returns a name with 64 random bits. Together with O_EXCL at opening, no two writers share a temporary file,
+// even on different machines.
 fs::path temporary_name() {
   std::random_device random;
   return ".pcl_bv-" + std::to_string(random()) + "-" + std::to_string(random()) + ".tmp";
 }
 
-// The existing temporary files. `ended`: no further ones may be created. Never destroyed, since other threads
-// may run until the process ends.
+// The existing temporary files. If `ended`, no others may be created. The object is never destroyed, because
+// other threads may run until the process ends.
 struct Temporaries {
   std::mutex mutex;
   std::vector<fs::path> paths;
@@ -76,7 +76,7 @@ Temporaries& temporaries() {
   return *all;
 }
 
-// Registers the name of a temporary file, and removes file and registration at destruction.
+// Registers the name of a temporary file. The destructor removes the file and the registration.
 class TemporaryName {
  public:
   explicit TemporaryName(fs::path path) : path_(std::move(path)) {
@@ -119,7 +119,8 @@ void write_file_atomically(const fs::path& path, std::initializer_list<std::stri
 }
 
 void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
-  // A symbolic link stays, and its target is replaced; but rename must not replace the target of /dev/stdout.
+  // A symbolic link stays, and its target is replaced. The target of /dev/stdout must not be replaced by
+  // rename().
   struct stat old;
   const bool exists = ::stat(link_or_file.c_str(), &old) == 0;
   const bool special =
@@ -134,7 +135,7 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   const fs::path path = exists && !unresolved ? resolved : link_or_file;
   if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
   const fs::path folder = path.parent_path();
-  // Open the folder first: if it cannot be synchronised, the old file must not be replaced.
+  // Open the folder first, because the old file must not be replaced if the folder cannot be synchronised.
   const FileDescriptor folder_descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0,
                                          cannot_write);
   const TemporaryName name(folder / temporary_name());

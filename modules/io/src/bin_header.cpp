@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t kMinFields = 3, kMaxFields = 32;
 
-// Number of floats that are checked: about 2000 points are enough and take 0.1 ms.
+// Number of floats that are checked. These are about 2000 points, which are enough and take 0.1 ms.
 constexpr std::size_t kSampledFloats = 8192;
 
-// Alternative numbers of fields that are tried.
+// Numbers of fields that are tried in addition to the assumed number.
 constexpr std::size_t kAlternativeFields[] = {3, 4, 5, 6, 7, 8};
 
 std::size_t default_field_count(const std::filesystem::path& path) {
@@ -38,8 +38,8 @@ bool is_implausible_coordinate(float value) {
   return !(magnitude <= 1e7F) || (magnitude < 1e-20F && magnitude != 0);
 }
 
-// The median difference between values that are `distance` floats apart: robust against a small number of
-// jumps. Differences of NaN (lost beams) are ignored.
+// Returns the median difference between values that are `distance` floats apart. The median is robust against
+// a small number of jumps. Differences with NaN (lost beams) are ignored.
 float median_difference(const std::vector<float>& values, std::size_t distance) {
   std::vector<float> differences;
   for (std::size_t i = 0; i + distance < values.size(); ++i) {
@@ -52,8 +52,9 @@ float median_difference(const std::vector<float>& values, std::size_t distance) 
   return *middle;
 }
 
-// The smallest other number of fields with which successive records differ clearly less, or 0. Multiples of
-// the true number also give small differences: hence the factor of 3, and the smallest number.
+// Returns the smallest other number of fields with which successive records differ clearly less, or 0.
+// Multiples of the true number also give small differences. Therefore the factor is 3, and the smallest
+// number is returned.
 std::size_t better_field_count(const std::vector<float>& values, std::size_t fields, std::size_t file_size) {
   if (values.size() < 16 * fields) return 0;
   const float own = median_difference(values, fields);

@@ -23,7 +23,7 @@ struct CloudFile::Opened {
 
 namespace {
 
-// Bytes of a part of the file. When reading enters a new part, the following part is prefetched.
+// Bytes of a part of the file. When load() enters a new part, the following part is prefetched.
 constexpr std::size_t kAhead = std::size_t{8} << 20;
 
 // Maximum size in bytes of records that are used as they are, without packing their coordinates.
@@ -32,7 +32,8 @@ constexpr std::size_t kShortRecord = 64;
 // Bytes of longer records that are read at a time.
 constexpr std::size_t kPiece = std::size_t{256} << 10;
 
-// The header of a binary .pcd or a .bin (by the file's name); nullopt for all other formats.
+// Returns the header of a binary .pcd or a .bin file (by its extension). Returns nullopt for all other
+// formats.
 std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesystem::path& path,
                                        std::size_t bin_fields) {
   const std::string extension = lower_case_extension(path);
@@ -48,13 +49,13 @@ void prefetch(const InputFile& file, std::size_t from, std::size_t to) {
   if (from / kAhead != to / kAhead) file.prefetch((to / kAhead + 1) * kAhead, kAhead);
 }
 
-// Never shrinks the buffer: growing again would fill the new part with zeros.
+// Never shrinks the buffer, because growing it again would fill the new part with zeros.
 void grow(std::vector<std::byte>& buffer, std::size_t bytes) {
   if (buffer.size() < bytes) buffer.resize(bytes);
 }
 
 // Packs the coordinates of the records from `offset` on into the beginning of the buffer. The records are
-// read piece by piece into the buffer's end.
+// read piece by piece into the end of the buffer.
 void pack(const InputFile& file, std::size_t offset, std::size_t step, const CoordinateFields& fields,
           std::size_t count, std::vector<std::byte>& buffer) {
   const std::size_t packed = 3 * size_of(fields.scalar);

@@ -12,7 +12,8 @@
 namespace pcl_bv {
 namespace {
 
-// A size known at compile time turns each copy into one load and one store. Nearly all fields have 4 bytes.
+// A size that is known at compile time turns each copy into one load and one store. Nearly all fields have 4
+// bytes.
 template <std::size_t bytes>
 constexpr std::integral_constant<std::size_t, bytes> fixed;
 
@@ -27,7 +28,7 @@ bool is_coordinate(const PointField& field) {
   return field.count == 1 && (field.type != 'F' || field.size >= 4);
 }
 
-// Whether float32 represents every value of the field's type exactly.
+// Returns whether float32 represents every value of the field's type exactly.
 bool fits_float32(const PointField& field) {
   return field.type == 'F' ? field.size == 4 : field.size <= 2;
 }
@@ -37,7 +38,7 @@ std::array<const PointField*, 3> find_coordinates(const std::vector<PointField>&
   return {find_field(fields, names[0]), find_field(fields, names[1]), find_field(fields, names[2])};
 }
 
-// Above 2^53 doubles do not represent every integer.
+// Converts to double. Throws IoError for integers above 2^53 in magnitude, which may not be exact doubles.
 template <typename T>
 double exact_double(T value) {
   if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Interprets the fields of records, and copies them between records and arrays.
+// Interprets the fields of records, and copies values between records and arrays.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace pcl_bv {
 
-/// Calls function with a value of the field's C++ type, as given by its type letter and size. The caller must
-/// refuse floating point of 1 or 2 bytes, which has no C++ type.
+/// Calls `function` with a value of the C++ type that matches the field's type letter and size. The caller
+/// must refuse floating point of 1 or 2 bytes, which has no C++ type.
 template <typename Function>
 auto with_element_type(const PointField& field, const Function& function) {
   const bool is_signed = field.type == 'I';
@@ -35,8 +35,8 @@ auto with_element_type(const PointField& field, const Function& function) {
   }
 }
 
-/// One side of a strided copy: the first element is `offset` bytes after `base`, and each following one
-/// `stride` bytes after its predecessor. `base` may be null if there are no elements.
+/// Source or target of a strided copy. The first element is `offset` bytes after `base`. Each following
+/// element is `stride` bytes after the previous element. `base` may be null if there are no elements.
 template <typename Byte>
 struct Strided {
   Byte* base;
@@ -46,13 +46,13 @@ struct Strided {
 using StridedSource = Strided<const std::byte>;
 using StridedTarget = Strided<std::byte>;
 
-/// Copies `count` elements of `bytes` bytes each. The two must not overlap.
+/// Copies `count` elements of `bytes` bytes each. Source and target must not overlap.
 void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::size_t count);
 
 /// Returns the first field of this name, or null.
 const PointField* find_field(const std::vector<PointField>& fields, std::string_view name);
 
-/// Whether the name is x, y, z, X, Y or Z.
+/// Returns whether the name is x, y, z, X, Y or Z.
 bool is_coordinate_name(std::string_view name);
 
 /// Offsets and types of x, y and z in the record.
@@ -60,32 +60,35 @@ struct CoordinateFields {
   std::array<std::size_t, 3> offset{};
   std::array<char, 3> type{};
   std::array<std::uint32_t, 3> size{};
-  /// Type of the coordinates in views: float32 if it represents all values of their types, else float64.
+  /// Type of the coordinates in views. It is float32 if float32 represents all values of the three types,
+  /// else float64.
   ScalarType scalar = ScalarType::float32;
-  bool readable = false;  ///< All three exist, with one element each, of a supported type.
-  bool adjacent = false;  ///< They are adjacent in this order, of type `scalar`: no copy is needed.
+  bool readable = false;  ///< All three fields exist, with one element each, of a supported type.
+  bool adjacent = false;  ///< The fields are adjacent in this order, of type `scalar`. No copy is needed.
 };
 
-/// Finds the coordinates of a record; `readable` is false if there are none.
+/// Finds the coordinates in the record. CoordinateFields::readable is false if there are none.
 CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
 
-/// A view of the coordinates in these records, without a copy. Requires `fields.adjacent`.
+/// Returns a view of the coordinates in these records, without a copy. Requires `fields.adjacent`.
 PointView view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                   std::size_t point_step);
 
-/// Calls check_coordinates(), except for a cloud without points and without readable coordinates: its fields
-/// become x, y and z as float32, since filters that remove all points write no fields.
+/// Calls check_coordinates(), except for a cloud without points and without readable coordinates. The fields
+/// of such a cloud become x, y and z as float32, because filters that remove all points often write no
+/// fields.
 void require_coordinates(RawCloud& cloud);
 
 /// Appends a warning to the cloud's note.
 void add_note(RawCloud& cloud, const std::string& note);
 
-/// Whether the viewpoint (tx ty tz qw qx qy qz) has a translation or rotation. All zeros is treated as the
-/// identity.
+/// Returns whether the viewpoint (tx ty tz qw qx qy qz) has a translation or rotation. All zeros are treated
+/// as the identity.
 bool is_not_identity(const std::array<double, 7>& viewpoint);
 
 /// Copies the coordinates of these records to `xyz` in the layout of packed_points(), converted to
-/// `fields.scalar`. Throws IoError for an integer above 2^53 in magnitude, which may have no exact double.
+/// `fields.scalar`. Throws IoError for an integer above 2^53 in magnitude, because a double may not represent
+/// it exactly.
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz);
 

@@ -22,8 +22,8 @@ std::string kind_of(const PointField& field) {
   return (field.type == 'U' ? "an unsigned integer of " : "an integer of ") + bytes;
 }
 
-// Reads a negative integer into an unsigned field with the wrap-around of a C++ conversion: many programs
-// write -1 for "none" into unsigned fields.
+// Reads a negative integer into an unsigned field with the wrap-around of a C++ conversion, because many
+// programs write -1 for "none" into unsigned fields.
 bool read_negative(std::string_view word, const PointField& field, std::byte* to) {
   double number = 0;
   if (field.type != 'U' || !read_number(word, number)) return false;

@@ -17,20 +17,20 @@
 
 namespace pcl_bv {
 
-/// Values that are not numbers of their field's type become NaN, or 0 in integer fields, and are counted.
-/// Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and are not counted.
-/// Thread-safe; the report depends only on the file.
+/// Replaces and counts invalid values, which are not numbers of their field's type. They become NaN, or 0 in
+/// integer fields. Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and
+/// are valid. Thread-safe. The report depends only on the file.
 class InvalidValues {
  public:
-  /// `row`: word for a row in messages; `first_number`: number of the first row. The cloud must outlive this
-  /// object, and its `data` must have its final size.
+  /// `row` is the word for a row in messages, and `first_number` is the number of the first row. The cloud
+  /// must outlive this object, and its `data` must have its final size.
   InvalidValues(const RawCloud& cloud, std::string_view row, std::size_t first_number);
 
-  /// Skips the value at the cursor, an element of this field, and writes its replacement to `to`. Returns
-  /// false and does nothing if the field is a coordinate or the row has no more values.
+  /// Skips the value at the cursor, an element of this field, and writes the replacement to `to`. If the
+  /// field is a coordinate or the row has no more values, returns false and does nothing.
   bool replace_value(TextRows& rows, std::size_t field, std::byte* to);
 
-  /// Adds the fields with such values to the cloud's note and invalid_fields.
+  /// Adds the fields with invalid values to the cloud's note and to RawCloud::invalid_fields.
   void report(RawCloud& cloud) const;
 
  private:

@@ -23,14 +23,14 @@ constexpr int kNewestMinor = 5;
 // Layout of a record, by point format.
 struct PointFormat {
   std::size_t bytes;                                       // minimum; files may have extra bytes
-  std::size_t time, color;                                 // offsets, 0: none
+  std::size_t time, color;                                 // offsets; 0 if the format has no such field
   bool wide() const { return bytes >= 30 && time == 22; }  // formats 6 to 10
 };
 constexpr PointFormat kFormats[] = {{20, 0, 0},   {28, 20, 0},  {26, 0, 20}, {34, 20, 28},
                                     {57, 20, 0},  {63, 20, 28}, {30, 22, 0}, {36, 22, 30},
                                     {38, 22, 30}, {59, 22, 0},  {67, 22, 30}};
 
-// A number of a few bits within a byte, named as in laspy and PDAL.
+// A number of a few bits within a byte. The names are as in laspy and PDAL.
 struct PackedField {
   const char* name;
   std::size_t byte;
@@ -98,15 +98,16 @@ void add_fields(const PointFormat& format, LasHeader& header) {
 
 const PointFormat& point_format(const HeaderBytes& bytes) {
   const auto format = bytes.at<std::uint8_t>(104);
-  if (format >= 128)  // the bits that LASzip sets
+  if (format >= 128)  // LASzip sets these bits
     throw IoError("compressed (LAZ) points cannot be read; unpack them first, with laszip or pdal");
   if (format >= std::size(kFormats))
     throw IoError("header: point format " + std::to_string(format) + " is not one of 0 to 10");
   return kFormats[format];
 }
 
-// From 1.4 on the 64-bit count decides. The legacy count is used only if a writer left the 64-bit count 0 and
-// the point format is 0 to 5: it is not valid for formats 6 to 10.
+// Returns the number of points. From version 1.4 on, the 64-bit count decides. The legacy count is used only
+// if a writer left the 64-bit count 0 and the point format is 0 to 5. The legacy count is not valid for
+// formats 6 to 10.
 std::size_t point_count(const HeaderBytes& bytes, int minor, const PointFormat& format, RawCloud& cloud) {
   const auto legacy = bytes.at<std::uint32_t>(107);
   if (minor < 4) return legacy;
@@ -119,7 +120,7 @@ std::size_t point_count(const HeaderBytes& bytes, int minor, const PointFormat& 
   return use_legacy ? legacy : count;
 }
 
-// Whether an extended variable length record that begins at `at` fits in the file.
+// Returns whether an extended variable length record that begins at `at` fits in the file.
 bool is_extended_record(const InputFile& file, std::size_t at) {
   constexpr std::size_t header = 60, length = 20;
   if (at > file.size() || file.size() - at < header) return false;
@@ -128,8 +129,8 @@ bool is_extended_record(const InputFile& file, std::size_t at) {
   return bytes <= file.size() - at - header;
 }
 
-// Upper limit for the end of the point data: the start of the extended records behind it (waveforms or other
-// data), or the end of the file.
+// Returns an upper limit for the end of the point data, which is the start of the extended records behind it
+// (waveforms or other data), or the end of the file.
 std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
   std::size_t end = file.size();
   const auto stop_at = [&](std::size_t at) {

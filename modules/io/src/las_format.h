@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The header and the fields of .las files, shared by the reader's parts.
+// The header and the fields of .las files, and functions that read them.
 #pragma once
 
 #include <array>
@@ -16,9 +16,10 @@ namespace pcl_bv {
 
 /// One field other than x, y and z.
 struct LasColumn {
-  std::size_t from, to;  ///< Offset in the file's record and in the cloud's record.
+  std::size_t from, to;  ///< Offset in the file's record, and in the cloud's record.
   std::uint32_t size;    ///< Bytes: 1, 2 or 8.
-  unsigned shift, mask;  ///< Bits of the field, if it has 1 byte.
+  /// If `size` is 1, the field's value is (byte >> shift) & mask, because several fields can share a byte.
+  unsigned shift, mask;
 };
 
 struct LasHeader {
@@ -29,7 +30,7 @@ struct LasHeader {
   std::array<double, 3> scale{}, offset{};
 };
 
-/// Throws IoError.
+/// Reads the header. Throws IoError if it is invalid.
 LasHeader read_las_header(const InputFile& file);
 
 /// Reads the points into header.cloud.data. Throws IoError.

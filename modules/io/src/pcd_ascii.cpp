@@ -56,7 +56,7 @@ class PointRow {
   }
 
  private:
-  // Handles value number `read` of the row (from 0), which is missing or not a number of its field's type.
+  // Handles value number `read` of the row (from 0) if it is missing or not a number of its field's type.
   void replace_value(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +
@@ -83,7 +83,7 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
   RawCloud& cloud = header.cloud;
   check_types(cloud);
   const std::size_t available = file.size() - header.data_offset;
-  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
+  // Each value takes at least a digit and a separator. Only the last value of the file may have no separator.
   const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " + std::to_string(values) +

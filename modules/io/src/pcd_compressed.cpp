@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The block is two uint32 sizes (packed, unpacked) and the LZF stream of all x, then all y, and so on.
+// The block is two uint32 sizes (packed, unpacked), then the LZF stream of all x, then all y, and so on.
 #include <liblzf/lzf.h>
 
 #include <algorithm>
@@ -19,11 +19,12 @@ struct BlockSizes {
   std::uint32_t unpacked;
 };
 
-// Three bytes of LZF unpack to at most 264 bytes (7 + 255 + 2), a factor of 88. The limit keeps a small file
-// from requesting much memory.
+// Maximum ratio of the unpacked to the packed size, so that a small file cannot request much memory. Three
+// bytes of LZF unpack to at most 264 bytes (7 + 255 + 2), a factor of 88.
 constexpr std::uint64_t kMaxExpansion = 88;
 
-// The compressed size must fit in a uint32, also for incompressible data, which LZF expands by 1 byte in 32.
+// The compressed size must fit in a uint32, also for incompressible data. LZF expands such data by 1 byte in
+// 32.
 constexpr std::size_t kMaxUnpackedBytes = 4'000'000'000;
 
 void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t needed) {
@@ -41,8 +42,8 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
   }
 }
 
-// Some writers store a block uncompressed if LZF does not shrink it. A block of equal packed and unpacked
-// size can also be LZF (which can expand data by 1 byte in 32), so LZF is tried first.
+// Unpacks a block. Some writers store a block uncompressed if LZF does not shrink it. A block of equal packed
+// and unpacked size can also be LZF (which can expand data by 1 byte in 32). Therefore LZF is tried first.
 void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
                                       static_cast<unsigned>(unpacked.size()));
@@ -51,7 +52,7 @@ void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   unpacked.swap(packed);
 }
 
-// Size of a block of records that stays in the cache while its fields are written one after another.
+// Bytes of a block of records that stays in the cache while all its fields are written.
 constexpr std::size_t block_bytes = 128 << 10;
 
 void interleave_columns(const ByteBuffer& columns, RawCloud& cloud) {

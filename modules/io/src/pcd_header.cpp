@@ -20,7 +20,8 @@ using KeywordLines = std::map<std::string_view, Words>;  // keyword -> the words
 constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                          "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
-// Adds the words of a line. Returns its keyword, or an empty text for a comment or an empty line.
+// Adds the words of a line to `lines`. Returns the line's keyword. For a comment or an empty line, returns an
+// empty text.
 std::string_view add_line(std::string_view line, KeywordLines& lines) {
   Words words = split(line);
   if (words.empty() || words[0][0] == '#') return {};
@@ -35,8 +36,8 @@ std::string_view add_line(std::string_view line, KeywordLines& lines) {
   return keyword;
 }
 
-// Some recorders write the line DATA twice when they rewrite the header. Then all points would be read from a
-// wrong offset. Real points never begin with such a line.
+// Returns whether the text begins with a line DATA. Some recorders write this line twice when they rewrite
+// the header. Then all points would be read from a wrong offset. Real points never begin with such a line.
 bool begins_with_data_line(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   const Words words = split(line);
@@ -45,15 +46,16 @@ bool begins_with_data_line(std::string_view text) {
              pcd_encoding_names.end();
 }
 
-// Collects the header lines up to the line DATA. Returns false if there is no such line in `start`. `more`:
-// the file is longer than `start`.
+// Collects the header lines to the line DATA. Returns false if there is no such line in `start`. `more` is
+// whether the file is longer than `start`.
 bool collect_header_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
     const std::size_t end = std::min(newline, start.size());
     const std::string_view line = start.substr(at, end - at);
-    // An incomplete last line is not interpreted, except a line DATA, or the only line, of the whole file.
+    // An incomplete line is not interpreted, unless the file ends with it and it is a line DATA or the only
+    // line.
     if (newline == std::string_view::npos && (more || (!lines.empty() && !line.starts_with("DATA"))))
       return false;
     const std::string_view keyword = add_line(line, lines);

@@ -55,7 +55,7 @@ class VertexRow {
     }
   }
 
-  // Throws for a value at the cursor that is missing or not of this type.
+  // Throws the error for a value at the cursor that is missing or not of this type.
   [[noreturn]] static void refuse(TextRows& rows, const PointField& value) {
     if (!rows.find_value()) {
       throw RowError{"truncated: vertex ", " has no more values for property " + in_quotes(value.name)};
@@ -83,12 +83,12 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   RawCloud& cloud = header.cloud;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t values = std::max<std::size_t>(header.vertex.properties.size(), 1);
-  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
+  // Each value takes at least a digit and a separator. Only the last value of the file may have no separator.
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
                   " properties do not fit in the " + std::to_string(available) + " bytes after the header");
   }
-  // A carriage return alone ends a row, too. If a line feed follows it, there is an empty row between them.
+  // A carriage return alone also ends a row. If a line feed follows it, there is an empty row between them.
   TextBody body{file, header.data_offset, true};
   for (const PlyElement& element : header.skipped)
     skip(body, element);

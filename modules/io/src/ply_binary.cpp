@@ -14,14 +14,14 @@
 namespace pcl_bv {
 namespace {
 
-/// Reads the bytes of a file in sequence, small values through a buffer of 64 KiB.
+/// Reads the bytes of a file in sequence. Small values are read through a buffer of 64 KiB.
 class ByteStream {
  public:
   ByteStream(const InputFile& file, std::size_t offset) : file_(file), at_(offset) {}
 
   std::size_t left() const { return file_.size() - at_; }
 
-  /// For the three functions below, `bytes` must be at most left().
+  /// For skip(), read_all() and read_few(), `bytes` must be at most left().
   void skip(std::size_t bytes) { at_ += bytes; }
   void read_all(std::byte* to, std::size_t bytes) {
     file_.read(at_, to, bytes);

@@ -35,7 +35,7 @@ PointField field_of(std::string_view type, std::string_view name) {
   throw IoError("header: invalid line " + in_quotes(line));
 }
 
-/// The lines of a header. All end like the first line: in "\n", in "\r\n", or in "\r" alone.
+/// The lines of a header. All lines end like the first line, which ends in "\n", in "\r\n", or in "\r" alone.
 class Lines {
  public:
   explicit Lines(std::string_view start) : start_(start) {
@@ -44,7 +44,7 @@ class Lines {
     if (end + 1 < start.size() && start[end + 1] != '\n') newline_ = '\r';
   }
 
-  /// Returns the next line; false if no line ends in the rest of the text.
+  /// Gets the next line. Returns false if no line ends in the rest of the text.
   bool next(std::string_view& line) {
     const std::size_t newline = start_.find(newline_, at_);
     if (newline == std::string_view::npos) return false;
@@ -96,7 +96,8 @@ struct Contents {
                         [](const PlyElement& element) { return element.name == "vertex"; });
   }
 
-  /// Whether the last element read follows the vertices. Its properties do not matter.
+  /// Returns whether the last element read follows the vertices. The properties of such an element do not
+  /// matter.
   bool last_follows_vertices() const { return elements.end() - vertex() > 1; }
 };
 
@@ -115,7 +116,7 @@ void read_line(const Words& words, std::string_view line, Contents& contents) {
   }
 }
 
-// Parses the header. Returns false if it does not end in `start`.
+// Parses the header. Returns false if the header does not end in `start`.
 bool read_contents(std::string_view start, Contents& contents, std::size_t& data_offset) {
   Lines lines(start);
   std::string_view line;

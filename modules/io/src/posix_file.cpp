@@ -38,8 +38,8 @@ FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags, uns
   if (fd_ < 0) throw IoError(context + system_reason(errno));
 }
 
-// O_NONBLOCK: opening a pipe without a writer must not block, so that it can be refused. It has no effect on
-// regular files.
+// O_NONBLOCK has no effect on regular files. For a pipe without a writer, opening must not block, because the
+// pipe must be refused.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
   opened_ = status_of(file_);
   if (S_ISDIR(opened_.st_mode)) throw IoError(system_reason(EISDIR));
@@ -63,10 +63,10 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
 }
 
 // fstat() describes the open file, whatever its name now refers to. If another file takes the name, the
-// number of links and st_ctim change, but not the content that is read here: hence `relinked`. Otherwise
-// st_ctim detects writers that restore st_mtim. Two changes stay undetected: writes within a tick of the
-// system's clock (4 ms) after the opening, and writes through an earlier mapping. CloudFile has checksums for
-// both.
+// number of links and st_ctim change, but not the content of the open file. In this case, `relinked`, st_ctim
+// is not compared. Otherwise st_ctim detects writers that restore st_mtim. Two changes stay undetected,
+// namely writes within a tick of the system's clock (4 ms) after the opening, and writes through an earlier
+// mapping. CloudFile detects them by checksums.
 void InputFile::require_unchanged() const {
   const struct stat now = status_of(file_);
   if (now.st_size < opened_.st_size) throw IoError(kCut);

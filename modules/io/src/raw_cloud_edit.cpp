@@ -26,7 +26,7 @@ void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t v
   }
 }
 
-// Returns the fields including the new one, all others still with their old offsets.
+// Returns the fields including the new one. All other fields still have their old offsets.
 std::vector<PointField> fields_with(const RawCloud& cloud, std::string_view name) {
   const auto named = [&](const PointField& field) { return field.name == name; };
   const PointField added{std::string(name), 'U', 4, 1, 0};

@@ -51,7 +51,7 @@ void read_points(const InputFile& file, PlyHeader& header, const ParallelPolicy&
   read_ply_binary(file, header);
 }
 
-// Reads a cloud; `read_header` reads its header.
+// Reads a cloud whose header is read by `read_header`.
 template <typename ReadHeader>
 RawCloud read_file(const std::filesystem::path& path, const ReadHeader& read_header,
                    const ParallelPolicy& policy) {
@@ -89,7 +89,7 @@ void refuse_other_formats(const std::filesystem::path& path) {
   const std::string extension = " " + lower_case_extension(path) + " ";
   for (const auto& [extensions, what] : kinds) {
     if (extensions.find(extension) == std::string_view::npos) continue;
-    static_cast<void>(InputFile(path));  // throws the more useful reason for a missing or empty file
+    static_cast<void>(InputFile(path));  // throws the more useful reason if the file is missing or empty
     throw IoError(std::string(what));
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fast path for the short decimal numbers of clouds: a dozen digits at most, of a magnitude near 1. Rounds
-// exactly as std::from_chars does, or leaves the number to it (Clinger 1990). Reads eight digits at a time
-// (Lemire 2021).
+// Fast path for the short decimal numbers of clouds, which have at most a dozen digits and a magnitude near
+// 1. It rounds exactly as std::from_chars does (Clinger 1990), or leaves the number to std::from_chars. It
+// reads eight digits at a time (Lemire 2021).
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ namespace pcl_bv {
 /// Number of bytes after the text that read_short_decimal() may read.
 inline constexpr std::size_t kTextPadding = 16;
 
-/// Whether the character separates values within a line: white space of C except the line feed.
+/// Returns whether the character separates values within a line. Blanks are C's white space except line feed.
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
-/// Whether the character ends a value: a blank or a line feed.
+/// Returns whether the character ends a value. Blanks and line feeds do.
 inline bool ends_value(char c) {
   return c == '\n' || is_blank(c);
 }
@@ -32,18 +32,18 @@ namespace internal {
 
 static_assert(std::endian::native == std::endian::little, "the first digit is the lowest byte");
 
-/// The digits at the beginning of eight characters.
+/// The digits at the beginning of a text of eight characters.
 struct DigitRun {
   unsigned length;      ///< Number of digits, 0 to 8.
-  std::uint64_t value;  ///< Their value as a decimal integer.
+  std::uint64_t value;  ///< The digits as a decimal integer.
 };
 
 inline DigitRun read_digit_run(const char* at) {
   std::uint64_t text;
   std::memcpy(&text, at, sizeof text);
   const std::uint64_t digits = text ^ 0x3030303030303030;  // bytes of digits become 0 to 9
-  // The highest bit marks a byte that is no digit. The addition can carry out of such a byte, but only into
-  // later bytes, which do not matter.
+  // The highest bit marks a byte that is not a digit. The addition can carry out of such a byte, but only
+  // into later bytes, which do not matter.
   const std::uint64_t others = (digits | (digits + 0x7676767676767676)) & 0x8080808080808080;
   const unsigned length = others == 0 ? 8U : static_cast<unsigned>(std::countr_zero(others)) / 8;
   const unsigned half_shift = 32 - 4 * length;  // applied twice, since a shift by 64 is undefined
@@ -65,22 +65,23 @@ inline constexpr std::array<double, kMaxExactPower + 1> double_powers{
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// The number digits * 10^exponent; digits < 1e18.
+/// The number digits * 10^exponent, where digits < 1e18.
 struct Decimal {
   std::int64_t digits;
   int exponent;
 
   bool has_power() const { return exponent <= kMaxExactPower && exponent >= -kMaxExactPower; }
 
-  /// The value, rounded twice: the digits to a double, then the product or quotient. Requires has_power().
+  /// Returns the value, rounded twice. First the digits become a double, then the product or quotient is
+  /// rounded. Requires has_power().
   double magnitude() const {
     const double factor = double_powers[static_cast<unsigned>(std::abs(exponent))];
     return exponent < 0 ? static_cast<double>(digits) / factor : static_cast<double>(digits) * factor;
   }
 };
 
-/// Rounds to the nearest double. Returns false if this is not possible here. Exact (Clinger 1990): the digits
-/// and the power of ten are doubles, so that only the product or quotient is rounded.
+/// Rounds to the nearest double. Returns false if the digits or the power of ten are not exactly a double.
+/// Otherwise only the product or quotient is rounded, so the result is exact (Clinger 1990).
 inline bool round_decimal(Decimal decimal, bool negative, double& value) {
   constexpr std::int64_t doubles_end = std::int64_t{1} << 53;
   if (decimal.digits > doubles_end || !decimal.has_power()) return false;
@@ -97,15 +98,15 @@ inline bool round_decimal(Decimal decimal, bool negative, float& value) {
   constexpr std::uint64_t middle = std::uint64_t{1} << 28, below_float = (middle << 1) - 1;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(magnitude);
   const bool near_middle = (bits & below_float) - (middle - 2) <= 4;
-  // The float is never denormal: a value other than 0 is at least 1e-22.
+  // The float is never denormal, because a value other than 0 is at least 1e-22.
   if (near_middle || magnitude > static_cast<double>(std::numeric_limits<float>::max())) return false;
   const float rounded = static_cast<float>(magnitude);
   value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) | std::uint32_t{negative} << 31);
   return true;
 }
 
-/// Reads an exponent such as "e-5", adds it to `exponent` and moves `at` behind it. Returns false if there is
-/// none of 1 to 3 digits.
+/// Reads an exponent such as "e-5", adds it to `exponent` and moves `at` behind the exponent. Returns false
+/// if there is no exponent of 1 to 3 digits.
 inline bool read_exponent(const char*& at, int& exponent) {
   ++at;
   const bool negative = *at == '-';
@@ -119,9 +120,9 @@ inline bool read_exponent(const char*& at, int& exponent) {
 
 }  // namespace internal
 
-/// Reads a number that is followed by a blank or a line end. Returns the position behind it, or null if this
-/// fast path cannot decide: the text may still be a valid number for std::from_chars. The text must be
-/// followed by kTextPadding bytes that begin with a line feed.
+/// Reads a number that is followed by a blank or a line end. Returns the position behind the number, or null
+/// if this fast path cannot decide. Then the text may still be a valid number for std::from_chars. The text
+/// must be followed by kTextPadding bytes that begin with a line feed.
 template <typename T>
 inline const char* read_short_decimal(const char* at, T& value) {
   static_assert(std::is_floating_point_v<T>);
@@ -141,7 +142,7 @@ inline const char* read_short_decimal(const char* at, T& value) {
                        static_cast<std::int64_t>(run.value);
       decimal.exponent -= static_cast<int>(run.length);
       at += run.length;
-    } while (*at >= '0' && *at <= '9');  // tests the character, since runs of 8 digits often end the number
+    } while (*at >= '0' && *at <= '9');  // not length == 8, because a run of 8 digits often ends the number
     has_digits = at - first > 1;
   }
   if (!has_digits) return nullptr;

@@ -12,8 +12,8 @@
 namespace pcl_bv {
 namespace {
 
-// Larger exponents are clamped to this value so that sums cannot overflow. The clamping cannot change a
-// result: no text has 2^62 digits that would compensate the exponent.
+// Larger exponents are clamped to this value, so that sums cannot overflow. The clamping cannot change a
+// result, because no text has 2^62 digits that would compensate the exponent.
 constexpr std::int64_t exponent_limit = std::int64_t{1} << 62;
 
 std::int64_t parse_exponent(std::string_view text) {
@@ -66,7 +66,7 @@ bool is_word(std::string_view text) {
 }
 
 // std::from_chars reports "out of range" for a float both for 1e39 and for 1e-46. The sign of the decimal
-// exponent distinguishes overflow from underflow, since all values from 1e-45 to 1e38 are in range.
+// exponent distinguishes overflow from underflow, because all values from 1e-45 to 1e38 are in range.
 double value_beyond_range(std::string_view number) {
   const bool negative = number.front() == '-';
   if (negative) number.remove_prefix(1);

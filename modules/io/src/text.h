@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parses and formats words and numbers, independent of the locale. Unlike std::from_chars, accepts "+1" and
-// gives values outside the range of a floating-point type (infinity or zero).
+// Parses and formats words and numbers, independently of the locale. Unlike std::from_chars, the parser
+// accepts "+1", and it reads values outside the range of a floating-point type as infinity or zero.
 #pragma once
 
 #include <charconv>
@@ -16,14 +16,14 @@
 
 namespace pcl_bv {
 
-/// Maximum size of a header in bytes. Most headers have 200 to 400 bytes, but some exporters store the scan's
-/// metadata in comments of 100 kB.
+/// Maximum size of a header in bytes. Most headers have 200 to 400 bytes, but some exporters store metadata
+/// of 100 kB in comments.
 inline constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 
-/// Calls parse(start, more) with the beginning of the file: 64 KiB, then more each time, until it returns
-/// true. `parse` returns false if the header does not end in `start`. `more`: the file is longer than
-/// `start`. Throws IoError, naming `last_line`, if the header does not end in the file or in kMaxHeaderBytes
-/// bytes.
+/// Calls parse(start, more) with the beginning `start` of the file until it returns true. The first `start`
+/// has 64 KiB, each later one is longer. `more` is whether the file is longer than `start`. parse() returns
+/// false if the header does not end in `start`. Throws IoError, naming `last_line`, if the header does not
+/// end in the file or in its first kMaxHeaderBytes bytes.
 void parse_header(const InputFile& file, const char* last_line,
                   const std::function<bool(std::string_view start, bool more)>& parse);
 
@@ -32,16 +32,16 @@ using Words = std::vector<std::string_view>;
 /// Returns the words of a line, which are separated by blanks.
 Words split(std::string_view line);
 
-/// Whether the text can be a field's name: not empty, without blanks and line ends.
+/// Returns whether the text can be a field's name, which is not empty and has no blanks and line ends.
 bool is_word(std::string_view text);
 
-/// Returns the value of a well-formed decimal number that std::from_chars reported as out of range: an
-/// infinity or a zero with the number's sign.
+/// Returns the value of a well-formed decimal number that std::from_chars reported as out of range. The value
+/// is infinity or zero with the number's sign.
 double value_beyond_range(std::string_view number);
 
-/// Reads the number at the beginning of [at, end). Floating point is rounded to nearest; "nan" and "inf" are
-/// numbers; integers must be in range. Returns the position behind the number, or null if there is none of
-/// this type.
+/// Reads the number at the beginning of [at, end). Floating point is rounded to nearest. "nan" and "inf" are
+/// numbers. Integers must be in range. Returns the position behind the number, or null if there is no number
+/// of this type.
 template <typename T>
 const char* parse_number(const char* at, const char* end, T& value) {
   if (end - at > 1 && at[0] == '+' && at[1] != '-') ++at;
@@ -56,7 +56,7 @@ const char* parse_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-/// Whether the whole word is a number of this type.
+/// Returns whether the whole word is a number of this type.
 template <typename T>
 bool read_number(std::string_view word, T& value) {
   const char* end = word.data() + word.size();

@@ -19,7 +19,7 @@
 namespace pcl_bv {
 namespace {
 
-// Fast path for "nan" as PCL writes it, which is frequent in organised clouds; std::from_chars reads all
+// Fast path for "nan" as PCL writes it, which is frequent in organised clouds. std::from_chars reads all
 // other forms.
 template <typename T>
 const char* read_nan(const char* at, T& value) {
@@ -31,7 +31,7 @@ const char* read_nan(const char* at, T& value) {
 // Reads an integer that is written with a decimal point or an exponent.
 template <typename T>
 const char* read_whole_number(const char* at, const char* end, T& value) {
-  constexpr double largest = 9007199254740992;  // above 2^53 doubles do not represent every integer
+  constexpr double largest = 9007199254740992;  // doubles do not represent every integer above 2^53
   double number = 0;
   const char* const after = parse_number(at, end, number);
   if (after == nullptr || !ends_value(*after) || !(std::abs(number) <= largest) ||
@@ -55,10 +55,10 @@ const char* read_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-// A piece is first read with 1/512 of its size beyond its end, where its last line usually ends.
+// A piece is first read with 1/512 of its size beyond its end, because its last line usually ends there.
 constexpr std::size_t kOverhangFraction = 512;
 
-// Offset behind the first line end at or after `from`, or npos.
+// Returns the offset behind the first line end at or after `from`, or npos.
 std::size_t behind_line_end(std::string_view text, std::size_t from) {
   const std::size_t newline = text.find('\n', from);
   return newline == std::string_view::npos ? newline : newline + 1;
@@ -76,10 +76,11 @@ class TextPieces {
   // Reads the lines of a piece into a reusable buffer, with the padding that TextRows needs. Returns an empty
   // text if no line begins in the piece. Throws IoError.
   std::string_view fetch(std::size_t piece, ByteBuffer& buffer) const {
-    // Also read the byte before the piece: if it is a line end, a line begins at the first byte of the piece.
+    // The byte before the piece is also read. If it is a line end, a line begins at the first byte of the
+    // piece.
     const std::size_t before = piece > 0 ? 1 : 0;
     const std::size_t begin = piece_begin(piece) - before;
-    const std::size_t inside = piece_begin(piece + 1) - begin;  // bytes up to the next piece
+    const std::size_t inside = piece_begin(piece + 1) - begin;  // bytes before the next piece
     std::size_t have = 0, first = 0, last = std::string_view::npos;
     for (std::size_t overhang = body_.piece_bytes / kOverhangFraction + 1;; overhang *= 2) {
       const std::size_t want = std::min(inside + overhang, body_.file.size() - begin);
@@ -125,8 +126,9 @@ std::size_t count_rows_one_by_one(std::string_view text) {
   return rows;
 }
 
-// Counts the rows fast: the lines that begin with a value. If a line begins with a blank, counts byte by byte
-// instead. Counters of 8 bits, enough for a block of 240 bytes, let the compiler vectorise the loop.
+// Counts the rows fast, as the lines that begin with a value. If a line begins with a blank, counts byte by
+// byte instead. Counters of 8 bits, which are enough for a block of 240 bytes, let the compiler vectorise the
+// loop.
 std::size_t count_rows(std::string_view text) {
   constexpr std::size_t block = 240;
   std::size_t rows = !text.empty() && !ends_value(text[0]), others = !text.empty() && is_blank(text[0]);
@@ -149,10 +151,10 @@ std::size_t count_rows(std::string_view text) {
   return others == 0 ? rows : count_rows_one_by_one(text);
 }
 
-// The numbers of the rows in a piece are known only when the rows of all pieces before it have been counted.
-// So several threads first count the rows of every piece, at a tenth of the cost of parsing, and then parse
-// every piece directly into its records. No thread waits for another, as it would if pieces were handed over
-// in order.
+// Reads rows with several threads. The numbers of the rows in a piece are known only when the rows of all
+// pieces before it have been counted. Therefore the threads first count the rows of all pieces, at a tenth of
+// the cost of parsing. Then they parse each piece directly into its records. No thread waits for another, as
+// it would if pieces were handed over in order.
 class RowReader {
  public:
   RowReader(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row, std::byte* records)
@@ -183,8 +185,8 @@ class RowReader {
   }
 
  private:
-  // Four successive pieces share a buffer. for_each_range throws the error of the first group that failed,
-  // which is the error of the first bad row.
+  // Four successive pieces share a buffer. for_each_range() throws the error of the first group that failed,
+  // which is the error of the first invalid row.
   template <typename Body>
   void over_pieces(const ParallelPolicy& policy, const Body& body) const {
     constexpr std::size_t group = 4;
@@ -195,8 +197,8 @@ class RowReader {
     });
   }
 
-  // Reads the rows of a piece as rows `row` to `stop` - 1. Returns the number after its last row, or stop + 1
-  // if the piece has further rows.
+  // Reads the rows of a piece as rows `row` to `stop` - 1. Returns the number after the last row that was
+  // read, or stop + 1 if the piece has further rows.
   std::size_t read_piece(std::size_t piece, std::size_t row, std::size_t stop, ByteBuffer& buffer) const {
     TextRows text(pieces_.fetch(piece, buffer));
     try {

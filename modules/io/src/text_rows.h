@@ -17,8 +17,8 @@
 
 namespace pcl_bv {
 
-/// A cursor over a text of rows (lines) of values separated by blanks. Does not own the text, which must be
-/// followed by kTextPadding readable bytes that begin with a line feed.
+/// A cursor over a text of rows (lines) of values separated by blanks. TextRows does not own the text. The
+/// text must be followed by kTextPadding readable bytes that begin with a line feed.
 class TextRows {
  public:
   explicit TextRows(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
@@ -38,13 +38,13 @@ class TextRows {
   }
 
   /// Reads the next values of the row as the elements of one field. Stops at the first value that is missing
-  /// or not a number of the field's type; returns the number of values before it. Integer fields accept whole
-  /// numbers in any notation (1.0, 1e3).
+  /// or not a number of the field's type. Returns the number of values before that value. Integer fields
+  /// accept whole numbers in any notation (1.0, 1e3).
   std::uint32_t read(const PointField& field, std::byte* to);
 
-  /// Reads all elements of one field. Calls on_invalid(index of the element, its target address) for each
-  /// value that is missing or not a number of the field's type; `on_invalid` must throw, or skip the value
-  /// and write another one to the target.
+  /// Reads all elements of one field. Calls on_invalid(index of the element, target address of the element)
+  /// for each value that is missing or not a number of the field's type. `on_invalid` must throw, or skip the
+  /// value and write another value to the target.
   template <typename OnInvalid>
   void read_all(const PointField& field, std::byte* to, const OnInvalid& on_invalid) {
     std::uint32_t found = read(field, to);
@@ -59,7 +59,7 @@ class TextRows {
   /// Moves behind the value at the cursor, without parsing it.
   void skip_value() { at_ += value().size(); }
 
-  /// The text of the value at the cursor.
+  /// Returns the text of the value at the cursor.
   std::string_view value() const;
 
  private:
@@ -67,22 +67,22 @@ class TextRows {
   const char* end_;
 };
 
-/// Adds the elements of the next field to `run`, so that both are read at once. Returns false and changes
-/// nothing if their types or sizes differ.
+/// Adds the elements of the next field to `run`, so that one call of TextRows::read() reads both fields.
+/// Returns false and changes nothing if their types or sizes differ.
 bool extend_run(PointField& run, const PointField& next);
 
-/// Bytes of text per piece: a piece and its records fit in the second-level cache.
+/// Bytes of text per piece. A piece and its records fit in the second-level cache.
 inline constexpr std::size_t kTextPieceBytes = 256 << 10;
 
 /// The rows of a file.
 struct TextBody {
   const InputFile& file;
   std::size_t begin;                          ///< Byte offset of the first row.
-  bool cr_ends_row;                           ///< A carriage return alone ends a row, too.
+  bool cr_ends_row;                           ///< Whether a carriage return alone also ends a row.
   std::size_t piece_bytes = kTextPieceBytes;  ///< Bytes that are read at a time.
 };
 
-/// Thrown for a row that cannot be read. The message is `before`, the number of the row, `after`.
+/// Thrown for a row that cannot be read. The message is `before`, then the number of the row, then `after`.
 struct RowError {
   std::string before, after;
 };
@@ -99,7 +99,7 @@ using ReadRow = std::function<void(TextRows& rows, std::byte* record)>;
 
 struct RowsRead {
   std::size_t count = 0;  ///< Number of rows read, at most those wanted.
-  bool more = false;      ///< The text has more rows than wanted.
+  bool more = false;      ///< Whether the text has more rows than wanted.
 };
 
 /// Reads rows that are not blank into `records`, which has wanted.count * record_bytes bytes. Each thread

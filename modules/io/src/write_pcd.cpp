@@ -35,7 +35,7 @@ void check_cloud(const RawCloud& cloud) {
       std::to_string(cloud.data.size()) + " bytes of data, must be " + std::to_string(cloud.size() * offset));
 }
 
-// Leaves out padding fields in binary_compressed files.
+// Returns the header. Leaves out padding fields in binary_compressed files.
 std::string format_header(const RawCloud& cloud, PcdEncoding encoding) {
   std::string names, sizes, types, counts, viewpoint;
   for (const PointField& field : cloud.fields) {

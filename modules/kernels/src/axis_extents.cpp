@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Minimum and maximum of each coordinate. Registers are compared in the order of memory; the axis of each
-// lane matters only at the end. Floats are compared as integers (projection_extremes-inl.h says why): the
-// largest signed, the largest unsigned and the smallest unsigned one together determine minimum and maximum,
-// whatever the signs.
+// Finds the minimum and maximum of each coordinate. Registers are loaded and compared in the order of memory;
+// the axis of each lane is considered only at the end. Floats are compared as integers
+// (projection_extremes-inl.h says why). The largest signed, the largest unsigned and the smallest unsigned
+// integer together determine the minimum and the maximum for all combinations of signs.
 
 #include "pcl_bv/kernels/axis_extents.h"
 
@@ -29,8 +29,9 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Layouts whose registers hold whole points (x, y, z and a fourth number) or consecutive triples; in all
-// others a register holds one axis. axis_of() returns the axis of a lane; 3 is no coordinate.
+// If kWholePoints is true for a layout, a register holds whole points (x, y, z and a fourth number). If
+// kTriples is true, registers hold consecutive triples x, y, z. Otherwise a register holds one axis.
+// axis_of() returns the axis of a lane, or 3 for a fourth number.
 template <Layout layout>
 inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide) &&
                                      !HWY_HAVE_SCALABLE;
@@ -69,8 +70,9 @@ HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, 
   }
 }
 
-// Returns where the second packet has to start so that no later register crosses a cache line (PCL aligns
-// points to 16 bytes). The first packet starts at 0 and may overlap it. AVX-512: 10.9 instead of 5.9 Gpt/s.
+// Returns the point at which the second packet has to start so that no later register crosses a cache line
+// (PCL aligns points to 16 bytes only). The first packet starts at point 0 and may overlap the second one.
+// With AVX-512 this increases the speed from 5.9 to 10.9 Gpt/s.
 template <Layout layout>
 std::size_t second_packet(const PointView& points, std::size_t lanes) {
   const auto address = reinterpret_cast<std::uintptr_t>(points.data) / 4;  // in floats
@@ -82,7 +84,7 @@ std::size_t second_packet(const PointView& points, std::size_t lanes) {
   return skipped == 0 ? lanes : skipped;
 }
 
-// Running minima and maxima, per lane of up to four registers.
+// The minima and maxima so far, for each lane of at most four registers.
 template <typename T>
 struct Lanes {
   HWY_ALIGN T low[4 * (kGroupBytes / sizeof(T))];
@@ -109,7 +111,7 @@ struct Lanes {
                              hn::VecFromMask(di, hn::Gt(hn::BitCast(di, hn::And(below##r, magnitude)), \
                                                         hn::Set(di, 0x7F7FFFFF)))));                   \
   }
-// If all numbers are negative, the smallest unsigned integer is the maximum; if none is, it is the minimum.
+// The smallest unsigned integer is the maximum if all numbers are negative, and the minimum if no number is.
 #define PCL_BV_KEEP(r)                                                                                 \
   if constexpr (r < 3 || whole) {                                                                      \
     const auto least = hn::BitCast(di, near##r);                                                       \
@@ -120,8 +122,8 @@ struct Lanes {
     hn::Store(hn::Max(hn::Load(d, lanes.high + r * n), high), d, lanes.high + r * n);                  \
   }
 
-// Updates the lanes with a block of at least one packet. Returns false, without any update, if one of its
-// points is not valid.
+// Updates the lanes with a block of at least one packet. Returns false, without any update, if a point of the
+// block is not valid.
 template <Layout layout>
 bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   constexpr bool whole = kWholePoints<layout>;
@@ -130,7 +132,7 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   const Unsigned<Tag<float>> du;
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_REGISTER(PCL_BV_DECLARE)
-  // The first two packets may overlap, and so may the last two: this changes no extreme.
+  // The first two packets may overlap, and the last two may as well. This changes no extreme.
   std::size_t i = 0;
   std::size_t next = second_packet<layout>(block, n);
   do {
@@ -150,7 +152,7 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   return true;
 }
 
-// The same for doubles, whose registers always hold one axis each.
+// Updates the lanes for doubles, whose registers always hold one axis each.
 template <Layout layout>
 bool grow_over_block(const PointView& block, Lanes<double>& lanes) {
   const Tag<double> d;
@@ -224,7 +226,7 @@ AxisExtents extents_of(const PointView& points) {
   for (std::size_t i = 0; i < 4 * n; ++i)
     lanes.low[i] = inf, lanes.high[i] = -inf;
   std::size_t dropped = 0;
-  bool clean = true;  // where one point is invalid, others follow
+  bool clean = true;  // false after a block with an invalid point, because others often follow
   for (std::size_t b = 0; b < block_count(points.count); ++b) {
     const PointView block = block_of(points, b);
     if (clean && block.count >= n && grow_over_block<layout>(block, lanes)) continue;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A query point as the kernels test it against the boxes of a tree.
+// A query point prepared for tests against the boxes of a tree.
 #pragma once
 
 #include <algorithm>
@@ -13,22 +13,22 @@
 
 namespace pcl_bv {
 
-/// The interval between low and high that contains the query point, in the frame of the boxes, and the
-/// squared distances there that are within the limit.
+/// A query point and the limit of its squared distances, converted to the frame of the boxes (see BoxLevels).
+/// On each axis, the query point is between `low` and `high`.
 ///
-/// The distance of a box is computed from the nearer end of the interval, so before rounding it is a lower
-/// bound. Three differences, three squares and two sums enlarge it by a factor of at most 1 + 6 * 2^-24, and
-/// by 3 * 2^-149 where squares underflow. The limits cover that by a factor of 1 + 2^-19. Positions beyond
-/// 2^100 are clamped to it: then all squares are infinite, which is right for every limit that a float can
-/// hold.
+/// On each axis, the distance of a box is computed from the nearer one of `low` and `high`, so before
+/// rounding it is a lower bound. Rounding enlarges the squared distance (three differences, three squares and
+/// two sums) by a factor of at most 1 + 6 * 2^-24, and by 3 * 2^-149 if squares underflow. The factor 1 +
+/// 2^-19 in `outer` covers this error. Positions beyond 2^100 in magnitude are clamped to 2^100. All squares
+/// are then infinite, which is correct for every limit that a float can hold.
 struct BoxProbe {
   float low[3], high[3];
   float outer;  ///< A box whose squared distance exceeds this has no point within the limit.
-  float inner;  ///< A point whose squared distance is at most this is certainly within the limit. Negative:
-                ///< no point is.
+  float inner;  ///< A point whose squared distance is at most this is certainly within the limit. There is
+                ///< no such point if it is negative.
   double unit;  ///< Factor from squared distances of the points to those in the frame of the boxes.
 
-  // Inlined and without a loop, so that everything stays in registers: saves 2 of a query's 40 ns.
+  // Inlined and without a loop, so that all values stay in registers. This saves 2 of the 40 ns of a query.
   [[gnu::always_inline]] BoxProbe(const BoxLevels& boxes, const Coordinates& center, double limit)
       : unit(boxes.scale * boxes.scale) {
     set(0, (center.x - boxes.origin.x) * boxes.scale);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Copies points of any layout to groups (point_view.h) in one pass and in order: for PointGroups, and for
-// passes in which a lane must hold the same points on every instruction set.
+// Copies points of any layout to groups (point_view.h) in one pass and in order. Used by PointGroups, and by
+// kernels in which a lane must hold the same points on every instruction set.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Loads numbers of a group as double.
+/// Loads consecutive numbers of a group as double.
 template <class D>
 HWY_INLINE V<D> load_as_double(D d, const float* p) {
   return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), p));
@@ -33,8 +33,8 @@ HWY_INLINE V<D> load_as_double(D d, const double* p) {
   return hn::Load(d, p);
 }
 
-/// Writes the points as groups. The valid point `pad` fills the rest of the last group and, with `masked`,
-/// replaces each invalid point. Returns the number of valid points if `masked`, else 0.
+/// Writes the points as groups. The point `pad` fills the rest of the last group. With `masked`, `pad` must
+/// be valid and also replaces each invalid point. Returns the number of valid points if `masked`, else 0.
 template <Layout layout, bool masked, typename T>
 std::size_t copy_to_groups(const PointView& points, const T* pad, T* groups) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// squared_distance() as inline functions. Not for public headers, which are compiled with the user's flags.
+// squared_distance() as an inline function. It must not be in a public header, because public headers are
+// compiled with the user's flags, which may change its rounding.
 #pragma once
 
 #include "pcl_bv/kernels/distances.h"

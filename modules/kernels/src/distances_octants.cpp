@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The farthest points in each octant, for the smallest sphere. Float arithmetic rejects runs of points, as
-// the mask of EXPANDSPHERE (Karlsson, Winberg and Larsson 2010, Figure 3) rejects groups of four; double
-// arithmetic decides.
+// Finds the largest distance in each octant, for the smallest enclosing sphere. Float arithmetic rejects runs
+// of points, as the mask of EXPANDSPHERE (Karlsson, Winberg and Larsson 2010, Figure 3) rejects groups of
+// four points. Double arithmetic decides about the remaining points.
 
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
@@ -23,8 +23,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Tests one packet of a run again: returns whether none of its points is beyond the limit. Always false for
-// double points.
+// Tests one packet of a run that was not rejected as a whole. Returns whether no point of the packet is
+// beyond the limit in float. Always false for double points.
 template <class D>
 HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D> y, V<D> z) {
   if constexpr (sizeof(hn::TFromD<D>) == 4) {
@@ -33,7 +33,7 @@ HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D
   return false;
 }
 
-// The largest distances per octant and lane while a block is scanned.
+// The largest squared distances so far in each octant and lane, while a block is scanned.
 struct LaneOctants {
   static constexpr std::size_t lanes = kGroupBytes / sizeof(double);
   LaneOctants() {
@@ -74,8 +74,8 @@ struct LaneOctants {
   HWY_ALIGN double best[8 * lanes];
 };
 
-// Updates the octants with the points of a run. Returns false if a point that is not valid may be among the
-// maxima; never if `masked`.
+// Updates the octants with the points of a run. Returns false if an invalid point may be among the maxima.
+// With `masked` it never returns false.
 template <Layout layout, typename T, bool masked, bool filtered>
 bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const FloatRejection& in_float,
                     LaneOctants& octants) {
@@ -112,7 +112,8 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
 constexpr std::size_t kProbedRuns = 4;
 constexpr std::size_t kMaxUnrejectedRuns = 3;
 
-// Scans a block. Returns false if a point that is not valid may be among the maxima; never if `masked`.
+// Scans a block. Returns false if an invalid point may be among the maxima. With `masked` it never returns
+// false.
 template <Layout layout, typename T, bool masked>
 bool octants_of(const PointView& points, OctantScan& scan) {
   const Tag<T> d;

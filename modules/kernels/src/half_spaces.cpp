@@ -20,7 +20,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Returns the lanes that are inside all half-spaces or in the ball; without half-spaces those in the ball.
+// Returns the lanes whose points are inside all half-spaces or in the ball. Without half-spaces, returns the
+// lanes whose points are in the ball.
 template <typename T, class D>
 HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*planes)[4], V<D> x, V<D> y,
                                     V<D> z) {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "targets.h"
-// Order matters: targets.h configures Highway.
+// targets.h must be included before Highway's headers, because it configures Highway.
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
@@ -19,7 +19,7 @@ namespace {
 struct Entry {
   Isa isa;
   std::string_view name;
-  std::int64_t target;  // Highway's bit; 0 for sets that are always available.
+  std::int64_t target;  // Highway's bit of the set; 0 for `automatic` and `scalar`.
 };
 
 constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
@@ -32,9 +32,9 @@ constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
                                             {Isa::sve2, "sve2", HWY_SVE2}}};
 
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && !HWY_COMPILER_CLANG  // clang does not know all these names
-// Highway's own detection is in libhwy, and a program that links libhwy calibrates its timer before main():
-// 3.1 of the 6.9 ms in which pcd_bv started. So the compiler's runtime is queried for the features with which
-// Highway compiles each target.
+// Queries the compiler's runtime for the features with which Highway compiles each target. Highway's own
+// detection is in libhwy, and a program that links libhwy calibrates Highway's timer before main(). This took
+// 3.1 of the 6.9 ms in which pcd_bv started.
 std::int64_t machine_targets() {
   __builtin_cpu_init();
   const bool sse4 = __builtin_cpu_supports("ssse3") && __builtin_cpu_supports("sse4.1") &&
@@ -53,14 +53,15 @@ std::int64_t machine_targets() {
 }
 #endif
 
-// Queries the processor once: in a virtual machine CPUID traps and takes 15 us.
+// Queries the processor only once, because in a virtual machine CPUID traps and takes 15 us.
 bool usable(const Entry& entry) {
   static const std::int64_t supported = HWY_TARGETS & machine_targets();
   return entry.isa == Isa::scalar || (entry.target & supported) != 0;
 }
 
-// NEON is preferred to SVE. For index lists and wide records, SVE has only the general way to load points
-// (Layout::any in load-inl.h), and on most processors its vectors are no longer than NEON's.
+// Returns the default set. NEON is preferred to SVE for two reasons. With SVE, points of index lists and wide
+// records are loaded coordinate by coordinate (Layout::any in load-inl.h), and on most processors SVE vectors
+// are no longer than NEON vectors.
 Isa best_isa() {
   Isa best = Isa::scalar;
   for (const Entry& entry : kEntries) {

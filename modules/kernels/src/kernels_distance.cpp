@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distance kernels, compiled as one source: reading Highway's templates takes g++ 12 2.4 s per source (AMD
-// EPYC of family 26).
+// Distance kernels. They are compiled as one source, because g++ 12 takes 2.4 s per source to read Highway's
+// templates (AMD EPYC of family 26).
 
 #include "targets.h"
 
@@ -13,7 +13,7 @@
 #include "distances_lists.cpp"
 #include "distances_octants.cpp"
 
-// Each included source redefines this macro; Highway must include this file again for the next instruction
-// set.
+// Each source included above redefines HWY_TARGET_INCLUDE, but Highway must include this file again for the
+// next instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels_distance.cpp"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Kernels that traverse trees, compiled as one source: reading Highway's templates takes g++ 12 2.4 s per
-// source (AMD EPYC of family 26).
+// Kernels that traverse trees. They are compiled as one source, because g++ 12 takes 2.4 s per source to read
+// Highway's templates (AMD EPYC of family 26).
 
 #include "targets.h"
 
@@ -14,7 +14,7 @@
 #include "tree_nearest.cpp"
 #include "tree_swept_ball.cpp"
 
-// Each included source redefines this macro; Highway must include this file again for the next instruction
-// set.
+// Each source included above redefines HWY_TARGET_INCLUDE, but Highway must include this file again for the
+// next instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels_tree.cpp"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The maximum projections of the lanes of blocks, and the support points among the points behind lanes with
-// large projections.
+// The maximum projection of each lane of a block, and the search for support points in lanes with large
+// projections. The points of a lane are those that load_packet() loads into this lane.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -28,18 +28,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Packets per block. Fewer cost more stores; more leave more points to compare behind a lane. 26-DOP on
-/// AVX-512: 4010 points take 3.1 us with 32 and 4.2 us with 64, 300 k points 100 and 97 us.
+/// Maximum number of packets per block. Smaller blocks cost more stores; larger blocks have more points to
+/// compare per lane. A 26-DOP on AVX-512 takes 3.1 us with 32 packets and 4.2 us with 64 packets for 4010
+/// points, and 100 us and 97 us for 300 k points.
 inline constexpr std::size_t kPackets = 32;
 
-/// Few points are cut into about eight blocks. 26-DOP on AVX-512: 1000 points take 3.0 us, in two blocks 4.5
-/// us; 300 points 2.4 us, in one block 3.0 us.
+/// Returns the number of packets per block, with which a small number of points is cut into about eight
+/// blocks. A 26-DOP on AVX-512 takes 3.0 us for 1000 points (4.5 us in two blocks) and 2.4 us for 300 points
+/// (3.0 us in one block).
 inline std::size_t packets_per_block(std::size_t packets) {
   return HWY_MIN(HWY_MAX(packets / 8, std::size_t{4}), kPackets);
 }
 
-/// Where the maximum projections are stored: per block support after support, for each support one number per
-/// lane.
+/// The array in which the maximum projections are stored. Each block has per_block numbers, support after
+/// support, and each support has one number per lane.
 template <typename T>
 struct LaneProjections {
   LaneProjections(T* first, std::size_t supports, std::size_t packets = kPackets)
@@ -64,8 +66,8 @@ double max_over_lanes(const LaneProjections<T>& projections, std::size_t support
   return hn::GetLane(hn::MaxOfLanes(d, greatest));
 }
 
-/// Calls search(first, n, last) for the points first, first + n, ... below `last` behind each lane of a block
-/// whose maximum projection is at least the threshold, a value of type T.
+/// Calls search(first, n, last) for each lane of a block whose maximum projection is at least the threshold.
+/// The points of the lane are first, first + n, ... below `last`. The threshold must be a value of type T.
 template <Layout layout, typename T, typename Search>
 void search_lanes(const PointView& points, const LaneProjections<T>& projections, std::size_t support,
                   double threshold, const Search& search) {
@@ -86,7 +88,7 @@ void search_lanes(const PointView& points, const LaneProjections<T>& projections
       search(begin + point, n, whole);
       if (whole == begin + count) continue;
       // The last packet was loaded either in order or as the last n points, which may begin in an earlier
-      // block: both are searched.
+      // block. Both possibilities are searched.
       search(whole + lane, n, begin + count);
       if (begin + count >= n) search(begin + count - n + point, n, begin + count);
     }
@@ -99,7 +101,7 @@ template <Layout layout, typename T>
 void search_supports(const PointView& part, const SupportDirections& set,
                      const LaneProjections<T>& projections, const CenteredExtent& extent,
                      const SupportBounds& bounds, SupportBounds* later, ChunkSupports& out) {
-  std::optional<SupportPlan> plan;  // for both supports of a direction
+  std::optional<SupportPlan> plan;  // of both supports of a direction
   for (std::size_t support = 0; support < 2 * set.count; ++support) {
     if (support % 2 == 0) plan.emplace(set, support / 2, extent, part.scalar);
     const SupportCandidates candidates =
@@ -110,7 +112,7 @@ void search_supports(const PointView& part, const SupportDirections& set,
       keep_larger_projection(set.support_direction(support), first_valid_point(part), best);
     } else {
       const ExactSupportSearch<T> search(part, set, support, {extent.center, candidates.threshold});
-      if (candidates.threshold <= 0) {  // which every lane passes
+      if (candidates.threshold <= 0) {  // every lane passes this threshold
         search(0, 1, part.count, best);
       } else {
         search_lanes<layout>(

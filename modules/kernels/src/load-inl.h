@@ -24,7 +24,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// The vector type of all kernels: as wide as the machine's registers, at most one group of points.
+/// The vector type of all kernels. Vectors are as wide as the machine's registers, but at most kGroupBytes
+/// wide.
 template <typename T>
 using Tag = hn::CappedTag<T, kGroupBytes / sizeof(T)>;
 
@@ -95,15 +96,15 @@ auto for_layout(const PointView& points, const Call& call) {
   }
 }
 
-/// Returns which point of a packet of `lanes` points load_packet() puts into a lane.
+/// Returns the number, in a packet of `lanes` points, of the point that load_packet() loads into a lane.
 template <Layout layout>
 std::size_t point_of_lane(std::size_t lane, std::size_t lanes) {
   if (layout == Layout::packed16 && !HWY_HAVE_SCALABLE) return lane % 4 * (lanes / 4) + lane / 4;
   return lane;
 }
 
-// Loads one 128-bit block per point, from `bytes` after the point's x on, of points first, first + step, ...
-// Recursion halves the vector down to one block.
+// Loads one 128-bit block from each of the points first, first + step, ... The block starts `bytes` bytes
+// after the point's x. The recursion halves the vector until it has one block.
 template <class D>
 HWY_INLINE V<D> load_blocks(D d, const PointView& points, std::size_t first, std::size_t step,
                             std::size_t bytes) {
@@ -118,8 +119,8 @@ HWY_INLINE V<D> load_blocks(D d, const PointView& points, std::size_t first, std
   }
 }
 
-// Turns four registers of whole points (x, y, z and a fourth lane of any value) into x, y and z: a transpose
-// inside each 128-bit block, seven shuffles.
+// Turns four registers of whole points (x, y, z and a fourth lane of any value) into registers of x, y and z.
+// This is a transpose inside each 128-bit block and takes seven shuffles.
 template <class D>
 HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y, V<D>& z) {
   const hn::Repartition<double, D> pairs;
@@ -132,8 +133,8 @@ HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y,
   z = hn::BitCast(d, hn::InterleaveLower(pairs, ab_zw, ce_zw));
 }
 
-/// Loads up to one packet, point by point in order. Lanes from `count` on repeat the point `pad` (never
-/// zeros).
+/// Loads the `count` points from `first` on, at most one packet, point by point and in order. The other lanes
+/// hold the point `pad`.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_padded(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
                             V<D>& x, V<D>& y, V<D>& z) {
@@ -191,8 +192,8 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
   }
 }
 
-/// As load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
-/// could extend from one coordinate into the next.
+/// Same as load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
+/// could extend from one coordinate into the next, so the points of such a packet are loaded one by one.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {
@@ -202,7 +203,7 @@ HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t f
   load_packet<layout>(d, points, first, x, y, z);
 }
 
-/// As load_packet(), but lane i holds point first + i.
+/// Same as load_packet(), but lane i holds point first + i.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {
@@ -228,7 +229,7 @@ HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t fi
 }
 
 /// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail().
-/// `positions` has `count` entries before; returns the number of entries after.
+/// `positions` has `count` entries before the call. Returns the number of entries after the call.
 template <Layout layout, class D>
 std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
                           std::uint32_t* positions, std::size_t count) {
@@ -262,10 +263,10 @@ HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
     marked[lane] = (bits >> lane & 1) != 0;
 }
 
-/// Loads the packet from `first` on and subtracts the centre. Past the end of the block, lanes hold the
-/// centre if `masked`; else they may repeat points, which changes no extreme. With `masked`, invalid points
-/// are replaced by the centre, too, and valid_count grows by the number of valid lanes, those past the end
-/// included.
+/// Loads the packet from `first` on and subtracts the centre. With `masked`, the centre replaces invalid
+/// points and fills the lanes past the end of the block, and valid_count grows by the number of valid lanes,
+/// including the lanes past the end. Without `masked`, lanes past the end hold the centre or repeat points,
+/// which changes no extreme.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, const T* center, V<D>& x,
                               V<D>& y, V<D>& z, [[maybe_unused]] std::size_t& valid_count) {
@@ -292,10 +293,11 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
   z = hn::Sub(z, center_z);
 }
 
-/// Prefetches what a packet some hundred points later will load. A loop with much arithmetic per packet fills
-/// the core's reorder window before its loads get far enough ahead: 26-DOP on AVX-512, 1 M points, 0.9 Gpt/s
-/// without prefetch, 2.9 with 8 KiB. Not for other layouts: pcl::PointXYZI in L2 fell from 1.8 to 0.9 Gpt/s
-/// for a gain of 15 % from memory.
+/// Prefetches the memory of a packet 8 KiB ahead. Without this, a loop with much arithmetic per packet fills
+/// the core's reorder window before its loads get far enough ahead. A 26-DOP of 1 M points on AVX-512 runs at
+/// 2.9 Gpt/s with prefetching and at 0.9 Gpt/s without. Other layouts are not prefetched, because clouds of
+/// pcl::PointXYZI in the second-level cache then run at 0.9 instead of 1.8 Gpt/s, while clouds in memory gain
+/// only 15 %.
 template <Layout layout, class D>
 HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
   if constexpr (layout == Layout::groups || layout == Layout::packed12 || layout == Layout::packed16) {
@@ -307,8 +309,9 @@ HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) 
   }
 }
 
-/// Keeps a loop's integer accumulator in its register. g++ 12 does not see that the float vector and the
-/// integer vector are one register, and moves and spills it: 2600 Mpt/s became 4500 (26-DOP, AVX-512).
+/// Keeps a loop's integer accumulator in its register. Otherwise g++ 12 does not see that the float vector
+/// and the integer vector are one register, and moves and spills it. This increases the speed from 2600 to
+/// 4500 Mpt/s (26-DOP, AVX-512).
 template <class Vector>
 HWY_INLINE void keep_in_register(Vector& v) {
 #if HWY_ARCH_X86

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums whose bits do not depend on the width of a register. Each block is first copied to groups in order;
-// the origin, which adds 0, replaces invalid points and fills the last group. Then the same 8 lanes are
-// summed in as many passes as the width requires. The block stays in the first-level cache between passes.
+// Computes sums whose bits do not depend on the width of a register. Each block is first copied to groups in
+// order. The origin, which adds 0 to the sums, replaces invalid points and fills the last group. Then 8 lanes
+// are summed, in several passes if a register has fewer lanes. The block stays in the first-level cache
+// between the passes.
 
 #include "pcl_bv/kernels/moments.h"
 
@@ -39,14 +40,14 @@ constexpr std::size_t kLanes = 8;
 #define PCL_BV_STEP(k, term) sum##k = hn::Add(sum##k, term);
 #define PCL_BV_KEEP(k, term) hn::Store(sum##k, d, sums + k * kLanes + lane);
 
-// Returns the differences from the origin; scaled for double points only.
+// Returns the differences from the origin. They are scaled for double points only.
 template <typename T, class D>
 HWY_INLINE V<D> relative(D d, const T* from, V<D> origin, V<D> scale) {
   const auto q = hn::Sub(load_as_double(d, from), origin);
   return sizeof(T) == 8 ? hn::Mul(q, scale) : q;
 }
 
-// Sums over the groups of a block: 8 lanes for each of the 9 terms.
+// Sums each of the 9 terms over the groups of a block, in 8 lanes.
 template <typename T>
 void sum_groups(const T* groups, std::size_t points, const Moments& about, double* sums) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Collect the nearest neighbours while a tree is searched.
+// Classes that collect the nearest neighbours while a tree is searched.
 #pragma once
 
 #include <algorithm>
@@ -31,9 +31,10 @@ class NearestOne {
   Neighbor best_;
 };
 
-/// Retains the `most` nearest of the points that were offered. Up to 32 points are kept sorted: moving them
-/// costs less than selecting later. For larger `most`, half as many again are collected before the nearest
-/// are selected, so that a candidate costs a few nanoseconds.
+/// Retains the `most` nearest of the points that were offered. If `most` is at most 32, the points are always
+/// sorted, because moving them costs less than selecting the nearest later. For larger `most`, up to 1.5 *
+/// most points are collected before the nearest are selected, so that a candidate costs only a few
+/// nanoseconds.
 class NearestSet {
  public:
   NearestSet(std::size_t most, double limit, std::vector<Neighbor>& kept)

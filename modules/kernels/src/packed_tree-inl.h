@@ -28,11 +28,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET != HWY_SCALAR
 
 using Floats = hn::CappedTag<float, kTreeWidth>;
-// Has as many lanes as Floats, or half as many.
+// Doubles has as many lanes as Floats, or half as many.
 using Doubles = hn::CappedTag<double, 8>;
 
-/// Returns a mask of at most 16 lanes as bits. Reads exactly the bytes that were written: a longer read would
-/// have to wait for the store.
+/// Returns a mask of at most 16 lanes as bits. Reads exactly the bytes that StoreMaskBits() wrote, because a
+/// longer read would have to wait for the store.
 template <class D>
 HWY_INLINE std::uint32_t bits_of_lanes(D d, hn::Mask<D> mask) {
   static_assert(hn::MaxLanes(d) <= 16);
@@ -46,8 +46,8 @@ HWY_INLINE V<D> sum_of_squares(V<D> x, V<D> y, V<D> z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// Returns the distances along an axis to the boxes k, k + 1, ... of a group; 0 where the query point may be
-/// between the sides of the box.
+/// Returns the distances, along one axis, from the query point to the boxes k, k + 1, ... of a group. A
+/// distance is 0 if the query point may be between the sides of the box.
 template <class D>
 HWY_INLINE V<D> gap(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
   const auto below = hn::Sub(hn::Load(d, group.low[axis] + k), hn::Set(d, probe.high[axis]));
@@ -61,9 +61,9 @@ HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& prob
                            gap(d, group, probe, 2, k));
 }
 
-/// Returns squared upper bounds of the distances, along one axis, to a point on the nearer side of each box
-/// and to its farther side. Boxes were rounded outward by up to 2^-20, so a point may be that far inside the
-/// side that it touches.
+/// Returns, for each box and along one axis, squared upper bounds of the distance to a point on the nearer
+/// side of the box and of the distance to the farther side. Boxes were rounded outward by at most 2^-20, so
+/// the point that determines a side may be 2^-20 inside of it.
 template <class D>
 HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis,
                              std::size_t k, V<D>& nearer, V<D>& farther) {
@@ -78,8 +78,9 @@ HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, 
 }
 
 /// Returns a squared upper bound of the distance to the nearest point in each box (Roussopoulos et al. 1995).
-/// A box around points has one on each side. So one point is no farther than the farthest corner of the
-/// nearer side along x, and so for y and z. The bound is the smallest of the three.
+/// A box around points has a point on each side. So a point of the box is no farther away than the farthest
+/// corner of the nearer side along x. The same holds for y and z. The bound is the smallest of these three
+/// distances.
 template <class D>
 HWY_INLINE V<D> nearest_point_bounds(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
   V<D> near_x, near_y, near_z, far_x, far_y, far_z;
@@ -103,8 +104,8 @@ HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe
   return bits & ((1U << count) - 1);
 }
 
-/// Returns, as bits, the boxes that may contain the query point. Known sooner than near_boxes(): nothing is
-/// computed.
+/// Returns, as bits, the boxes that may contain the query point. Faster than near_boxes(), because no
+/// distances are computed.
 HWY_INLINE std::uint32_t boxes_around(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   std::uint32_t bits = 0;
@@ -165,15 +166,15 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
 constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 
 /// Walks down a tree. Calls visit.visit_packet(packet) for each packet whose box may have a point within the
-/// limit. Before the boxes of a group are visited, calls visit.test_group(group) if any of them may have one,
-/// except for the groups at the start. Returns true as soon as one of these calls returns true, else false at
-/// the end.
+/// limit. Before the boxes of a group are visited, calls visit.test_group(group) if any of the boxes may have
+/// such a point. The groups at the start are not tested. Returns true as soon as visit_packet() or
+/// test_group() returns true, else false.
 ///
-/// The walk starts at the lowest level with at most 64 boxes: testing them all takes less time than finding
-/// out on the levels above which of their groups are near.
+/// The walk starts at the lowest level with at most 64 boxes, because testing all these boxes takes less time
+/// than testing the boxes of the levels above.
 ///
-/// The lowest bit of visit.preferred_box(group), if any, is the box that is visited before the others of the
-/// group, near or not. The others follow in their order.
+/// The lowest set bit of visit.preferred_box(group), if any, is the box that is visited before the other
+/// boxes of the group, even if it is not near. The other boxes follow in their order.
 template <typename Visit>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Copies points to groups: a few loads and a transpose per packet. The copy is limited by memory, not by
-// shuffles.
+// Copies points to groups, with a few loads and a transpose per packet. The speed of the copy is limited by
+// memory, not by the shuffles.
 
 #include "pcl_bv/points/point_groups.h"
 
@@ -41,8 +41,8 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 namespace {
 
-// Returns the index of the last valid point, which is mostly near the end; of the last point if none is
-// valid.
+// Returns the position of the last valid point, or of the last point if no point is valid. The search is
+// short, because the last valid point is mostly near the end.
 std::size_t padding_point(const PointView& points) {
   for (std::size_t i = points.count; i-- > 0;) {
     if (is_valid(load_point(points, i))) return i;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Checks of a kernel's arguments, made before it runs. Without them a kernel would silently read or write
-// past an array, or return a volume that does not enclose. They take a few nanoseconds per call.
+// past an array, or return a volume that does not enclose its points. The checks take a few nanoseconds per
+// call.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +24,13 @@ void require_in_memory(const PointView& points,
 /// Throws std::invalid_argument unless the origin is valid and can be stored as a point of the view.
 void require_origin(const PointView& points, const Coordinates& origin);
 
-/// As require_in_memory(). Also throws for float points if the scale is not 1: then instruction sets would
-/// give different results.
+/// Throws like require_in_memory(). Also throws std::invalid_argument for float points if the scale is not 1,
+/// because instruction sets would then give different results.
 void require_distances(const PointView& points, const DistanceCenter& center,
                        std::size_t maximum = std::numeric_limits<std::size_t>::max());
 
-/// Throws std::invalid_argument unless the points are floats and there are bounds: only scans of float points
-/// write them.
+/// Throws std::invalid_argument unless the points are floats and the bounds are not null. Only scans of float
+/// points write bounds.
 void require_scan_bounds(const PointView& block, const ScanBounds& scanned);
 
 /// Throws std::invalid_argument, naming `what` and both numbers, if `count` exceeds `maximum`.

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Maximum projections of lanes on both sides of zero. Floats are compared as integers: of two positive floats
-// the larger is the larger signed integer, of two negative floats the one of larger magnitude is the larger
-// unsigned integer. Accumulators start at zero, which is inside the extent, so numbers of the other sign
-// never win. Recent cores compute integer maxima on all four vector pipes, those of floats on two (26-DOP,
-// AVX-512, Zen 5: 4500 instead of 3200 Mpt/s). NaN and infinity win against all numbers and so reveal an
-// invalid point.
+// Maximum projections of lanes on both sides of zero. Floats are compared as integers. Of two positive
+// floats, the larger float is the larger signed integer. Of two negative floats, the float of larger
+// magnitude is the larger unsigned integer. Accumulators start at zero, which is inside the extent, so
+// numbers of the other sign never win. Recent cores compute integer maxima on all four vector pipes, but
+// float maxima on only two (26-DOP, AVX-512, Zen 5: 4500 instead of 3200 Mpt/s). NaN and infinity win against
+// all numbers and so reveal an invalid point.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_REACH_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -35,8 +35,9 @@ using Signed = hn::RebindToSigned<D>;
 template <class D>
 using Unsigned = hn::RebindToUnsigned<D>;
 
-/// The types that hold the maximum above and below zero. Doubles stay doubles, since few instruction sets
-/// have 64-bit integer maxima. Minima and maxima of doubles may lose a NaN, which sum_is_finite() finds.
+/// High and Low are the types of the accumulators of projections above and below zero. Doubles are compared
+/// as doubles, since few instruction sets have 64-bit integer maxima. Minima and maxima of doubles may lose a
+/// NaN, but sum_is_finite() finds it.
 template <class D>
 inline constexpr bool kIsFloat = sizeof(hn::TFromD<D>) == 4;
 template <class D>
@@ -75,7 +76,7 @@ HWY_INLINE V<Low<D>> update_minimum(D, V<Low<D>> minimum, V<D> p) {
   keep_in_register(minimum);
   return minimum;
 }
-/// The projections as numbers >= 0.
+/// maximum_projection() and minimum_magnitude() return the accumulated projections as numbers >= 0.
 template <class D>
 HWY_INLINE V<D> maximum_projection(D d, V<High<D>> maximum) {
   return hn::BitCast(d, maximum);
@@ -95,7 +96,8 @@ HWY_INLINE bool all_within(D d, [[maybe_unused]] T distance, V<Low<D>> low, V<Hi
     return hn::AllTrue(d, hn::And(hn::Le(hn::Abs(low), limit), hn::Le(high, limit)));
   }
 }
-/// Whether a sum of all coordinates is finite. For floats all_within() has found any NaN already.
+/// Returns whether a sum of all coordinates is finite. Always true for floats, because all_within() has
+/// already found any NaN.
 template <class D>
 HWY_INLINE bool sum_is_finite(D d, V<D> total) {
   const auto greatest = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::max());

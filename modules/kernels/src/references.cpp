@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scalar references except that of the supports. Compiled with -O3 -fno-tree-vectorize, so that they are
-// what benchmarks call scalar.
+// The scalar references except those of supports and axis extents (support_reference.cpp) and of trees
+// (tree_reference.cpp). They are compiled with -O3 -fno-tree-vectorize, because benchmarks use them as the
+// scalar baseline.
 
 #include "references.h"
 
@@ -124,7 +125,7 @@ RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
   return test.shape == RegionShape::planes ? state_in_planes(test, q) : state_in_body(test, q);
 }
 
-// test(k) is the k-th region.
+// test(k) returns the k-th of the `count` regions to be tested.
 template <typename T, typename Test>
 RegionState state_of_point(const RegionTestsOf<T>& all, std::size_t count, const Test& test,
                            const T (&p)[3]) {
@@ -265,7 +266,7 @@ void scan_octants_reference(const PointView& block, OctantScan& scan) {
   });
 }
 
-// The bounds only save work: the reference ignores them.
+// The bounds only save time, so the reference ignores them.
 std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& /*scanned*/,
                                              const DistanceCenter& center, double limit,
                                              std::uint32_t* positions) {

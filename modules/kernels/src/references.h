@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scalar references: plain loops that define the result of each kernel.
+// The scalar references. They are plain loops that define the result of each kernel.
 #pragma once
 
 #include "nearest_set.h"
@@ -30,7 +30,7 @@ void chosen_states_reference(const PointView& points, const RegionTests::Prepare
                              const ChosenRegions& chosen, std::uint8_t* states);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
-/// Writes the points as groups; point number `pad` (if there is any) fills the rest of the last group.
+/// Writes the points as groups. Point number `pad` fills the rest of an incomplete last group.
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
@@ -50,7 +50,8 @@ void visit_along_reference(const PackedTree& tree, const SweptBall& ball, Packet
 
 Moments block_moments_reference(const PointView& block);
 
-/// Calls sum(moments) with growing exponents until the sum of squares is large enough; for floats once.
+/// Calls sum(moments) with the exponents 0, 500 and 1000 until the sum of squares is at least 2^-660. For
+/// floats it calls sum() only once.
 template <typename Sum>
 void sum_without_underflow(ScalarType scalar, Moments& moments, const Sum& sum) {
   for (moments.exponent = 0;; moments.exponent += 500) {

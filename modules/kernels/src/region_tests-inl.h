@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Number of tests between two checks whether further tests can change anything.
+// Number of tests between two checks whether further tests can change the result.
 constexpr std::size_t kTestsPerCheck = 4;
 
 template <class D, typename T = hn::TFromD<D>>
@@ -41,8 +41,9 @@ HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
                  hn::Mul(hn::Set(d, n[2]), z));
 }
 
-// The classify functions return which lanes are inside and which are outside; the results of lanes that need
-// no test are meaningless. Two masks instead of a struct, since SVE vectors cannot be members.
+// The classify functions set `inside` and `outside` to the lanes that are inside and outside the region. The
+// results of lanes that need no test are meaningless. The two masks are not in a struct, since SVE vectors
+// cannot be members.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void classify_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
                                  hn::Mask<D>& outside) {
@@ -104,9 +105,9 @@ HWY_INLINE void classify_planes(D d, const RegionTest<T>& test, hn::Mask<D> test
   }
 }
 
-// Adds the result of one region for the `near` lanes. Lanes inside another region are tested, too: without
-// the wait for that other result the processor takes 0.8 of the time if most packets are in several boxes
-// (AVX-512).
+// Adds the result of one region for the `near` lanes. Lanes inside another region are tested as well, because
+// the processor then does not wait for the result of that region. This takes 0.8 of the time if most packets
+// are in several boxes (AVX-512).
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<D> x, V<D> y, V<D> z,
                             hn::Mask<D>& inside, hn::Mask<D>& unclear) {

@@ -15,7 +15,8 @@
 namespace pcl_bv {
 namespace {
 
-// Error relative to |q|_1 or to a radius: of rounding in T, and of the caller's numbers.
+// Error bound relative to |q|_1 or to a radius. It covers the rounding in T and the errors of the caller's
+// numbers.
 template <typename T>
 constexpr double kSlope = 16 * (sizeof(T) == 4 ? 0x1p-24 : kUnitRoundoff) + 0x1p-42;
 
@@ -65,7 +66,7 @@ double set_center(const ConvexRegion& region, RegionTest<T>& test) {
         up<T>((max_offset(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kSmallestDenormal<T>);
     lost += std::abs(rest - static_cast<double>(test.tail[k])) + kSlope<T> * std::abs(rest);
   }
-  // Sphere::contains() adds 2^-500 to a radius.
+  // The last term covers the 2^-500 that Sphere::contains() adds to a radius.
   return 2 * lost + region.surface_error + 16 * kSmallestDenormal<T> + 0x1p-500;
 }
 

@@ -25,14 +25,14 @@ struct SlabTest {
 template <typename T>
 struct RegionTest {
   RegionShape shape;
-  bool undecidable;  ///< Coordinates are too large for sums in T: all points in the box are unclear.
+  bool undecidable;  ///< Coordinates are too large for sums in T, so all points in the box are unclear.
   T low[3], high[3];
   T head[3], tail[3];  ///< The centre rounded to T, and the remainder.
   T max_offset[3];     ///< Largest |p - head| in the box, by axis.
   SlabTest<T> slabs[3];
   T error;                       ///< Error bound of distances along axes.
-  T square_inner, square_outer;  ///< For ball and rounded: squared radii, as `inner` and `outer` of a plane.
-  T slope;                       ///< For planes: the error bound grows by this times |q|_1 of the point.
+  T square_inner, square_outer;  ///< For ball and rounded: squared radii, like PlaneTest::inner and outer.
+  T slope;                       ///< For planes: slope * |q|_1 is added to the error bound of n . q.
   std::vector<PlaneTest<T>> planes;
 };
 

@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Compares explicitly: Min and Max treat a NaN differently from set to set.
+// Compares explicitly, because Min and Max treat NaN differently on different instruction sets.
 template <class D>
 HWY_INLINE void grow(D, V<D> v, V<D>& low, V<D>& high) {
   low = hn::IfThenElse(hn::Lt(v, low), v, low);

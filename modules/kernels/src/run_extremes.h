@@ -18,8 +18,7 @@ struct RunExtremes {
   static constexpr T kMost = std::numeric_limits<T>::infinity();
   T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
 
-  // Returns the box. Adding 0 turns -0 into +0: which zero a minimum returns depends on the order of the
-  // points.
+  // Adding 0 turns -0 into +0, because which zero a minimum returns depends on the order of the points.
   RunBox box() const {
     RunBox box;
     for (std::size_t k = 0; k < 3; ++k) {

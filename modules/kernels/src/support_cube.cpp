@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FIND-k-DOP (Karlsson, Winberg and Larsson 2010, Figure 2): one source, compiled for every instruction set.
+// FIND-k-DOP (Karlsson, Winberg and Larsson 2010, Figure 2) for the directions of a DirectionSet, which need
+// no multiplications.
 
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/points/chunks.h"
@@ -23,7 +24,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Returns the index in a set of a direction of kCubeDirections, or -1.
+// Returns the index, in the set, of a direction of kCubeDirections; -1 if the set does not have it.
 constexpr int slot(DirectionSet set, std::size_t direction) {
   for (std::size_t k = 0; k < direction_count(set); ++k) {
     if (cube_direction(set, k) == direction) return static_cast<int>(k);
@@ -31,8 +32,8 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   return -1;
 }
 
-// The 13 projections of a packet share the sums x + y and x - y. Named variables instead of arrays: the
-// compiler does not know the size of SVE vectors.
+// The 13 projections of a packet share the sums x + y and x - y. The macros use named variables instead of
+// arrays, because the compiler does not know the size of SVE vectors.
 // clang-format off
 #define PCL_BV_EACH_DIRECTION(DO)                                                                 \
   DO(0, x) DO(1, y) DO(2, z)                                                                      \
@@ -58,9 +59,10 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
     hn::Store(maximum_projection(d, high##i), d, projections + (2 * slot(set, i) + 1) * n); \
   }
 
-// Computes the maximum projection of each lane of a block for each support: lanes(d) numbers per support,
-// support after support. Returns whether all points are valid; if not, `projections` is meaningless. With
-// `masked`, invalid points are replaced by the centre, whose projection is 0, and counted.
+// Computes the maximum projection of each lane of a block for each support. Writes Lanes(d) numbers per
+// support, support after support. Returns whether all points are valid; if not, `projections` is meaningless.
+// With `masked`, invalid points are replaced by the centre, whose projection is 0, and counted in `dropped`;
+// the result is then true.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
 bool project_lanes(D d, const PointView& block, const T* center, T* projections, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
@@ -87,12 +89,12 @@ bool project_lanes(D d, const PointView& block, const T* center, T* projections,
          all_within(d, distance, low2, high2) && sum_is_finite(d, total);
 }
 
-// Passes over the blocks of a chunk. Returns the number of dropped points.
+// Projects all blocks of a chunk. Returns the number of dropped points.
 template <Layout layout, DirectionSet set, typename T>
 std::size_t project_blocks(const PointView& chunk, const T* center, const LaneProjections<T>& projections) {
   const Tag<T> d;
   std::size_t dropped = 0;
-  bool clean = true;  // where one point is invalid, others follow
+  bool clean = true;  // false after a block with an invalid point, because others often follow
   T* out = projections.values;
   for (std::size_t begin = 0; begin < chunk.count;
        begin += projections.block_points, out += projections.per_block) {
@@ -117,7 +119,7 @@ void supports_of_chunk(const PointView& chunk, const SupportBounds& bounds, Chun
   const T c[3] = {static_cast<T>(extent.center.x), static_cast<T>(extent.center.y),
                   static_cast<T>(extent.center.z)};
   constexpr std::size_t supports = 2 * direction_count(set);
-  // A 26-DOP takes 104 KiB for floats and 208 KiB for doubles, whatever the width of vectors.
+  // For a 26-DOP the array takes 104 KiB for floats and 208 KiB for doubles, for every width of vectors.
   HWY_ALIGN T values[kChunkPoints / kPackets * supports];
   const LaneProjections<T> projections(values, supports,
                                        packets_per_block(chunk.count / hn::Lanes(Tag<T>())));

@@ -42,7 +42,7 @@ void SupportDirections::add(const Direction& direction) {
   }
   const Direction size = magnitudes(direction);
   const double largest = std::max({size[0], size[1], size[2]});
-  // The maximum may lose a NaN; the sum does not.
+  // std::max() may lose a NaN, but the sum does not.
   if (!(largest >= 1e-30 && largest <= 1e30) || !std::isfinite((size[0] + size[1]) + size[2])) {
     throw std::invalid_argument("direction " + std::to_string(count) +
                                 " must be finite with its largest component from 1e-30 to 1e30");
@@ -65,7 +65,7 @@ Direction SupportDirections::scaled_support_direction(std::size_t support) const
 
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
   if (!other.found) return;
-  // Many equal points (a cloud of one value, beams without a return) need no arithmetic.
+  // Equal points need no arithmetic. Clouds may have many of them (beams without a return, for example).
   const int order = !best.found                 ? 1
                     : other.point == best.point ? 0
                                                 : compare_along(direction, other.point, best.point);

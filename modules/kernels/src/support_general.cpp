@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // FIND-k-DOP (Karlsson, Winberg and Larsson 2010, Figure 2) for directions that need multiplications. A block
-// is loaded once and stays in the first-level cache while it is projected on groups of directions, as many at
-// a time as there are registers for.
+// is loaded once and stays in the first-level cache while it is projected on groups of directions. A group
+// has as many directions as there are registers for.
 
 #include "pcl_bv/kernels/support.h"
 
@@ -26,11 +26,12 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-inline constexpr std::size_t kGroup = 4;  // directions on which a block is projected at a time
+inline constexpr std::size_t kGroup = 4;  // number of directions on which a block is projected at a time
 
-// A block of points relative to a centre (a packet of x, one of y, one of z), 12 KiB of floats in the
-// first-level cache; and the maximum projections of lanes, with a capacity of a whole chunk for up to 13
-// directions. 49 directions on AVX-512: 320 Mpt/s with 25 KiB, 380 with 50, 435 with 104.
+// The memory of supports_of(). `points` is a block of points relative to a centre, in packets of x, y and z.
+// It takes 12 KiB for floats, in the first-level cache. `projections` are the maximum projections of lanes.
+// Their capacity is a whole chunk for at most 13 directions of floats. 49 directions on AVX-512 run at 320
+// Mpt/s with 25 KiB of projections, at 380 Mpt/s with 50 KiB and at 435 Mpt/s with 104 KiB.
 template <typename T>
 struct Workspace {
   HWY_ALIGN T points[3 * kBlockPoints];
@@ -40,7 +41,7 @@ struct Workspace {
 
 // Copies a block relative to the centre and raises `max_magnitude` to the largest magnitudes. Returns whether
 // all points are valid; if not, the copy is meaningless and `max_magnitude` unchanged. With `masked`, invalid
-// points are replaced by the centre and counted.
+// points are replaced by the centre and counted in `dropped`; the result is then true.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& max_magnitude,
                 std::size_t& dropped) {
@@ -78,7 +79,8 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   return true;
 }
 
-// Named variables instead of arrays: the compiler does not know the size of SVE vectors.
+// The macros use named variables instead of arrays, because the compiler does not know the size of SVE
+// vectors.
 #define PCL_BV_EACH_OF_GROUP(DO) DO(0) DO(1) DO(2) DO(3)
 
 #define PCL_BV_DIRECTION(i)                                                               \
@@ -90,7 +92,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   [[maybe_unused]] auto low##i = zero_minimum(d); \
   [[maybe_unused]] auto high##i = zero_maximum(d);
 
-// MulAdd may be fused or not: the filter's error bound covers both, and results are decided exactly.
+// MulAdd may be fused or not. The filter's error bound covers both cases, and results are decided exactly.
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
@@ -104,7 +106,8 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
     hn::Store(maximum_projection(d, high##i), d, values + (2 * i + 1) * n); \
   }
 
-// Computes the maximum projections of the lanes of copied packets for `count` directions, from `values` on.
+// Computes the maximum projections of the lanes of copied packets for `count` directions. Stores them from
+// `values` on.
 template <std::size_t count, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void project_group(D d, const T* points, std::size_t packets, const T* directions,
                               std::size_t per_block, T* values) {
@@ -139,7 +142,7 @@ void project_copy(D d, const T* points, std::size_t packets, std::size_t count, 
   if (count == 1) project_group<1>(d, points, packets, directions, per_block, values);
 }
 
-// Passes over the points of a part. Returns the number of dropped points.
+// Projects the points of a part. Returns the number of dropped points.
 template <Layout layout, typename T>
 std::size_t project_part(const PointView& part, std::size_t count, const LaneProjections<T>& projections,
                          Workspace<T>& work, CenteredExtent& extent) {
@@ -149,7 +152,7 @@ std::size_t project_part(const PointView& part, std::size_t count, const LanePro
   const std::size_t blocks = kBlockPoints / projections.block_points;  // copied at a time
   const std::size_t step = blocks * projections.block_points;
   std::size_t dropped = 0;
-  bool clean = true;  // where one point is invalid, others follow
+  bool clean = true;  // false after a block with an invalid point, because others often follow
   T* values = projections.values;
   for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * projections.per_block) {
     const PointView block = part.slice(begin, HWY_MIN(step, part.count - begin));
@@ -165,8 +168,9 @@ std::size_t project_part(const PointView& part, std::size_t count, const LanePro
   return dropped;
 }
 
-// Finds the supports of a part, which has as many points as `projections` has capacity for. If `more` parts
-// follow, `bounds` receives lower bounds of the supports found, so that later parts compare fewer points.
+// Finds the supports of a part, which has at most as many points as `projections` has capacity for. If `more`
+// parts follow, `bounds` receives lower bounds of the supports found, so that later parts compare fewer
+// points.
 template <Layout layout, typename T>
 void supports_of_part(const PointView& part, const SupportDirections& set,
                       const LaneProjections<T>& projections, bool more, Workspace<T>& work,

@@ -18,8 +18,9 @@
 #include "preconditions.h"
 
 namespace pcl_bv {
-// Takes, of eight points, the one nearest to their mean. A centre that is itself a support point makes the
-// maximum 0, which every lane has; then all points have to be compared: 0.4 us for 300.
+// Chooses, from eight points, the one nearest to their mean. If the centre is itself a support point, the
+// maximum projection is 0. Every lane has this maximum then, and all points have to be compared, which takes
+// 0.4 us for 300 points.
 bool central_point(const PointView& points, Coordinates& center) {
   constexpr std::size_t samples = 8;
   std::array<Coordinates, samples> sample;
@@ -61,7 +62,8 @@ SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, co
   size_ = dot3(magnitudes(scaled_), s);
   overflow_ = !(size_ <= 0.99 * greatest);  // size_ may be NaN for infinite extents
   if (set.cube) {
-    // Projections need additions only. Those of one term keep the order of points, since x - c is monotone.
+    // Projections need additions only. Projections of one term keep the order of points, since x - c is
+    // monotone.
     const double terms = taxicab3(scaled_);
     error_ = 4 * unit * size_;
     pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size_;
@@ -121,8 +123,9 @@ ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const Support
   center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
 
-// Finds, for 64 points at a time, which pass, as bits: a branch per point costs more than its arithmetic.
-// `address` returns the address of a point's x; y is `gap` bytes after x, z `gap` bytes after y.
+// Tests 64 points at a time and stores the results as bits, because a branch per point costs more than its
+// arithmetic. Calls compete() for the points that pass. `address` returns the address of a point's x; y is
+// `gap` bytes after x, and z is `gap` bytes after y.
 template <typename T>
 template <typename Address>
 void ExactSupportSearch<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scalar reference of the supports. Projects one point at a time into local accumulators, on the cube's
-// directions with the shared sums x + y and x - y; then inspects again the blocks that can hold a support
-// point. Compiled with -O3 -fno-tree-vectorize, so that it is what benchmarks call scalar.
+// Scalar references of supports and axis extents. They project one point at a time into local accumulators.
+// Projections on the cube's directions share the sums x + y and x - y. The reference of supports then
+// searches the blocks that can have a support point. This source is compiled with -O3 -fno-tree-vectorize,
+// because benchmarks use it as the scalar baseline.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,8 @@ struct CubeProjections {
   }
 };
 
-// Projects on any directions, in double; first on the axes, whose extremes give the magnitudes.
+// Projects on any directions, in double. The first three projections are on the axes; their extremes give the
+// largest magnitudes of the coordinates.
 struct GeneralProjections {
   const SupportDirections& set;
   std::size_t count = 3 + set.count;
@@ -85,7 +87,7 @@ std::size_t project_block(std::size_t points, const Load& load, const Project& p
     T v[3];
     load(i, v);
     const T x = std::abs(v[0]), y = std::abs(v[1]), z = std::abs(v[2]);
-    // One test for nearly all points: if the sum is small enough, its terms are valid.
+    // The first test is sufficient for nearly all points. If the sum is small enough, its terms are valid.
     if (!(x + y + z <= limit<T>)&&!(x <= limit<T> && y <= limit<T> && z <= limit<T>)) {
       ++dropped;
       continue;
@@ -120,8 +122,9 @@ std::size_t project_block(const PointView& points, const Project& project, Block
 }
 
 // Bounds the error of the difference of the projections of two points, whose coordinates are at most `m` in
-// magnitude. Cube: u per addition for each point, and u more for the difference and its rounding; infinite if
-// sums may overflow. Other directions: 3.01 * 2^-53 of the magnitudes for each point, and the underflow of
+// magnitude. For the cube's directions and each point, the bound has one u (the unit roundoff of T) per
+// addition, and one more u for the difference and its rounding. It is infinite if sums may overflow. For
+// other directions, it has 3.01 * 2^-53 of the magnitudes for each point, and covers the underflow of
 // products and of the direction's tiny components.
 template <typename T>
 double pair_error(const SupportDirections& set, std::size_t k, const Coordinates& m) {
@@ -145,8 +148,8 @@ void search(const PointView& block, const SupportDirections& set, std::size_t su
   }
 }
 
-// `first` is the number of the first support of `set` in a Block: 6 for GeneralProjections, which projects on
-// the three axes first.
+// `first` is the number of the first support of `set` in a Block. It is 0 for CubeProjections, and 6 for
+// GeneralProjections, which projects on the three axes first.
 template <typename T, typename Project>
 void supports(const PointView& chunk, const SupportDirections& set, const Project& project, std::size_t first,
               const SupportBounds& bounds, ChunkSupports& out) {

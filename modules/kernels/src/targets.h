@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Highway's targets that are compiled, and the lookup of a kernel by instruction set. Include before any
-// Highway header.
+// Selects the targets for which Highway compiles the kernels, and looks up a kernel by instruction set.
+// Include this header before any Highway header.
 #pragma once
 
-// SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference; the specialised targets repeat the general
-// ones. From version 1.0.5 on, Highway's NEON target requires AES instructions, which a Raspberry Pi 4 lacks
-// and no kernel uses.
+// SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference. The specialised targets (AVX3_DL to
+// AVX3_SPR, SVE_256 and SVE2_128) repeat the general targets. In Highway 1.0.5 or later, the NEON target
+// requires AES instructions, which a Raspberry Pi 4 lacks and no kernel uses.
 #define HWY_DISABLED_TARGETS                                                                                \
   (HWY_SSE2 | HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3_ZEN4 | HWY_AVX3_SPR | PCL_BV_NEON_WITH_AES | HWY_SVE_256 | \
    HWY_SVE2_128)
@@ -24,7 +24,7 @@
 #define PCL_BV_NEON_WITH_AES 0
 #define PCL_BV_CHOOSE_NEON HWY_CHOOSE_NEON
 #endif
-// Targets unknown to older versions of Highway.
+// Older versions of Highway do not define these targets.
 #if !defined(HWY_SSE2)
 #define HWY_SSE2 0
 #endif
@@ -44,7 +44,8 @@
 
 namespace pcl_bv {
 
-/// One function per Isa, in the order of the enumeration; null if the target is not compiled.
+/// The versions of one kernel, one function per Isa, in the order of the enumeration. The function is null if
+/// the target is not compiled.
 template <typename Function>
 struct KernelTable {
   Function* entries[8];
@@ -55,8 +56,8 @@ KernelTable(std::nullptr_t, Function*, Others...) -> KernelTable<Function>;
 
 }  // namespace pcl_bv
 
-/// The table of a function that each HWY_NAMESPACE of this file except N_SCALAR defines. Use it inside
-/// HWY_ONCE.
+/// The initialiser of a KernelTable. The source that uses this macro must define `function` in every
+/// HWY_NAMESPACE except N_SCALAR, in whose place `reference` is used. Use the macro inside HWY_ONCE.
 #define PCL_BV_KERNEL_TABLE(function, reference)                                                         \
   {                                                                                                      \
     nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \

@@ -20,8 +20,9 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Visits the box that contains the centre first: it is the likeliest to have a point near the centre, and is
-// known soonest. A query to 10^5 points takes a sixth less time than in the order of the boxes.
+// Visits the box that contains the centre first, because it is the likeliest to have a point near the centre,
+// and is the fastest to find. A query in 10^5 points then takes a sixth less time than if the boxes are
+// visited in their order.
 template <typename T>
 struct AnyPoint {
   const BoxLevels& boxes;

@@ -75,8 +75,8 @@ HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
 }
 
 /// Calls take(packet), depth first and nearest box first, for the packets whose boxes have a bound of at most
-/// `limit`, which take() may lower. bound(d, group, k) returns the bounds of the boxes k, k + 1, ... of a
-/// group; for unused boxes it must return infinity or the smallest bound of the used ones.
+/// `limit`. take() may lower `limit`. bound(d, group, k) returns the bounds of the boxes k, k + 1, ... of a
+/// group; for unused boxes it must return infinity or the smallest bound of the used boxes.
 template <typename Bound, typename Take>
 HWY_INLINE void descend(const BoxLevels& boxes, const Bound& bound, const float& limit, const Take& take) {
   OpenGroup open[BoxLevels::kMaxLevels];

@@ -23,8 +23,8 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   return sum * (1 - 0x1p-40);
 }
 
-// Calls take(packet) for each packet below an item if near(group, k) holds for all boxes in between. Stops
-// and returns true as soon as take() returns true.
+// Calls take(packet) for each packet below an item if near(group, k) holds for all boxes between the item and
+// the packet. Stops and returns true as soon as take() returns true.
 template <typename Near, typename Take>
 bool visit_packets(const BoxLevels& boxes, std::size_t level, std::size_t item, const Near& near,
                    const Take& take) {
@@ -44,7 +44,7 @@ Coordinates point_of(const PackedTree& tree, std::size_t packet, std::size_t lan
   return tree.scalar == ScalarType::float32 ? of(tree.floats[packet]) : of(tree.doubles[packet]);
 }
 
-// Calls take(Neighbor) for all points whose squared distance is at most limit(), which take() may lower.
+// Calls take(Neighbor) for all points whose squared distance is at most limit(). take() may lower limit().
 // Stops and returns true as soon as take() returns true.
 template <typename Limit, typename Take>
 bool visit_ball(const PackedTree& tree, const Coordinates& center, const Limit& limit, const Take& take) {
@@ -73,7 +73,7 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
       });
 }
 
-// Returns the time at which the ball enters box k of a group; infinity if it does not.
+// Returns the time at which the ball enters box k of a group; infinity if it does not enter it.
 float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -20,7 +20,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Returns the times at which the ball enters the boxes k, k + 1, ...; infinity if it does not.
+// Returns the times at which the ball enters the boxes k, k + 1, ...; infinity for boxes that it does not
+// enter.
 HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBall& ball, std::size_t k) {
   auto enter = hn::Zero(d), leave = hn::Inf(d);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -35,9 +36,10 @@ HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBal
   return hn::IfThenElse(hn::Le(enter, leave), enter, hn::Inf(d));
 }
 
-// Returns, as bits, the points that may be within the radius of the whole line; a NaN never is. With q from
-// the origin to the point, |q x d| is off by less than 2^-48 |q|_1 |d|. kRelativeMargin |q|_1 covers this and
-// the margin that Sphere::intersect() adds to a radius.
+// Returns, as bits, the points whose distance from the whole line may be at most the radius. A point with a
+// NaN is never returned. Let q be the vector from ball.from to the point, and d the direction. The error of
+// |q x d| is below 2^-48 |q|_1 |d|. kRelativeMargin |q|_1 covers this error and the margin that
+// Sphere::intersect() adds to a radius.
 template <typename T>
 HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const SweptBall& ball) {
   const Doubles d;

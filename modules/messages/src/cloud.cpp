@@ -21,7 +21,7 @@ struct Datatype {
   std::uint32_t size;
 };
 
-// Index: the datatype of sensor_msgs/PointField minus 1.
+// Types of fields. The index is the datatype of sensor_msgs/PointField minus 1.
 constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
                                 {'I', 4}, {'U', 4}, {'F', 4}, {'F', 8}};
 
@@ -32,13 +32,13 @@ constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
 // Positions of the points in the data.
 struct Layout {
   std::size_t width = 0, height = 0;
-  std::uint64_t row_bytes = 0;  // from one row to the next
+  std::uint64_t row_bytes = 0;  // bytes from one row to the next
 
   std::size_t points() const { return width * height; }
 };
 
-// Tolerates two errors of drivers: a wrong row_step (which is redundant for rows without padding), and height
-// 0 for an unorganised cloud. Both are ignored if the data has exactly the bytes that the points need.
+// Tolerates two errors of drivers, namely a wrong row_step (redundant for rows without padding), and height
+// 0 for an unorganised cloud. They are ignored if the data has exactly the bytes that the points need.
 Layout layout_of(const msg::PointCloud2& cloud) {
   const std::uint64_t width = cloud.width, step = cloud.point_step, size = cloud.data.size;
   const std::uint64_t packed = width * step;  // below 2^64
@@ -57,7 +57,8 @@ Layout layout_of(const msg::PointCloud2& cloud) {
   return {width, height, height == 1 || exact ? packed : cloud.row_step};
 }
 
-// Returns what is wrong with a field: its type is unknown, or it exceeds the record. Empty if it is valid.
+// Returns what is wrong with a field, namely an unknown type, or that it exceeds the record. Returns an empty
+// text for a valid field.
 std::string problem_of(const msg::PointField& field, std::uint32_t count, std::uint32_t point_step) {
   if (field.datatype < 1 || field.datatype > std::size(kDatatypes))
     return "is of datatype " + std::to_string(field.datatype) + ", not 1 to 8";
@@ -69,7 +70,8 @@ std::string problem_of(const msg::PointField& field, std::uint32_t count, std::u
 
 using Coordinates3 = std::array<const msg::PointField*, 3>;
 
-// Finds the fields x, y and z, or X, Y and Z, which some writers use instead. Throws MessageError.
+// Finds the fields x, y and z. For a missing one, X, Y or Z is used, as some writers name them. Throws
+// MessageError.
 Coordinates3 coordinates_of(const msg::PointCloud2& cloud) {
   Coordinates3 found{};
   const auto named = [&](const char* name) -> const msg::PointField* {
@@ -129,7 +131,8 @@ void copy_element(const std::byte* from, bool swap, const FieldConversion& conve
   }
 }
 
-// Returns the size of the new coordinates: 4 if float32 represents all values of their types exactly, else 8.
+// Returns the size of a coordinate in the new record. It is 4 if float32 represents all values of the three
+// types exactly, else 8.
 std::uint32_t coordinate_size(const Coordinates3& xyz) {
   const bool wide = std::any_of(xyz.begin(), xyz.end(), [](const msg::PointField* field) {
     const auto [type, size] = kDatatypes[field->datatype - 1];
@@ -138,7 +141,7 @@ std::uint32_t coordinate_size(const Coordinates3& xyz) {
   return wide ? 8 : 4;
 }
 
-// The fields that can be read, and a note about those that cannot.
+// The fields that can be read, and a note about all other fields.
 struct Selection {
   std::vector<FieldConversion> conversions;
   std::string note;
@@ -154,8 +157,8 @@ struct Selection {
 
 Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) {
   Selection selection;
-  // Limits the new record to twice the old one. Overlapping fields are allowed, since a colour often has two
-  // names, but a damaged message could repeat the whole record many times.
+  // Limits the new record to twice the size of the old record. Overlapping fields are allowed, because a
+  // colour often has two names, but a damaged message could repeat the whole record many times.
   const std::size_t max_bytes = 2 * std::size_t{cloud.point_step};
   const std::uint32_t size = coordinate_size(xyz);
   std::size_t bytes = 0, offset = 0;
@@ -204,7 +207,8 @@ void set_fields(RawCloud& cloud, const std::vector<FieldConversion>& conversions
   }
 }
 
-// Returns a cloud without points. A filter that removes all points often publishes no fields, too.
+// Returns a cloud without points. Its fields can be missing, because filters that remove all points often
+// publish none.
 RawCloud cloud_without_points(const msg::PointCloud2& cloud) {
   RawCloud made = make_cloud({});
   try {

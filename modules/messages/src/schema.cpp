@@ -11,7 +11,8 @@
 namespace pcl_bv {
 namespace {
 
-// Definitions by type name. Types within a definition have their package, too, which ROS allows everywhere.
+// Definitions by type name. In a definition, each type is written with its package, which ROS allows
+// everywhere.
 constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
     {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
     {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
@@ -106,7 +107,7 @@ std::string_view definition(std::string_view name) {
   return found->second;
 }
 
-// Appends the types that a definition uses, directly or indirectly, each once.
+// Appends the types that a definition uses, directly or indirectly. Each type is appended once.
 void collect(std::string_view name, std::vector<std::string_view>& names) {
   std::string_view text = definition(name);
   while (!text.empty()) {

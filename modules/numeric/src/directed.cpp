@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Directed rounding by error-free transformations; the processor's rounding mode stays unchanged.
+// Directed rounding by error-free transformations. The processor's rounding mode stays unchanged.
 #include "pcl_bv/numeric/directed.h"
 
 #include <bit>
@@ -46,7 +46,8 @@ double divide_down(double a, double scale) {
 float float_up(double x) {
   const float nearest = static_cast<float>(x);
   if (!(nearest < x)) return nearest;
-  // The next float above, in half the time of std::nextafter. `nearest` is neither NaN nor +infinity nor -0.
+  // Computes the next float above `nearest` in half the time of std::nextafter. This works because `nearest`
+  // is neither NaN nor +infinity nor -0.
   const auto bits = std::bit_cast<std::int32_t>(nearest);
   return std::bit_cast<float>(nearest < 0 ? bits - 1 : bits + 1);
 }

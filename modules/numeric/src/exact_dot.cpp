@@ -34,7 +34,8 @@ double rounded_up(const Rational& exact) {
   return rounded;
 }
 
-// Number of significant mantissa bits, from the leading to the last set bit. Too large for denormal numbers.
+// Returns the number of significand bits from the leading to the last set bit. For denormal numbers the
+// result is too large, which only makes is_exact() return false.
 int width(double value) {
   const std::uint64_t fraction = std::bit_cast<std::uint64_t>(value) & 0xF'FFFF'FFFF'FFFFU;
   return fraction == 0 ? 1 : 53 - std::countr_zero(fraction);
@@ -46,8 +47,8 @@ bool is_exact(double product, double a, double b) {
   return (wide == 1 || other == 1 || wide + other <= 53) && std::abs(product) >= 0x1p-960;
 }
 
-// A projection in plain double: three products and two sums. value() is off by at most 3.01 * 2^-53 of
-// magnitude().
+// A projection in double arithmetic, by three products and two sums. The error of value() is at most
+// 3.01 * 2^-53 of magnitude().
 struct Rounded {
   Rounded(const Direction& n, const Coordinates& p) : x(n[0] * p.x), y(n[1] * p.y), z(n[2] * p.z) {}
 
@@ -61,8 +62,8 @@ struct Rounded {
   double x, y, z;
 };
 
-// Not inlined: the stack that expansions and rationals need would considerably slow down the usual case of
-// compare_along(). If all magnitudes are tiny, scaling by a power of two keeps the products exact.
+// Not inlined, because the stack that expansions and rationals need would considerably slow down the usual
+// case of compare_along(). If all magnitudes are tiny, scaling by a power of two keeps the products exact.
 [[gnu::noinline]] int compare_exactly(const Direction& n, const Coordinates& p, const Coordinates& q,
                                       double magnitude) {
   const double scale = magnitude < 0x1p-400 ? 0x1p500 : 1;
@@ -80,8 +81,8 @@ struct Rounded {
 }  // namespace
 
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q) {
-  // Along a coordinate axis comparing coordinates suffices. That is the common case of ties: all points of a
-  // wall.
+  // Along a coordinate axis it is enough to compare coordinates. Most ties are of this kind, because all
+  // points of an axis-aligned wall have the same coordinate.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) continue;
     const int order = (p[axis] > q[axis]) - (p[axis] < q[axis]);
@@ -94,8 +95,8 @@ int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q
   const double error_bound = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
   if (difference > error_bound) return 1;
   if (difference < -error_bound) return -1;
-  // Products of floats with small integers or powers of two are exact. Such a tie takes 20 ns here, 48 ns by
-  // expansions.
+  // Products of floats with small integers or powers of two are exact. Then a tie takes 20 ns with
+  // exact_sum(), but 48 ns with expansions.
   if (a.has_exact_products(n, p) && b.has_exact_products(n, q)) return compare(a.sum(), b.sum());
   return compare_exactly(n, p, q, a.magnitude() + b.magnitude());
 }

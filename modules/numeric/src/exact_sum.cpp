@@ -19,9 +19,9 @@ ExactSum exact_sum(double x, double y, double z) {
   return {head.sum, head.error, errors.error};
 }
 
-// |tail + rest| exceeds half a step of head at most slightly, and its rounded sum has the sign of the exact
-// one. So the sign tells on which side of head the exact value lies, and the next double on that side bounds
-// the value.
+// The rounded sum tail + rest has the sign of the exact sum. Therefore its sign is the side of `head` on
+// which the exact value lies. |tail + rest| is at most slightly more than half a step of `head`, so the next
+// double on that side bounds the value.
 double round_down(const ExactSum& sum) {
   const double below = sum.tail + sum.rest;
   return (below < 0.0 ? next_down(sum.head) : sum.head) + 0.0;

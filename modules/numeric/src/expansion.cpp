@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLossyProduct = 0x1p-960;
 
-// A non-overlapping expansion, parts ordered by increasing magnitude.
+// A non-overlapping expansion. Its parts are in ascending order of their magnitudes.
 class ExpansionParts {
  public:
   ExpansionParts(const double* terms, std::size_t count) {
@@ -49,9 +49,9 @@ class ExpansionParts {
     return parts_[size_ - 1] > 0 ? 1 : -1;
   }
 
-  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS),
-  // so that each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41
-  // such parts.
+  // Makes each part the rounded sum of itself and all smaller parts (the first pass of Shewchuk's COMPRESS).
+  // Then each part is at most 2^-52 of the next larger part. At most 41 such parts fit into the 2098 binary
+  // digits that doubles span.
   void compress() {
     if (size_ == 0) return;
     std::size_t lowest = size_ - 1;
@@ -68,7 +68,7 @@ class ExpansionParts {
   }
 
  private:
-  std::array<double, Expansion::capacity + 1> parts_;  // the terms, and one more that up() adds
+  std::array<double, Expansion::capacity + 1> parts_;  // at most one per term, and one that up() adds
   std::size_t size_ = 0;
 };
 
@@ -99,7 +99,7 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
-// Sums of differences can have more terms than there is capacity for. compress() always leaves free capacity.
+// Merges the terms when there are as many as `capacity`. After compress() at most 41 terms remain.
 void Expansion::compact() {
   ExpansionParts parts(terms_.data(), size_);
   parts.compress();
@@ -109,11 +109,12 @@ void Expansion::compact() {
     add(parts[i]);
 }
 
-// Bounds the difference between the sum and head_ + low_. low_ is the sum of at most 44 errors, each at most
-// 2^-53 of the magnitude; adding them up made 44 errors of at most 2^-53 of their sum. Together that is
-// 44^2 2^-106 < 2^-95 of the magnitude. A product below 2^-960 lost less than that if the magnitude exceeds
-// 2^-900. The result is NaN for smaller magnitudes, and near the largest double, where partial sums may
-// overflow: then no comparison with it holds and the expansion decides.
+// Returns a bound of the difference between the sum and head_ + low_. low_ is the sum of at most 44 errors,
+// each at most 2^-53 of magnitude_. Adding them makes at most 44 more errors, each at most 2^-53 of their
+// sum. The total is at most 44^2 2^-106 < 2^-95 of magnitude_. The loss of a product below 2^-960 is less
+// than that if magnitude_ exceeds 2^-900. The result is NaN for smaller magnitudes, and for those near the
+// largest double, where partial sums may overflow. Comparisons with NaN are false, so then the expansion
+// decides.
 double Expansion::error_bound() const {
   return magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
 }
@@ -134,7 +135,7 @@ double Expansion::up() const {
   double result = parts.value();
   if (parts.size() <= 1 && !lossy_) return result;
   if (!std::isfinite(result)) return kInfinity;
-  // value() is the sum itself or one of the two neighbouring doubles.
+  // ExpansionParts::value() is the sum itself or one of the two neighbouring doubles.
   parts.add(-result);
   if (parts.sign() > 0) result = next_up(result);
   return lossy_ ? next_up(result + kSmallestNormal) : result;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// TwoSum (Knuth): the error-free addition that all exact sums are built from. Needs -ffp-contract=off and
-// rounding to nearest. Include it in .cpp files only: public headers are compiled with the user's flags.
+// The error-free addition TwoSum (Knuth), which all exact sums use. It needs -ffp-contract=off and rounding
+// to nearest. Include this header in .cpp files only, because public headers are compiled with the user's
+// flags.
 #pragma once
 
 namespace pcl_bv {

@@ -51,8 +51,8 @@ class ChunkQueue {
   std::size_t failed_chunk_ = 0;
 };
 
-// ThreadSanitizer does not understand libgomp's barriers and would report false races. Under it, OpenMP
-// policies run on the library's own threads.
+// ThreadSanitizer does not understand libgomp's barriers and would report false races. With ThreadSanitizer,
+// OpenMP policies run on the library's own threads.
 #if defined(__SANITIZE_THREAD__)
 constexpr bool kUseOpenMp = false;
 #else
@@ -64,15 +64,15 @@ void work_with_openmp(ChunkQueue& queue, unsigned threads) {
   queue.work();
 }
 
-// State shared by a parallel call and the tasks of its executor. The tasks share ownership, because the
-// executor may call them after the parallel call has returned.
+// State shared by a parallel region and the tasks of its executor. The tasks share ownership, because the
+// executor may call them after the region has ended.
 class TaskQueue {
  public:
   explicit TaskQueue(ChunkQueue& queue) : queue_(&queue) {}
 
-  // The body of a task. It does nothing on a thread that is already inside a parallel call: a body may wait
-  // for the executor of its thread, and the executor may run this task there meanwhile, while the waiting
-  // body still uses its thread's buffers.
+  // Runs one task. Does nothing on a thread that is already inside a parallel region. There a body may be
+  // waiting for the executor, and the executor may run the task on the same thread meanwhile. The task must
+  // not use the thread's buffers then, because the waiting body still uses them.
   void help() {
     if (ParallelRegion::inside()) return;
     const std::shared_lock working(mutex_, std::try_to_lock);

@@ -14,8 +14,8 @@
 namespace pcl_bv::internal {
 namespace {
 
-// Returns the processors of the main thread, whose thread id is the process id. Fails on machines with more
-// than 1024 processors, which a cpu_set_t cannot represent.
+// Sets `set` to the processors of the main thread, whose thread id is the process id. Returns false on
+// failure, for example on machines with more than 1024 processors, which a cpu_set_t cannot represent.
 bool main_thread_processors(cpu_set_t& set) {
   return ::sched_getaffinity(::getpid(), sizeof set, &set) == 0;
 }

@@ -3,7 +3,8 @@
 
 // Scheduling attributes of the pool's threads. By default a thread inherits processors, scheduling policy and
 // signal mask from the thread that starts it, which may be a driver's thread, pinned to one core with
-// real-time priority. Pool threads take them from the process's main thread instead.
+// real-time priority. Pool threads take processors and policy from the process's main thread instead, and
+// block signals.
 #pragma once
 
 #include <csignal>
@@ -23,15 +24,15 @@ int current_processor();
 /// processor. A negative `avoided` excludes none.
 void avoid_processor(int avoided, std::vector<std::thread>& threads);
 
-/// Gives the calling thread the main thread's processors without `avoided` (as avoid_processor() does), the
-/// main thread's nice value and its scheduling policy; SCHED_OTHER if the main thread is real-time.
-/// Attributes that the system refuses to set stay unchanged.
+/// Gives the calling thread the main thread's processors without `avoided` (as avoid_processor() does), nice
+/// value and scheduling policy. If the main thread is real-time, the policy is SCHED_OTHER. Attributes that
+/// the system refuses to set stay unchanged.
 void adopt_main_thread_scheduling(int avoided);
 
 /// Blocks signals in the calling thread while the object lives, so that threads started meanwhile inherit the
-/// mask and signal handlers run on the host's threads. Signals of faults (SIGSEGV, ...) stay unblocked: the
-/// faulting thread itself handles them, and if they were blocked, the process would end without calling the
-/// host's handler.
+/// mask and signal handlers run on the host's threads. Signals of faults (SIGSEGV, ...) stay unblocked,
+/// because the faulting thread itself handles them. If they were blocked, the process would end without
+/// calling the host's handler.
 class SignalsBlocked {
  public:
   SignalsBlocked();

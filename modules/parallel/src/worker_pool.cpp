@@ -19,16 +19,17 @@
 namespace pcl_bv::internal {
 namespace {
 
-// The process's pool; null until it is first needed. It is never deleted, because other threads may be in
-// run() or call it while static objects are destroyed.
+// The pool of the process; null until a pool is first needed. The pool is never deleted, because other
+// threads may be in WorkerPool::run() or call it while static objects are destroyed.
 std::atomic<WorkerPool*> current{nullptr};
 
 thread_local bool inside_region = false;
 
-// How long to spin before sleeping: longer than the pause between two parallel calls of a frame's stages.
+// The time for which a thread spins before it sleeps. It is longer than the pause between two consecutive
+// parallel stages of a frame.
 constexpr std::chrono::milliseconds kSpinTime{2};
 
-// Spins until the condition holds, at most for kSpinTime. Returns whether it holds.
+// Spins until the condition holds, but for at most kSpinTime. Returns whether the condition holds.
 template <typename Condition>
 bool spin_until(const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + kSpinTime;
@@ -43,9 +44,9 @@ bool spin_until(const Condition& condition) {
   return true;
 }
 
-// A forked child has none of the pool's threads, the pool's lock may be held by one of them, and its
-// condition variables still count them as waiting. So the child never touches that pool and makes a new one
-// when needed.
+// A forked child does not have the threads of the parent's pool. One of these threads may hold the pool's
+// lock, and the pool's condition variables still count them as waiting. So the child never touches the
+// parent's pool, and makes a new pool when it needs one.
 void reset_in_child() {
   current = nullptr;
   inside_region = false;
@@ -76,7 +77,7 @@ WorkerPool& WorkerPool::instance() {
   if (pool != nullptr) return *pool;
   auto fresh = std::make_unique<WorkerPool>();
   if (!current.compare_exchange_strong(pool, fresh.get())) return *pool;
-  std::atexit(end_pool);  // a forked child inherits the registration: end() may be called twice
+  std::atexit(end_pool);  // a forked child inherits the registration, so end() may be called twice
   return *fresh.release();
 }
 
@@ -100,9 +101,9 @@ void WorkerPool::start(unsigned threads) {
   }
 }
 
-// Some systems place threads on few processors, to save power or to pack virtual machines. They wake a helper
-// on its caller's processor, where it waits for milliseconds until the caller stops, while other processors
-// are idle.
+// Some systems run threads on as few processors as possible, to save power or to pack virtual machines. They
+// wake a helper on the processor of the thread that called run(). The helper then waits for milliseconds
+// until this thread stops, while other processors are idle.
 void WorkerPool::exclude_processor(int processor) {
   if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
 }
@@ -113,8 +114,9 @@ WorkerPool::Task* WorkerPool::find_open_task() {
   return found == tasks_.end() ? nullptr : *found;
 }
 
-// Spins until the next task is offered. Returns false if none was offered in time or if no SpinningThreads is
-// left. Spinning pays because a sleeping thread takes 25 us to wake, as long as a stage of a frame may take.
+// Spins until the next task is offered. Returns false if no task was offered in time, or if no
+// SpinningThreads object exists any more. Spinning is worthwhile because waking a sleeping thread takes 25
+// us, and a stage of a frame may be as short.
 bool WorkerPool::spin_for_task(std::unique_lock<std::mutex>& lock) {
   const std::uint64_t seen = run_count_;
   ++spinning_;
@@ -198,7 +200,9 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   }
   const auto done = [&] { return task.active == 0; };
   if (done_.wait_for(lock, kSpinTime, done)) return;
-  exclude_processor(-1);  // the caller now leaves its processor, while the others may be busy
+  // Helpers may now use the caller's processor too. It is free while the caller waits, and the other processors
+  // may be busy.
+  exclude_processor(-1);
   done_.wait(lock, done);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A pool of threads that sleep between calls. A call waits only for threads that have begun to work. So on a
-// busy machine a call takes no longer than on one thread, whereas a barrier waits until the last thread gets
-// a core.
+// A pool of threads that sleep between calls of WorkerPool::run(). run() waits only for threads that have
+// begun to work. So on a busy machine it takes hardly longer than on one thread, whereas a barrier waits
+// until the last thread gets a processor.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,8 @@
 
 namespace pcl_bv::internal {
 
-/// Marks the calling thread as inside a parallel call while the object lives. Objects must not be nested on a
-/// thread. A forked child starts outside.
+/// Marks the calling thread as inside a parallel region while the object lives. Objects must not be nested on
+/// a thread. A forked child starts outside of any region.
 class ParallelRegion {
  public:
   ParallelRegion();
@@ -30,24 +30,24 @@ class ParallelRegion {
 
 class WorkerPool {
  public:
-  /// Returns the process's pool. Threads are started when first needed and joined at exit; calls after that
-  /// run on the calling thread alone. A forked child has a pool of its own.
+  /// Returns the process's pool. Threads are started when first needed and joined at exit. Later calls of
+  /// run() use the calling thread alone. A forked child gets a new pool.
   static WorkerPool& instance();
 
-  /// Runs work() on the calling thread and on up to `helpers` pool threads that become free before the
-  /// caller's work() returns; then waits for those. Must not be called inside a parallel call. Throws
-  /// std::logic_error in a child that was forked by `work` and returns from it: the work of the other threads
-  /// is lost there.
+  /// Runs work() on the calling thread and on at most `helpers` pool threads (helpers), namely on those that
+  /// become free before work() returns on the calling thread. Then waits for the helpers. Must not be called
+  /// inside a parallel region. Throws std::logic_error in a child that was forked by `work` and returns from
+  /// it, because the work of the other threads is lost in the child.
   void run(unsigned helpers, const std::function<void()>& work);
 
-  /// From now on up to `helpers` threads spin for new tasks instead of sleeping, until stop_spinning() has
+  /// Makes at most `helpers` pool threads spin for new tasks instead of sleeping, until stop_spinning() has
   /// been called as often as start_spinning().
   void start_spinning(unsigned helpers);
 
-  /// Ends one start_spinning(). Does nothing if `pool` is that of the parent process.
+  /// Cancels one call of start_spinning(). Does nothing if `pool` is the pool of the parent process.
   static void stop_spinning(WorkerPool* pool);
 
-  /// Joins the threads; later calls run on the calling thread alone.
+  /// Joins the threads. Later calls of run() use the calling thread alone.
   void end();
 
  private:
@@ -69,7 +69,7 @@ class WorkerPool {
   std::vector<std::thread> threads_;
   bool ended_ = false;
   int avoided_ = -1;                          // processor that the threads avoid, or -1; guarded by mutex_
-  unsigned spinning_ = 0, max_spinning_ = 0;  // threads that spin, and the maximum of them; guarded by mutex_
+  unsigned spinning_ = 0, max_spinning_ = 0;  // threads that spin, and their maximum; guarded by mutex_
   std::uint64_t spin_request_count_ = 0;      // number of calls of start_spinning(); guarded by mutex_
   std::atomic<unsigned> spin_requests_{0};    // calls of start_spinning() not yet ended by stop_spinning()
   std::atomic<std::uint64_t> run_count_{0};   // number of calls of run()

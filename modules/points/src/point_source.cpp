@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each thread reuses its buffers: a fresh one of 512 KiB would cost 128 page faults, which take as long as
-// reading the points.
+// Each thread reuses its buffers, because a fresh buffer of 512 KiB would cost 128 page faults, which take as
+// long as reading the points.
 
 #include "pcl_bv/points/point_source.h"
 

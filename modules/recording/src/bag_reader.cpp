@@ -19,7 +19,7 @@ namespace pcl_bv {
 namespace {
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
-  // Limits the memory that a small file can request. bz2 can reach a ratio of 20 000, but real data of more
+  // Limits the memory that a small file can request. The ratio of bz2 can be 20 000, but real data of more
   // than 8 MiB does not exceed 1000.
   if (expected > std::max<std::size_t>(8U << 20U, 1000 * size))
     throw IoError("bz2: " + std::to_string(size) + " bytes for " + std::to_string(expected));
@@ -32,13 +32,13 @@ void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, s
   if (status != BZ_OK || made != expected) throw IoError("bz2: not " + std::to_string(expected) + " bytes");
 }
 
-// A record in the file: its header, and position and size of its data, which are not read.
+// Location of a record, which is its header and the position and size of its data. The data is not read.
 struct BagRecordLocation {
   std::vector<std::byte> header;
   std::uint64_t data = 0, size = 0;
 };
 
-// Maximum bytes of any header (a topic's name, a few numbers) and of a chunk's header (compression, size).
+// Maximum bytes of any header (a topic's name, a few numbers), and of a chunk's header (compression, size).
 constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
 
 class BagReader final : public ChunkedReader {
@@ -52,7 +52,8 @@ class BagReader final : public ChunkedReader {
   }
 
  private:
-  // Returns the record at `at`; nullopt if it exceeds the file or its header exceeds `max_header` bytes.
+  // Returns the record at `at`. Returns nullopt if it exceeds the file or its header exceeds `max_header`
+  // bytes.
   std::optional<BagRecordLocation> record_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
     const std::uint64_t size = file_.size();
     if (at + 4 > size) return std::nullopt;
@@ -84,8 +85,8 @@ class BagReader final : public ChunkedReader {
         found_topics_, {std::string(header.text("topic")), ros2_type(connection.text("type")), "ros1"});
   }
 
-  // Reads the index at the file's end: connections and positions of chunks. Returns false, with a warning, if
-  // it is missing or damaged.
+  // Reads the index at the file's end, which has the connections and the positions of the chunks. If the
+  // index is missing or damaged, adds a warning and returns false.
   bool read_index_or_warn() {
     std::string problem = "the recording was not closed";
     try {
@@ -144,7 +145,7 @@ class BagReader final : public ChunkedReader {
   void scan() {
     std::vector<std::byte> raw, unpacked;
     Decompressor decompressor;
-    std::uint64_t previous = 0;  // position of the last record: its length may be damaged
+    std::uint64_t previous = 0;  // position of the last record, whose length may be damaged
     for (std::uint64_t at = kMagicBytes; at < file_.size();) {
       const std::optional<BagRecordLocation> location = record_at(at);
       const std::optional<BagOp> op = location ? op_of(*location) : std::nullopt;
@@ -180,7 +181,8 @@ class BagReader final : public ChunkedReader {
     }
   }
 
-  // Returns the position of the next chunk, found by its header's field "op", or the file's end.
+  // Returns the position of the next chunk, which is found by the field "op" of its header, or the file's
+  // end.
   std::uint64_t find_chunk(std::uint64_t from) const {
     constexpr std::string_view mark("\x04\0\0\0op=\x05", 8);
     std::uint64_t chunk = file_.size();
@@ -195,8 +197,8 @@ class BagReader final : public ChunkedReader {
     return chunk;
   }
 
-  // Returns the position of the chunk whose header contains the bytes [begin, end), searched backwards down
-  // to `from`; the file's end if there is none.
+  // Returns the position of the chunk whose header contains the bytes [begin, end). The search goes backwards
+  // to `from`. Returns the file's end if there is no such chunk.
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
     const std::uint64_t lowest = std::max(from, begin - std::min(begin, kMaxChunkHeader));
     for (std::uint64_t at = begin; at-- > lowest;) {
@@ -244,7 +246,7 @@ class BagReader final : public ChunkedReader {
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
     const std::optional<BagRecordLocation> location = record_at(part_offset(part));
     if (!location) throw IoError("it is cut");
-    // Refuse overlapping chunks: each entry of a small file's index could refer to most of the file.
+    // Refuse overlapping chunks, because each entry of a small file's index could refer to most of the file.
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
     if (next != offsets_.end() && location->data + location->size > *next)
       throw IoError("the chunk overlaps the next one");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parses the records of ROS 1 bags: a record is a header of named fields, and data.
+// Parses the records of ROS 1 bags. A record is a header of named fields, then data.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ enum class BagOp : std::uint8_t { message = 2, bag_header, index, chunk, chunk_i
 
 inline constexpr std::size_t kMagicBytes = 13;
 
-// Reads bytes in sequence. Throws IoError if too few are left.
+// Reads bytes in sequence. Throws IoError if the remaining bytes are too few.
 class BagBytes {
  public:
   BagBytes(const std::byte* data, std::size_t size) : data_(data), size_(size) {}
@@ -43,7 +43,7 @@ class BagBytes {
   std::size_t size_;
 };
 
-// The fields of a header: each is a length and "name=value".
+// The fields of a header. In the file, each field is a length and "name=value".
 class BagHeader {
  public:
   BagHeader(const std::byte* data, std::size_t size) {
@@ -69,7 +69,7 @@ class BagHeader {
   }
   BagOp op() const { return static_cast<BagOp>(number<std::uint8_t>("op")); }
 
-  // Returns nanoseconds since 1970. A stored time is seconds and nanoseconds, 32 bits each.
+  // Returns nanoseconds since 1970. The file stores seconds and nanoseconds, 32 bits each.
   std::int64_t time(std::string_view name) const {
     const auto both = number<std::uint64_t>(name);
     return static_cast<std::int64_t>((both & 0xFFFFFFFFU) * 1'000'000'000U + (both >> 32U));

@@ -47,7 +47,8 @@ bool ChunkedReader::next(RecordedMessage& message) {
   return true;
 }
 
-// Returns the loaded part with the earliest next message; of equal times the first part in the file.
+// Returns the loaded part with the earliest next message. If times are equal, returns the first part in the
+// file.
 ChunkedReader::LoadedPart* ChunkedReader::earliest() const {
   const auto before = [](const auto& a, const auto& b) {
     const std::int64_t at = a->messages[a->next].log_time_ns, bt = b->messages[b->next].log_time_ns;
@@ -56,7 +57,7 @@ ChunkedReader::LoadedPart* ChunkedReader::earliest() const {
   return std::min_element(loaded_.begin(), loaded_.end(), before)->get();
 }
 
-// Releases the parts without further messages. The message that next() returned before is no longer needed.
+// Releases the parts without further messages. The last message that next() returned is no longer needed.
 void ChunkedReader::release() {
   for (auto loaded = loaded_.begin(); loaded != loaded_.end();) {
     if ((*loaded)->next < (*loaded)->messages.size()) {

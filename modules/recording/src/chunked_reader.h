@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Base class of readers for formats that store messages in chunks. Chunks whose times overlap are loaded at
-// the same time, so that messages can be returned in the order of time.
+// Base class of readers for formats that store messages in chunks. Chunks with overlapping times are in
+// memory at the same time, because messages must be returned in the order of time.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ class ChunkedReader : public RecordingReader {
   /// A chunk, or a run of messages outside of chunks.
   struct Part {
     std::uint64_t offset = 0;           ///< Position in the file.
-    std::int64_t first_time_ns = 0;     ///< Time of its earliest message.
-    std::vector<std::size_t> topics{};  ///< Topics of its messages; empty if unknown.
+    std::int64_t first_time_ns = 0;     ///< Time of the part's earliest message.
+    std::vector<std::size_t> topics{};  ///< Topics of the part's messages; empty if unknown.
   };
   /// Memory that the messages of a loaded part refer to.
   struct Buffers {
@@ -32,20 +32,22 @@ class ChunkedReader : public RecordingReader {
     Decompressor decompressor;
   };
 
-  /// Sets the topics, and the parts in the order of the file. Must be called once, before all others.
+  /// Sets the topics, and the parts in the order of the file. Must be called once, before all other
+  /// functions.
   void start(std::vector<RecordedTopic> topics, std::vector<Part> parts);
 
   /// Appends the messages of a part whose topics are wanted(), in their order in the file. Throws IoError for
-  /// a damaged part; the messages appended before the exception are used, the rest of the part is skipped.
+  /// a damaged part. The messages appended before the exception are used, and the rest of the part is
+  /// skipped.
   virtual void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) = 0;
 
-  /// Whether the topic is selected.
+  /// Returns whether the topic is selected.
   bool wanted(std::size_t topic) const { return wanted_[topic]; }
   std::uint64_t part_offset(std::size_t part) const { return parts_[part].offset; }
 
  private:
   struct LoadedPart {
-    std::size_t part = 0, next = 0;         // number of the part, and of its next message
+    std::size_t part = 0, next = 0;         // number of the part, and number of its next message
     std::vector<RecordedMessage> messages;  // sorted by time
     Buffers buffers;
   };
@@ -62,8 +64,8 @@ class ChunkedReader : public RecordingReader {
   std::vector<std::unique_ptr<LoadedPart>> loaded_, spare_;
 };
 
-/// Returns the index of the topic in the list; appends it if it is new. If several senders have topics of the
-/// same name, type and encoding, they become one topic, and their numbers of messages are added.
+/// Returns the index of the topic in the list, and appends the topic if it is new. If several senders have
+/// topics of the same name, type and encoding, these become one topic, whose number of messages is the sum.
 std::size_t add_topic(std::vector<RecordedTopic>& topics, const RecordedTopic& topic);
 
 }  // namespace pcl_bv

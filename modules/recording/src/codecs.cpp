@@ -17,13 +17,13 @@
 namespace pcl_bv {
 namespace {
 
-// The fastest level: recording must not slow down a stream.
+// The fastest level, because recording must not slow down a stream.
 constexpr int kZstdLevel = 1;
 [[noreturn]] void refuse(const char* library, const std::string& what) {
   throw IoError(std::string(library) + ": " + what);
 }
 
-// One byte of lz4 decompresses to at most 255 bytes.
+// Throws IoError if lz4 cannot yield `expected` bytes. One byte of lz4 decompresses to at most 255 bytes.
 void check_lz4(std::size_t size, std::size_t expected) {
   if (expected / 256 > size)
     refuse("lz4", std::to_string(size) + " bytes cannot decompress to " + std::to_string(expected));
@@ -101,7 +101,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
     to.resize(expected);
     return unpack_lz4(contexts_->lz4, data, size, to);
   }
-  if (expected / 64 > size) {  // unusual ratio: do not trust `expected`, let the buffer grow with the output
+  if (expected / 64 > size) {  // do not trust `expected`; the buffer grows with the output
     decompress_zstd(data, size, to, expected);
     if (to.size() != expected) refuse("zstd", "not " + std::to_string(expected) + " bytes");
     return;
@@ -115,8 +115,8 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
                                    std::size_t max_bytes) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
-  // Limit the window, since a few bytes can request 128 MiB: to 8 MiB (enough for level 19) for less than 1
-  // MiB of data, else to 128 MiB.
+  // Limit the window, because a few bytes can request 128 MiB. The limit is 8 MiB (enough for level 19) if
+  // there is less than 1 MiB of data, else 128 MiB.
   ZSTD_DCtx_setParameter(contexts_->zstd.get(), ZSTD_d_windowLogMax, size < (1U << 20U) ? 23 : 27);
   ZSTD_inBuffer in{data, size, 0};
   std::size_t made = 0, rest = 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compresses and decompresses blocks of recordings: lz4 and zstd, both in their frame formats.
+// Compresses and decompresses blocks of recordings in the frame formats of lz4 and zstd.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ inline constexpr Compression kCompressions[]{Compression::none, Compression::lz4
 
 std::string_view name_of(Compression compression);  ///< Name in MCAP: "", "lz4" or "zstd".
 
-/// Compresses blocks; compress() replaces `to`. Reuse an object (and `to`) to keep the allocated memory.
+/// Compresses blocks. compress() replaces `to`. Reuse a Compressor (and `to`) to keep the allocated memory.
 class Compressor {
  public:
   Compressor();
@@ -30,13 +30,14 @@ class Compressor {
   std::unique_ptr<Contexts> contexts_;
 };
 
-/// Decompresses blocks; reuse an object to keep the allocated memory.
+/// Decompresses blocks. Reuse a Decompressor to keep the allocated memory.
 class Decompressor {
  public:
   Decompressor();
   ~Decompressor();
   /// Replaces `to` by the decompressed data. Throws IoError if the result does not have `expected` bytes. A
-  /// large `expected` alone cannot cause a large allocation: memory is limited by what `data` can yield.
+  /// large `expected` alone cannot cause a large allocation, because the size of `data` limits the memory,
+  /// too.
   void decompress(Compression compression, const std::byte* data, std::size_t size, std::size_t expected,
                   std::vector<std::byte>& to);
 
@@ -50,7 +51,7 @@ class Decompressor {
   std::unique_ptr<Contexts> contexts_;
 };
 
-/// Returns the CRC-32 of IEEE 802.3 (as in MCAP, zip and png). `crc`: CRC of the preceding data.
+/// Returns the CRC-32 of IEEE 802.3 (as in MCAP, zip and png). `crc` is the CRC of the preceding data.
 std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc = 0);
 
 }  // namespace pcl_bv

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kFileHeader = 100;  // bytes at the beginning of the first page
 constexpr int kTableLeaf = 0x0D;
-constexpr std::size_t kMaxColumns = 16;  // more than either table has; limits the work for a damaged row
+constexpr std::size_t kMaxColumns = 16;  // more than any table has; limits the work for a damaged row
 
 std::uint64_t big(const std::byte* at, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -23,7 +23,7 @@ std::uint64_t big(const std::byte* at, std::size_t bytes) {
   return value;
 }
 
-// Reads a part of a page in sequence. Throws IoError at its end.
+// Reads a part of a page in sequence. Throws IoError at the end of the part.
 class PageBytes {
  public:
   PageBytes(const std::vector<std::byte>& page, std::uint64_t from, std::uint64_t to)
@@ -51,7 +51,7 @@ class PageBytes {
   std::uint64_t at_, end_;
 };
 
-// SQLite's serial types of values.
+// Returns whether a serial type of SQLite is an integer.
 bool is_integer(std::uint64_t type) {
   return (type >= 1 && type <= 6) || type == 8 || type == 9;
 }
@@ -79,7 +79,7 @@ std::string take_text(PageBytes& bytes, std::uint64_t type) {
 Db3Pages::Db3Pages(const std::filesystem::path& file) : file_(file) {
   bytes_.resize(std::min<std::uint64_t>(kFileHeader, file_.size()));
   file_.read(0, bytes_.data(), bytes_.size());
-  // If the header is damaged, the page size stays 4096, the default that rosbag2 uses.
+  // If the header is damaged, the page size is 4096, which rosbag2 uses by default.
   if (bytes_.size() == kFileHeader) {
     const std::uint64_t size = big(bytes_.data() + 16, 2) == 1 ? 65'536 : big(bytes_.data() + 16, 2);
     const auto reserved = std::to_integer<std::uint64_t>(bytes_[20]);
@@ -120,8 +120,9 @@ void Db3Pages::read_leaf(std::uint64_t page) {
   }
 }
 
-// Recognises the rows of both tables by their column types, which no other table has: the first column is the
-// row's id (stored as NULL), then messages have integer, integer, blob, and topics have three texts.
+// Recognises the rows of messages and topics by their column types, which no other table has. The first
+// column is the row's id (stored as NULL). Then messages have integer, integer, blob, and topics have three
+// texts.
 void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   PageBytes bytes(bytes_, cell, usable_);
   const std::uint64_t payload = bytes.varint();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads a .db3 file of rosbag2: a SQLite database with the tables topics and messages.
+// Reads a .db3 file of rosbag2, which is a SQLite database with the tables topics and messages.
 
 #include <sqlite3.h>
 
@@ -33,8 +33,8 @@ class DatabaseError : public IoError {
 
 class Database {
  public:
-  // Opens the file with its journal, which has the latest messages of a recording in progress. If SQLite
-  // cannot create the files for that, as on a read-only disk, opens the database file alone.
+  // Opens the file with its journal, which has the latest messages of a recording in progress. For the
+  // journal, SQLite must create files. If it cannot, as on a read-only disk, opens the database file alone.
   explicit Database(const std::filesystem::path& file) {
     if (open(file, "mode=ro") && works()) return;
     if (!open(file, "mode=ro&immutable=1") || !works()) fail();
@@ -69,7 +69,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-// The rows of a query. Member functions throw IoError if the file is damaged.
+// The rows of a query. The member functions throw IoError if the file is damaged.
 class Query {
  public:
   Query(const Database& database, const std::string& sql) : database_(database) {
@@ -80,7 +80,7 @@ class Query {
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
 
-  // Restarts the query with this number as its parameter.
+  // Restarts the query with this number as the query's parameter.
   void begin(std::int64_t number) {
     sqlite3_reset(statement_);
     sqlite3_bind_int64(statement_, 1, number);
@@ -109,8 +109,8 @@ class Query {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-// A message. `id` is its row in the table or, for a damaged file, its index in Db3Pages::messages(). Rows are
-// sorted by time here, not by the database's index of times, which can be damaged.
+// A message. `id` is its row in the table or, for a damaged file, its index in Db3Pages::messages().
+// Db3Reader sorts the rows by time, because the database's index of times can be damaged.
 struct Row {
   std::int64_t time = 0, id = 0;
   std::size_t topic = 0;
@@ -199,7 +199,7 @@ class Db3Reader final : public RecordingReader {
     rows_.push_back(row);
   }
 
-  // Returns false if the row has been deleted meanwhile.
+  // Returns false if the row has been deleted in the meantime.
   bool load(const Row& row, RecordedMessage& message) {
     if (pages_) {
       pages_->load(pages_->messages()[static_cast<std::size_t>(row.id)], raw_);
@@ -213,7 +213,8 @@ class Db3Reader final : public RecordingReader {
     return true;
   }
 
-  // rosbag2 can compress each message by itself. A message in CDR never begins with the magic number of zstd.
+  // rosbag2 can compress each message separately. A message in CDR never begins with the magic number of
+  // zstd.
   void unpack(RecordedMessage& message) {
     constexpr unsigned char zstd[] = {0x28, 0xB5, 0x2F, 0xFD};
     if (message.size < sizeof zstd || std::memcmp(message.data, zstd, sizeof zstd) != 0) return;
@@ -224,7 +225,7 @@ class Db3Reader final : public RecordingReader {
 
   std::unique_ptr<Database> database_;
   std::unique_ptr<Query> data_;      // declared after the database, which must outlive it
-  std::unique_ptr<Db3Pages> pages_;  // used instead of both if the file is damaged
+  std::unique_ptr<Db3Pages> pages_;  // used instead of database and query if the file is damaged
   std::vector<RecordedTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_;
   std::uint64_t messages_without_topic_ = 0;

@@ -13,7 +13,7 @@ const std::vector<RecordingFormat>& recording_formats() {
   static const std::vector<RecordingFormat> formats{
       {"MCAP", [](const Path&, Start start) { return start.starts_with(mcap::kMagic); }, open_mcap},
       {"ROS 1 bag", [](const Path&, Start start) { return start.starts_with("#ROSBAG V2.0\n"); }, open_bag},
-      // The extension is enough, so that a file with a damaged first page is recognised.
+      // The extension is enough, because the first page of the file may be damaged.
       {"rosbag2's .db3",
        [](const Path& file, Start start) {
          return start.starts_with("SQLite format 3") || (file.extension() == ".db3" && !start.empty());

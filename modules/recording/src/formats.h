@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of recording formats, and the function that opens each.
+// The table of recording formats. For each format it has the function that opens a file.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace pcl_bv {
 /// A format of recordings.
 struct RecordingFormat {
   std::string_view name;  ///< Name in error messages, such as "MCAP".
-  /// Whether the file has this format. `start`: the file's first bytes, up to 64.
+  /// Returns whether the file has this format. `start` is the file's first bytes, at most 64.
   bool (*matches)(const std::filesystem::path& file, std::string_view start);
   std::unique_ptr<RecordingReader> (*open)(const std::filesystem::path& file);
 };
@@ -28,12 +28,12 @@ const std::vector<RecordingFormat>& recording_formats();
 std::unique_ptr<RecordingReader> open_db3(const std::filesystem::path& file);
 bool is_rosbag2_folder(const std::filesystem::path& folder);
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const std::filesystem::path& folder);
-/// Opens a file of another format that is compressed as a whole.
+/// Opens a file of another format that is compressed as a whole with zstd.
 std::unique_ptr<RecordingReader> open_zstd_file(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
 
-/// Returns the type name in ROS 2's spelling: "sensor_msgs/PointCloud2" (ROS 1) becomes
+/// Returns the type name in ROS 2's spelling. For example, "sensor_msgs/PointCloud2" (ROS 1) becomes
 /// "sensor_msgs/msg/PointCloud2".
 std::string ros2_type(std::string_view type);
 

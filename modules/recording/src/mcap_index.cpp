@@ -12,7 +12,8 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// Returns the records of the summary, empty if there is none. Throws IoError if file or summary are damaged.
+// Returns the records of the summary, or none if there is no summary. Throws IoError if the file or the
+// summary is damaged.
 std::vector<std::byte> read_summary(const InputFile& file) {
   const std::uint64_t size = file.size();
   if (size < kMagic.size() + kFileEnd) throw IoError("the file is truncated");
@@ -24,7 +25,7 @@ std::vector<std::byte> read_summary(const InputFile& file) {
   if (footer.op != Op::footer) throw IoError("the file has no footer");
   Fields values = footer.fields();
   const auto start = values.number<std::uint64_t>();
-  values.number<std::uint64_t>();  // position of the summary offset records, not needed
+  values.number<std::uint64_t>();  // position of the summary offset records, which is not needed
   const auto crc = values.number<std::uint32_t>();
   if (start == 0) return {};
   if (start < kMagic.size() || start > size - kFileEnd)
@@ -49,7 +50,7 @@ void note_chunk(const Record& record, std::uint64_t end, Summary& summary) {
   summary.index_bytes[chunk.offset] = chunk.index_bytes;
 }
 
-// Throws IoError for overlapping chunks: each entry of a short summary could refer to the whole file.
+// Throws IoError for overlapping chunks, because each entry of a short summary could refer to the whole file.
 void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   std::uint64_t end = 0;
   for (const auto& [offset, chunk] : chunks) {
@@ -58,8 +59,8 @@ void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   }
 }
 
-// Whether the index has the channel and schema of each channel that the summary's channel, statistics and
-// chunk index records refer to.
+// Returns whether the index has all channels and their schemas. All channels are those that the summary's
+// channel, statistics and chunk index records refer to.
 bool describes_channels(const Summary& summary, const Index& index) {
   const auto known = [&](std::uint16_t id) {
     const auto channel = index.channels.find(id);
@@ -76,7 +77,7 @@ bool describes_channels(const Summary& summary, const Index& index) {
          });
 }
 
-// Reads the summary. Returns nullopt if there is none, or if it does not describe all channels.
+// Reads the summary. Returns nullopt if it has no chunks, or does not describe all channels.
 std::optional<Summary> read_summary_index(const InputFile& file, Index& index) {
   const std::vector<std::byte> bytes = read_summary(file);
   Summary summary;

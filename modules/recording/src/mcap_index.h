@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The index of an MCAP file: its channels, and the positions of its messages.
+// The index of an MCAP file, which has the channels and the positions of the messages.
 #pragma once
 
 #include <cstdint>
@@ -18,26 +18,26 @@
 namespace pcl_bv {
 namespace mcap {
 
-/// A part of the file with messages: a chunk, or successive messages outside of chunks.
+/// A part of the file with messages. It is a chunk, or successive messages outside of chunks.
 struct Part {
   std::uint64_t offset = 0, bytes = 0;
   std::uint64_t first_time = 0, last_time = 0;
   bool is_chunk = true;
-  std::set<std::uint16_t> channels{};  ///< Channels of its messages; empty if unknown.
+  std::set<std::uint16_t> channels{};  ///< Channels of the part's messages; empty if unknown.
 };
 
 /// The index of a file.
 struct Index {
   std::map<std::uint16_t, Schema> schemas;          ///< By id.
   std::map<std::uint16_t, Channel> channels;        ///< By id.
-  std::map<std::uint16_t, std::uint64_t> messages;  ///< Number of messages by channel, if the file states it.
+  std::map<std::uint16_t, std::uint64_t> messages;  ///< Number of messages by channel; empty if unknown.
   std::vector<Part> parts;                          ///< In the order of the file.
   WarningList warnings;
 };
 
-/// Returns the index of a file. Walks over its records but skips the chunks that the summary describes.
-/// Chunks are read, too, if the summary is missing or damaged, or if it lacks chunks or a channel's schema.
-/// Throws IoError if the file does not begin with MCAP's magic number.
+/// Returns the index of a file. Walks over the records of the file but skips the chunks that the summary
+/// describes. Chunks are read, too, if the summary is missing or damaged, or if it lacks chunks or a
+/// channel's schema. Throws IoError if the file does not begin with MCAP's magic number.
 Index index_of(const InputFile& file);
 
 /// Returns the records of a part, which refer to `raw` or `unpacked`. Throws IoError for a damaged part.

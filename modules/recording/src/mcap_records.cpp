@@ -7,7 +7,7 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// Visits the fields of a record in order; used both for reading and for writing.
+// Visits the fields of a record in order. Reading and writing both use it.
 template <class Visit, class S>
 void walk_schema(S& m, Visit&& visit) {
   visit(m.id, m.name, m.encoding, m.data);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads and writes MCAP records (https://mcap.dev/spec): an opcode, a length, and little-endian fields.
+// Reads and writes MCAP records (https://mcap.dev/spec). A record is an opcode, a length, and little-endian
+// fields.
 #pragma once
 
 #include <cstddef>
@@ -38,10 +39,12 @@ enum class Op : std::uint8_t {
   data_end = 0x0F
 };
 
-/// Bytes of a record before its fields: opcode and length.
+/// Bytes of a record before its fields, which are the opcode and the length.
 inline constexpr std::size_t kRecordStart = 9;
-/// Bytes of the whole footer record, and of the footer with the magic number at the file's end.
-inline constexpr std::size_t kFooterBytes = kRecordStart + 20, kFileEnd = kFooterBytes + 8;
+/// Bytes of the footer record, including its opcode and length.
+inline constexpr std::size_t kFooterBytes = kRecordStart + 20;
+/// Bytes at the end of a file: the footer record, then the magic number.
+inline constexpr std::size_t kFileEnd = kFooterBytes + 8;
 /// Bytes of a message's fields before its data.
 inline constexpr std::size_t kMessageStart = 22;
 
@@ -122,7 +125,7 @@ class Writer {
     number(static_cast<std::uint32_t>(text.size()));
     bytes(text.data(), text.size());
   }
-  /// Appends a list or map; write() appends its content.
+  /// Appends a list or map. write() appends its content.
   template <class Write>
   void list(Write write) {
     number(std::uint32_t{0});
@@ -141,7 +144,7 @@ class Writer {
   std::size_t begin_ = 0;
 };
 
-// Records that are written or read. CRCs are left to the caller.
+// Records that are read or written. The caller computes and checks CRCs.
 
 struct Schema {
   std::uint16_t id = 0;
@@ -155,7 +158,7 @@ struct Channel {
 };
 
 struct MessageTime {
-  std::uint64_t time, offset;  ///< Offset from the beginning of the uncompressed chunk.
+  std::uint64_t time, offset;  ///< `offset` is from the beginning of the uncompressed chunk.
 };
 
 struct ChunkIndex {
@@ -186,7 +189,8 @@ void put(Writer& writer, const ChunkIndex& index);
 void put(Writer& writer, const AttachmentIndex& index);
 void put(Writer& writer, const Statistics& statistics);
 
-/// Read a record. Throw IoError if it ends within a field. Further fields (of later versions) are ignored.
+/// These functions read a record. They throw IoError if the record ends within a field. Further fields of
+/// later versions are ignored.
 void take(Fields fields, Schema& schema);
 void take(Fields fields, Channel& channel);
 void take(Fields fields, ChunkIndex& index);

@@ -14,9 +14,10 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// Size in bytes at which a part of successive messages outside of chunks ends.
+// Bytes after which a part of successive messages outside of chunks ends.
 constexpr std::uint64_t kLooseBytes = 1U << 20U;
-// Bytes that are enough for a chunk's fields before its records, for compression names of up to 47 bytes.
+// Bytes that are enough for a chunk's fields before its records, if the compression's name has at most 47
+// bytes.
 constexpr std::size_t kChunkStart = 96;
 
 // Walks over the records of a file. Skips the content of chunks that the summary describes.
@@ -29,7 +30,7 @@ class Scan {
   }
 
   UnindexedCounts run() {
-    std::uint64_t previous = 0;  // position of the last record: its length may be damaged
+    std::uint64_t previous = 0;  // position of the last record, whose length may be damaged
     for (std::uint64_t at = kMagic.size(); at + kRecordStart <= file_.size();) {
       if (const auto known = summary_.chunks.find(at); known != summary_.chunks.end()) {
         loose_ = false;
@@ -41,7 +42,7 @@ class Scan {
       }
       const std::vector<std::byte> start = bytes_at(file_, at, kRecordStart);
       Fields fields(start.data(), start.size());
-      // Every opcode other than 0 can be a record. Reserved and private opcodes are skipped.
+      // Every opcode other than 0 can be a record. Records with reserved and private opcodes are skipped.
       const auto op = static_cast<Op>(fields.number<std::uint8_t>());
       const auto size = fields.number<std::uint64_t>();
       if (op == Op{0} || size > file_.size() - at - kRecordStart || (op == Op::chunk && !is_chunk_at(at))) {
@@ -59,8 +60,8 @@ class Scan {
   }
 
  private:
-  // Returns the end of a chunk that the summary describes, including its message indexes if they end before
-  // the next chunk.
+  // Returns the end of a chunk that the summary describes. The chunk's message indexes are included if they
+  // end before the next chunk.
   std::uint64_t end_of_chunk(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
@@ -69,8 +70,8 @@ class Scan {
     return end <= limit && index <= limit - end ? end + index : end;
   }
 
-  // Returns the position of the next chunk at or after `from`: one of the summary, or one found by consistent
-  // fields. Returns the file's end if there is none. Adds a warning for the skipped bytes.
+  // Returns the position of the next chunk at or after `from`, which is in the summary or is found by its
+  // consistent lengths. Returns the file's end if there is none. Adds a warning for the skipped bytes.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
     const auto next = summary_.chunks.lower_bound(from);
     const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
@@ -79,7 +80,7 @@ class Scan {
           return *bytes == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
                  is_chunk(bytes, size, file_.size() - at);
         });
-    // If the length of a record is damaged, the next chunk may begin before the record's supposed end.
+    // If the length of a record is damaged, the next chunk may begin before the apparent end of the record.
     index_.warnings.add(found == file_.size()
                             ? "the file ends within a record, at byte " + std::to_string(damage)
                             : skipped_bytes(found > damage ? damage : from - 1, found));
@@ -93,8 +94,8 @@ class Scan {
     return is_chunk(bytes.data(), bytes.size(), file_.size() - at);
   }
 
-  // Whether a chunk begins here: its lengths must be consistent. Accepts unknown compressions, so that a
-  // warning can name them.
+  // Returns whether a chunk begins at `bytes`, which is the case if its lengths are consistent. Accepts
+  // unknown compressions, so that a warning can name them.
   static bool is_chunk(const std::byte* bytes, std::size_t size, std::uint64_t left) {
     try {
       Fields fields(bytes, size);
@@ -109,7 +110,7 @@ class Scan {
     }
   }
 
-  // Adds the chunks of the summary that are behind the end of the walk.
+  // Adds the chunks of the summary that the walk has not met.
   void add_remaining_chunks() {
     for (const std::uint64_t offset : remaining_chunks_)
       index_.parts.push_back(summary_.chunks.at(offset));
@@ -143,7 +144,8 @@ class Scan {
     part.last_time = std::max(part.last_time, time);
   }
 
-  // Reads a chunk that is not in the summary. Its schemas and channels may occur only in the chunk.
+  // Reads a chunk that is not in the summary. The chunk's schemas and channels may be nowhere else in the
+  // file.
   void add_chunk(std::uint64_t at, std::uint64_t size) {
     ++found_.chunks;
     Part part{at, kRecordStart + size, 0, 0};
@@ -184,7 +186,7 @@ class Scan {
   UnindexedCounts found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;
-  bool loose_ = false;  // the last record was a message outside of chunks, in the last part
+  bool loose_ = false;  // whether the last record was a message outside of chunks, in the last part
 };
 
 }  // namespace

@@ -21,17 +21,17 @@ struct Summary {
   std::optional<Statistics> statistics;
 };
 
-/// Numbers of messages outside of chunks, and of chunks, that are not in the summary.
+/// Numbers of chunks, and of messages outside of chunks, that are not in the summary.
 struct UnindexedCounts {
   std::uint64_t loose_messages = 0, chunks = 0;
 };
 
 /// Walks over the records of a file and adds all chunks and all messages outside of chunks to the index, in
-/// the order of the file. Chunks that the summary describes are not read. After damage the walk continues at
+/// the order of the file. Chunks that the summary describes are not read. After damage, the walk continues at
 /// the next chunk.
 UnindexedCounts scan(const InputFile& file, const Summary& summary, Index& index);
 
-/// Adds a schema or channel record to the index; ignores all other records.
+/// Adds a schema or channel record to the index. Ignores all other records.
 void add_schema_or_channel(const Record& record, Index& index);
 
 /// Reads `size` bytes of the file.

@@ -66,7 +66,7 @@ class McapWriter::State {
     open.schema = {schema_id, topic.type, "ros2msg", topic.definition};
     open.channel = {id, schema_id, topic.name, "cdr", topic.metadata};
     open.channel.metadata.try_emplace("offered_qos_profiles");
-    Buffer records;  // written outside of chunks: a damaged chunk must not affect the others
+    Buffer records;  // written outside of chunks, because a damaged chunk must not affect the others
     Writer writer(records);
     put(writer, open.schema);
     put(writer, open.channel);
@@ -104,7 +104,7 @@ class McapWriter::State {
     Writer writer(record);
     writer.begin(Op::attachment);
     writer.number(log_time);
-    writer.number(log_time);  // creation time: unknown
+    writer.number(log_time);  // as creation time, which is unknown
     writer.text(name);
     writer.text(media_type);
     writer.number(static_cast<std::uint64_t>(content.size()));
@@ -124,7 +124,7 @@ class McapWriter::State {
     Buffer end;
     Writer writer(end);
     writer.begin(Op::data_end);
-    writer.number(std::uint32_t{0});  // no CRC of the data section: each chunk has its own
+    writer.number(std::uint32_t{0});  // no CRC of the data section, because each chunk has its own
     writer.end();
     append(end);
     write_summary();
@@ -132,7 +132,7 @@ class McapWriter::State {
   }
 
  private:
-  // Opens the file for writing. Creates it if it does not exist, and then sets `created_path`.
+  // Opens the file for writing. If the file does not exist, creates it and sets `created_path`.
   static FileDescriptor open_or_create(const std::filesystem::path& file,
                                        std::filesystem::path& created_path) {
     constexpr int flags = O_WRONLY | O_CREAT;
@@ -145,7 +145,8 @@ class McapWriter::State {
     }
   }
 
-  // Truncates the file and writes the header and the first topics. EINVAL: a pipe, which cannot be truncated.
+  // Truncates the file and writes the header and the first topics. EINVAL is ignored, because pipes cannot be
+  // truncated.
   void begin() {
     if (has_begun()) return;
     if (::ftruncate(file_.get(), 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
@@ -153,7 +154,8 @@ class McapWriter::State {
     start_.clear();
   }
 
-  // Appends all bytes, or none if writing fails: later records (at least the summary) must stay readable.
+  // Appends all bytes, or none if writing fails, because later records (at least the summary) must stay
+  // readable.
   void append(const Buffer& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t wrote = ::write(file_.get(), bytes.data() + done, bytes.size() - done);
@@ -189,7 +191,7 @@ class McapWriter::State {
         compressed_.size(), chunk_.size()};
     mcap::Statistics all = statistics_;
     put_message_indexes(writer, index, all);
-    chunk_.clear();  // also if writing fails: its messages are lost
+    chunk_.clear();  // before append(), so its messages are lost if writing fails
     append(out_);
     all.first_time = chunks_.empty() ? first_time_ : std::min(all.first_time, first_time_);
     all.last_time = std::max(all.last_time, last_time_);
@@ -209,7 +211,7 @@ class McapWriter::State {
     index.index_bytes = out_.size() - index.bytes;
   }
 
-  // Writes the summary: groups of records of one kind, then the position of each group.
+  // Writes the summary, which is groups of records of one kind, then the position of each group.
   void write_summary() {
     Buffer summary, offsets;
     Writer writer(summary), offset_writer(offsets);
@@ -248,7 +250,7 @@ class McapWriter::State {
     append(summary);
   }
 
-  // Appends the footer. Its CRC covers the summary and the footer's fields before the CRC.
+  // Appends the footer. The CRC in it covers the summary and the footer's fields before the CRC.
   static void put_footer(const Buffer& summary, Writer& writer, std::uint64_t start,
                          std::uint64_t offset_start) {
     writer.begin(Op::footer);
@@ -271,7 +273,7 @@ class McapWriter::State {
   mcap::Statistics statistics_;
   Compressor compressor_;
   Buffer chunk_, compressed_, out_;
-  std::uint64_t first_time_ = 0, last_time_ = 0;  // of the current chunk
+  std::uint64_t first_time_ = 0, last_time_ = 0;  // times of the current chunk
   bool closed_ = false;
 };
 

@@ -13,12 +13,12 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::uint64_t kWindow = 1U << 20U;
-constexpr std::uint64_t kLookBehind = 1U << 16U;  // bytes that the window keeps before the position at_
+constexpr std::uint64_t kLookBehind = 1U << 16U;  // bytes before the position at_ that stay in the window
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow as nanoseconds
-// Maximum bytes of a pcap packet, and of a pcapng block while searching for one.
+constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; nanoseconds of more could overflow
+// Maximum bytes of a pcap packet, and of a pcapng block in a search for the next block.
 constexpr std::uint32_t kMaxPacket = 1U << 20U;
-// Maximum seconds between two packets, unless the following packets confirm a larger jump.
+// Maximum seconds between two packets. A larger jump is accepted only if the following packets confirm it.
 constexpr std::int64_t kMaxTimeGap = 24 * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
@@ -26,7 +26,7 @@ std::uint32_t reversed(std::uint32_t value) {
   return value << 24U | (value & 0xFF00U) << 8U | (value >> 8U & 0xFF00U) | value >> 24U;
 }
 
-// A magic number of pcap, and its ticks per second.
+// A magic number of pcap, and the number of ticks per second that it stands for.
 struct Magic {
   std::uint32_t value;
   std::int64_t ticks;
@@ -90,7 +90,8 @@ const std::byte* PacketFile::next_bytes(std::size_t bytes) {
   return window_.data() + (at - window_at_);
 }
 
-// Copies bytes at any position without moving the window: a search would move it for every candidate.
+// Copies bytes at any position without moving the window. A search would otherwise move the window for every
+// candidate.
 bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const {
   if (at > file_.size() || bytes > file_.size() - at) return false;
   if (at >= window_at_ && at + bytes <= window_at_ + window_.size()) {
@@ -101,9 +102,9 @@ bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const 
   return true;
 }
 
-// Moves at_ to the next position where a run of packets can begin, with a warning. Returns false, with a
-// warning that the file is cut, if there is none. The search begins within the previous packet, whose length
-// may be damaged.
+// Moves at_ to the next position where a run of packets can begin, and adds a warning. If there is none, adds
+// a warning that the file is cut, and returns false. The search begins within the previous packet, because
+// its length may be damaged.
 bool PacketFile::resynchronise() {
   const std::uint64_t damage = at_;
   const bool back = previous_ && damage - *previous_ <= kLookBehind;
@@ -118,17 +119,17 @@ bool PacketFile::resynchronise() {
   return false;
 }
 
-// Whether a packet can begin at at_. Headers have no magic number, so lengths must be consistent for a run of
-// packets. In pcap their times must also be close: two packets to the last accepted time, or three packets to
-// each other.
+// Returns whether a packet can begin at at_. Headers have no magic number, so the lengths of successive
+// packets must be consistent. In pcap, their times must also be close. Two packets must be close to the last
+// accepted time, or three packets must be close to each other.
 bool PacketFile::begins_packet() {
   if (next_bytes(blocks_ ? 12 : 16) == nullptr) return false;
   if (blocks_) return is_run(2, std::nullopt);
   return (last_seconds_ && is_run(2, last_seconds_)) || is_run(3, std::nullopt);
 }
 
-// Whether `packets` valid packets (or all up to the file's end) follow each other from at_ on. `seconds`:
-// time of the packet before, if known.
+// Returns whether `packets` valid packets (or all packets to the file's end) follow each other from at_ on.
+// `seconds` is the time of the packet before at_, if known.
 bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const {
   std::uint64_t at = at_;
   for (int i = 0; i < packets && at < file_.size(); ++i) {
@@ -138,8 +139,8 @@ bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const 
   return true;
 }
 
-// Returns the end of the pcap packet at `at`, 0 if there is none. `seconds`: time of the packet before;
-// becomes the time of this packet, which must be close.
+// Returns the end of the pcap packet at `at`, or 0 if there is none. `seconds` is the time of the previous
+// packet. The time of this packet must be close to it and replaces it.
 std::uint64_t PacketFile::end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const {
   std::byte head[16];
   if (!peek(at, sizeof head, head)) return 0;
@@ -152,7 +153,7 @@ std::uint64_t PacketFile::end_of_packet(std::uint64_t at, std::optional<std::int
   return at + sizeof head + size;
 }
 
-// Returns the end of the pcapng block at `at`, 0 if there is none.
+// Returns the end of the pcapng block at `at`, or 0 if there is none.
 std::uint64_t PacketFile::end_of_block(std::uint64_t at) const {
   std::byte head[8], end[4];
   if (!peek(at, sizeof head, head)) return 0;
@@ -202,8 +203,8 @@ bool PacketFile::next_block(Payload& payload) {
   return false;
 }
 
-// Returns the length of the pcapng block at at_. Returns 0 if it differs from the copy at the block's end,
-// which is checked before the block is read.
+// Returns the length of the pcapng block at at_. Returns 0 if it differs from the length at the block's end.
+// The lengths are compared before the block is read.
 std::uint32_t PacketFile::block_length() {
   const std::byte* const head = next_bytes(12);
   if (head == nullptr || (u32(head) == kSection && !begin_section(head))) return 0;
@@ -214,7 +215,7 @@ std::uint32_t PacketFile::block_length() {
   return length;
 }
 
-// Reads a section header: it defines the byte order of the section and resets the interfaces.
+// Reads a section header, which defines the byte order of the section. Clears the list of interfaces.
 bool PacketFile::begin_section(const std::byte* head) {
   std::uint32_t order;
   std::memcpy(&order, head + 8, 4);
@@ -224,8 +225,8 @@ bool PacketFile::begin_section(const std::byte* head) {
   return true;
 }
 
-// Reads the payload of a packet block. Enhanced packet blocks (6) have a time; simple ones (3) keep the time
-// of the packet before.
+// Reads the payload of a packet block. Enhanced packet blocks (6) have a time. Simple packet blocks (3) have
+// none, and payload.time_ns stays unchanged.
 bool PacketFile::packet_of_block(const std::byte* block, std::uint32_t length, std::uint32_t type,
                                  Payload& payload) {
   if (type == 3 && length >= 16 && !interfaces_.empty())
@@ -248,7 +249,7 @@ void PacketFile::add_interface(const std::byte* body, std::size_t size) {
   for (std::size_t at = 8; at + 4 <= size;) {
     const std::uint16_t code = u16(body + at), length = u16(body + at + 2);
     if (code == 0 || at + 4 + length > size) break;
-    if (code == 9 && length >= 1) {  // if_tsresol: ticks per second as a power of ten or of two
+    if (code == 9 && length >= 1) {  // if_tsresol gives ticks per second as a power of ten or two
       const auto power = std::to_integer<unsigned>(body[at + 4]);
       const unsigned exponent = power & 0x7FU;
       if ((power & 0x80U) != 0 && exponent <= 60) made.ticks = std::int64_t{1} << exponent;

@@ -16,19 +16,19 @@
 
 namespace pcl_bv {
 
-/// Whether a file with this beginning is a pcap or pcapng file.
+/// Returns whether a file with this beginning is a pcap or pcapng file.
 bool is_packet_file(std::string_view start);
 
-/// Reads the UDP packets over IPv4 of a .pcap (either byte order, micro- or nanoseconds) or .pcapng.
-/// Supported link types: Ethernet (also with VLAN tags), Linux' "any" (SLL, SLL2), raw IP and BSD's loopback.
-/// IP fragments and packets of other protocols are skipped.
+/// Reads the UDP packets over IPv4 of a .pcap (any byte order, micro- or nanoseconds) or .pcapng file.
+/// Supported link types are Ethernet (also with VLAN tags), Linux' "any" (SLL, SLL2), raw IP and BSD's
+/// loopback. IP fragments and packets of other protocols are skipped.
 class PacketFile {
  public:
-  /// Throws IoError if the file is neither pcap nor pcapng.
+  /// Opens the file. Throws IoError if it is neither pcap nor pcapng.
   explicit PacketFile(const std::filesystem::path& file);
 
-  /// Reads the next payload, which is valid until the next call. Returns false at the end, also of a cut
-  /// file. Damaged parts are skipped with a warning.
+  /// Reads the next payload, which is valid until the next call of next(). Returns false at the end, also if
+  /// the file is cut. Damaged parts are skipped with a warning.
   bool next(Payload& payload);
 
   /// Returns the warnings about damaged parts.

@@ -11,7 +11,8 @@
 namespace pcl_bv {
 namespace {
 
-// Returns the first 64 bytes of a regular file. Other files are not read: a pipe would block or lose data.
+// Returns the first 64 bytes of a regular file. Other files are not read, because reading a pipe would block
+// or take data from it.
 std::string start_of(const std::filesystem::path& file) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(file, unknown)) return {};

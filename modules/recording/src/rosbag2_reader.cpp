@@ -28,18 +28,19 @@ bool is_recording_file(const fs::path& file) {
   return name.extension() == ".db3" || name.extension() == ".mcap";
 }
 
-// Throws IoError unless the path can be a file of a recording. A folder is refused: metadata.yaml could name
-// the folder itself, which would recurse without end.
+// Throws IoError unless the path can be a file of a recording. Folders are refused, because metadata.yaml
+// could name the folder itself, and reading would recurse without end.
 void require_recording_file(const fs::path& file) {
   std::error_code unknown;
   if (!is_recording_file(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
     throw IoError("no .db3 or .mcap file");
 }
 
-// Reads several files one after another as one recording: a recorder begins a file where the last one ends.
+// Reads several files one after another as one recording, because a recorder begins a file where the previous
+// file ends.
 class JoinedReader final : public RecordingReader {
  public:
-  /// `folder_warnings`: warnings about the folder.
+  /// `folder_warnings` are the warnings about the folder.
   JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& folder_warnings) {
     for (const std::string& line : folder_warnings)
       add_warning(line);
@@ -119,7 +120,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
-// Removes repeated files, with a warning: a small metadata.yaml could name one file a million times.
+// Removes repeated files, with a warning, because a small metadata.yaml could name one file a million times.
 std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
                                           std::vector<std::string>& warnings) {
   std::vector<fs::path> once;
@@ -135,7 +136,7 @@ std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
   return once;
 }
 
-// Whether the folder has a metadata.yaml of rosbag2: other programs also write files of this name.
+// Returns whether the folder has a metadata.yaml of rosbag2. Other programs also write files of this name.
 bool has_metadata(const fs::path& folder) {
   std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
   std::string start(1000, ' ');
@@ -157,7 +158,7 @@ std::vector<fs::path> recording_files_in(const fs::path& folder) {
 }
 
 // Returns the files of a recording without metadata.yaml, as after a crash. Returns none if the folder also
-// has clouds: then it is a folder of clouds.
+// has clouds, because it is then a folder of clouds.
 std::vector<fs::path> files_without_metadata(const fs::path& folder) {
   std::vector<fs::path> files = recording_files_in(folder);
   if (files.empty()) return files;
@@ -169,7 +170,7 @@ std::vector<fs::path> files_without_metadata(const fs::path& folder) {
   return files;
 }
 
-// A temporary file that only this user can read; removed at destruction.
+// A temporary file that only this user can read. It is removed at destruction.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::vector<std::byte>& bytes)
@@ -206,8 +207,8 @@ bool is_rosbag2_folder(const fs::path& folder) {
          (has_metadata(folder) || !files_without_metadata(folder).empty());
 }
 
-// A recorder writes metadata.yaml last, so it may be older than the files or incomplete. If it cannot be
-// read, all files of the folder are used.
+// A recorder writes metadata.yaml last. Therefore metadata.yaml may be older than the files or incomplete. If
+// it cannot be read, all files of the folder are used.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder))
     return std::make_unique<JoinedReader>(files_without_metadata(folder), std::vector<std::string>());
@@ -228,7 +229,8 @@ std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   return std::make_unique<JoinedReader>(std::move(files), warnings);
 }
 
-// Unpacks into a temporary file, which SQLite needs. It can be unlinked as soon as the reader has opened it.
+// Unpacks the file into a temporary file, because SQLite needs a file. The temporary file can be unlinked as
+// soon as the reader has opened it.
 std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
   std::vector<std::byte> unpacked;
   {

@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Schema version 3 of Humble. Writes are not synchronous: a power failure can lose more than the last
-// transaction, a crash of the process cannot.
+// Schema version 3 of Humble. Writes are not synchronous. A power failure can therefore lose more than the
+// last transaction, but a crash of the process cannot.
 constexpr const char* kBegin = R"(
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = OFF;
@@ -51,7 +51,7 @@ fs::path create_folder(const fs::path& folder) {
   return folder;
 }
 
-// Returns the folder's name: "bag" for "bag" and "bag/".
+// Returns the folder's name, such as "bag" for "bag" and "bag/".
 std::string name_of(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -74,8 +74,8 @@ class Rosbag2Writer::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // Replaces an existing recording. Called at the first message, attachment or close(), so that a writer that
-  // is never used leaves the old recording unchanged.
+  // Replaces an existing recording. It is called at the first message, attachment or close(), so that a
+  // writer that is never used leaves the old recording unchanged.
   void open() {
     if (database_ != nullptr) return;
     if (closed_) throw IoError("the recording is closed");
@@ -204,7 +204,7 @@ class Rosbag2Writer::State {
     }
     const auto begins = [&] {
       return nanoseconds("nanoseconds_since_epoch", messages > 0 ? first_ : 0);
-    };  // a new node each time: yaml-cpp writes a shared node as an alias
+    };  // a new node each time, because yaml-cpp writes a shared node as an alias
     const auto lasts = [&] { return nanoseconds("nanoseconds", messages > 0 ? last_ - first_ : 0); };
     YAML::Node part;
     part["path"] = file_;

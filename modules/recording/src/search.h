@@ -18,7 +18,7 @@ namespace pcl_bv {
 template <class Matches>
 std::uint64_t find_in_file(const InputFile& file, std::uint64_t from, std::uint64_t end,
                            std::size_t lookahead, const Matches& matches) {
-  // The window begins small, since the next record is often near, and grows for long damage.
+  // The window is small at first, because the next record is often near. It grows for long damage.
   std::uint64_t window = 512;
   std::vector<std::byte> bytes;
   while (from < end) {

@@ -6,7 +6,7 @@
 namespace pcl_bv {
 namespace {
 
-// Reads a number in network byte order, which does not depend on the file's byte order.
+// Reads a number in network byte order, which does not depend on the byte order of the capture file.
 std::size_t big16(const std::byte* at) {
   return std::to_integer<std::size_t>(at[0]) << 8U | std::to_integer<std::size_t>(at[1]);
 }
@@ -42,7 +42,7 @@ bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload&
     return false;
   const std::size_t available = size - skip - header;
   std::size_t udp = big16(ip + header + 4);
-  if (udp < 8 || udp > available) udp = available;  // invalid length: take all captured bytes
+  if (udp < 8 || udp > available) udp = available;  // the length is invalid, so take all captured bytes
   payload.data = ip + header + 8;
   payload.size = udp - 8;
   payload.address = static_cast<std::uint32_t>(big16(ip + 12) << 16U | big16(ip + 14));

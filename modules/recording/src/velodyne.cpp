@@ -14,18 +14,18 @@
 namespace pcl_bv {
 namespace {
 
-// The packets of one model from one address to one port. They are usually of one sensor; those of a relay or
-// of a file that is played back can be of several.
+// The packets of one model from one address to one port. They are usually of one sensor. The packets of a
+// relay or of a file that is played back can be of several sensors.
 struct UdpSource {
   std::vector<VelodyneSensor> sensors{};
-  std::vector<std::byte> waiting{};  // a packet that no sensor expects; the next packet decides, see take()
+  std::vector<std::byte> waiting{};  // packet that no sensor expects; see take()
   std::int64_t waiting_time_ns = 0;
 
   Payload waiting_packet() const { return {waiting_time_ns, waiting.data(), waiting.size()}; }
 };
 
-constexpr std::size_t kMaxSensors = 8;      // of one source
-constexpr std::size_t kMaxListedNames = 5;  // in a message
+constexpr std::size_t kMaxSensors = 8;      // sensors per source
+constexpr std::size_t kMaxListedNames = 5;  // names in a message
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -70,7 +70,7 @@ struct VelodyneReader::State {
     rewind();
   }
 
-  // The packets that are not used, for the error message of a capture without usable packets.
+  // The packets that are not used. The error message for a capture without usable packets describes them.
   struct OtherPackets {
     std::vector<std::string> sensors, others;
 
@@ -117,8 +117,8 @@ struct VelodyneReader::State {
     VelodyneSensor* sensor = expecting(packet, source);
     if (!source.waiting.empty()) {
       const Payload earlier = source.waiting_packet();
-      // If a sensor expects this packet, the waiting packet was of another sensor. Otherwise the azimuth has
-      // jumped, and the waiting packet was the first one after the jump.
+      // If a sensor expects `packet`, the waiting packet is from another sensor. Otherwise the azimuth has
+      // jumped, and the waiting packet is the first one after the jump.
       if (sensor != nullptr && source.sensors.size() < kMaxSensors) {
         const auto index = static_cast<std::size_t>(sensor - source.sensors.data());
         add_sensor(found, source).add(earlier, whole);
@@ -148,7 +148,7 @@ struct VelodyneReader::State {
     return source.sensors.emplace_back(found, sensors - 1);
   }
 
-  // Updates the warning about several sensors, a single line that names the sensors found so far.
+  // Updates the warning about several sensors, a single line that names the sensors found until now.
   void update_sensors_note() {
     if (sensors <= noted_sensors || sensors < 2) return;
     noted_sensors = sensors;
@@ -182,7 +182,7 @@ struct VelodyneReader::State {
       sensor.finish(whole);
   }
 
-  // A source address and destination port.
+  // A source address and destination port, and the sensors there.
   struct Address {
     std::string name;
     std::map<const VelodyneModel*, UdpSource> sources{};
@@ -195,7 +195,7 @@ struct VelodyneReader::State {
   std::map<std::uint64_t, Address> addresses;
   std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;              // about packets; kept by rewind(), since a second pass finds the same
+  WarningList warnings;              // about packets; rewind() keeps them, as a second pass adds none
   std::uint64_t warnings_added = 0;  // number of warnings of `packets` that are in `warnings`
   std::optional<std::size_t> warnings_before_note;  // number of warnings before sensors_note
   std::string sensors_note;

@@ -10,13 +10,14 @@
 
 namespace pcl_bv {
 
-// A sensor model. A block has 32 returns, one of each beam in this order; a VLP-16 fires its 16 beams twice.
+// A sensor model. A block has 32 returns, one per beam in the order of `elevation`. A VLP-16 fires its 16
+// beams twice.
 struct VelodyneModel {
   std::string_view name;
   std::uint8_t product_id;  // the last byte of a packet
   std::size_t beams;
   double distance_unit;       // metres
-  double block_ns, laser_ns;  // time from a block to the next, and from a laser (or pair) to the next
+  double block_ns, laser_ns;  // time between blocks, and between lasers (or pairs)
   std::array<double, kVelodyneLasers> elevation;       // of each beam, degrees
   std::array<double, kVelodyneLasers> azimuth_offset;  // of each beam, degrees
 };
@@ -76,9 +77,9 @@ const std::vector<SineCosine>& azimuth_table() {
   return all;
 }
 
-constexpr double kMaxPause = 0.3e9;  // nanoseconds; after longer pauses, azimuths cannot be predicted
+constexpr double kMaxPause = 0.3e9;  // nanoseconds; azimuths cannot be predicted over longer pauses
 constexpr double kMaxPredictionError = 6'000;  // hundredths of a degree, for packets of the same sensor
-constexpr unsigned kLatePackets = 8;  // packets (10 ms) after a revolution's end until it is complete
+constexpr unsigned kLatePackets = 8;  // packets (10 ms) that a sweep waits for late packets
 
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
@@ -104,7 +105,7 @@ double azimuth_difference(double from, double to) {
   return std::remainder(to - from, static_cast<double>(kFullCircle));
 }
 
-// Returns the rotation from the packet's first firing to its last one.
+// Returns the rotation from the first to the last firing of the packet.
 double rotation_within(const Payload& packet) {
   return azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
 }
@@ -143,8 +144,8 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
   sweep_.sensor = number;
 }
 
-// Returns the rotation from the newest packet's first block to this packet's first block, with the number of
-// revolutions that fits the packet's time best.
+// Returns the rotation from the newest packet's first block to the first block of `packet`. The number of
+// whole revolutions is the one that fits the packet's time best.
 double VelodyneSensor::rotation_since_last(const Payload& packet) const {
   const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
   return expected + azimuth_difference(azimuth_ + expected, azimuth_of(packet, 0));
@@ -156,8 +157,9 @@ bool VelodyneSensor::expects(const Payload& packet) const {
   return std::abs(rotation_since_last(packet) - speed_ * passed) <= kMaxPredictionError;
 }
 
-// Estimates the rotation speed: from the first packet alone, then from each pair of packets with a smoothing
-// factor of 1/8, so that jitter of a single packet or another firing rate has little effect.
+// Estimates the rotation speed. The first estimate is from the first packet alone. Each later pair of packets
+// updates it with a smoothing factor of 1/8, so that jitter of a single packet or another firing rate has
+// little effect.
 void VelodyneSensor::update_speed(const Payload& packet, double rotation) {
   const std::size_t firings = kBlocks / step_of(packet) - 1;
   if (speed_ == 0) speed_ = rotation_within(packet) / (static_cast<double>(firings) * model_->block_ns);
@@ -197,8 +199,8 @@ void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole
     last_time_ns_ = packet.time_ns;
   }
   started_ = true;
-  // The second firing of a VLP-16's block is half way to the next block. The rotation per block is that
-  // between the packet's first two blocks.
+  // The second firing of a VLP-16's block is half way to the next block. The rotation per block is the
+  // rotation between the packet's first two blocks.
   const double half = azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
   for (std::size_t block = 0; block < kBlocks; block += step) {
     if (block > 0) azimuth += azimuth_difference(azimuth_of(packet, block - step), azimuth_of(packet, block));

@@ -18,31 +18,33 @@ inline constexpr std::size_t kVelodynePacket = 1206, kVelodyneLasers = 32;
 
 struct VelodyneModel;
 
-/// Returns the model that sent the packet, null if it is not a packet of a supported model.
+/// Returns the model of the sensor that sent the packet, or null if the packet is not of a supported model.
 const VelodyneModel* velodyne_model(const Payload& packet);
 std::string_view name_of(const VelodyneModel& model);
 
-/// Returns the product id (last byte) of a Velodyne packet, -1 for other packets.
+/// Returns the product id (last byte) of a Velodyne packet, or -1 for other packets.
 int velodyne_product(const Payload& packet);
 
-/// One sensor. Its packets come nearly in the order in which they were sent; some are repeated, late or lost.
-/// A packet's revolution follows from its azimuth and from the azimuth that is predicted from the rotation
-/// speed and the capture times. A revolution ends where the azimuth passes 0 in the direction of rotation. A
-/// late packet still goes to the previous revolution if that is not complete.
+/// One sensor. Its packets come nearly in the order in which they were sent, but some are repeated, late or
+/// lost. The revolution of a packet follows from its azimuth and from the azimuth that is predicted from the
+/// rotation speed and the capture times. A revolution ends where the azimuth passes 0 in the direction of
+/// rotation. A late packet still goes to the previous revolution if the previous sweep has not been passed
+/// on.
 class VelodyneSensor {
  public:
   explicit VelodyneSensor(const VelodyneModel& model, std::size_t number);
 
   const VelodyneModel& model() const { return *model_; }
 
-  /// Whether the packet's azimuth is within 60 degrees of this sensor's predicted azimuth. Also true before
-  /// the first packet and after a pause of 0.3 s, when no prediction is possible.
+  /// Returns whether the packet's azimuth is within 60 degrees of this sensor's predicted azimuth. Returns
+  /// true before the first packet and after a pause of more than 0.3 s, because no prediction is possible
+  /// then.
   bool expects(const Payload& packet) const;
 
-  /// Adds a packet's returns; moves complete sweeps to `whole`.
+  /// Adds a packet's returns to the sweeps. Moves complete sweeps to `whole`.
   void add(const Payload& packet, std::deque<VelodyneSweep>& whole);
 
-  /// Moves the remaining sweeps to `whole`, complete or not.
+  /// Moves all remaining sweeps to `whole`, complete or not.
   void finish(std::deque<VelodyneSweep>& whole);
 
  private:
@@ -58,12 +60,12 @@ class VelodyneSensor {
   std::size_t number_;
   std::array<std::uint32_t, kVelodyneLasers> ring_{};
   std::array<double, kVelodyneLasers> sine_{}, cosine_{};
-  std::array<std::size_t, kVelodyneLasers> azimuth_offset_{};  // plus 360 degrees, in hundredths
+  std::array<std::size_t, kVelodyneLasers> azimuth_offset_{};  // plus 360 degrees, in hundredths of a degree
   bool started_ = false;
   double speed_ = 0;    // hundredths of a degree per nanosecond; negative if azimuths decrease
   double azimuth_ = 0;  // unwrapped azimuth of the newest packet's first block, hundredths of a degree
-  std::int64_t last_time_ns_ = 0, revolution_ = 0;  // time of that packet; number of the current revolution
-  VelodyneSweep sweep_, previous_;      // the current sweep, and the last one, which waits for late packets
+  std::int64_t last_time_ns_ = 0, revolution_ = 0;  // of the newest packet; of the current sweep
+  VelodyneSweep sweep_, previous_;      // the current sweep, and the one before, which waits for late packets
   unsigned packets_in_revolution_ = 0;  // packets since the beginning of the revolution
 };
 

@@ -9,7 +9,7 @@
 namespace pcl_bv {
 namespace {
 
-// Maximum number of listed warnings, so that damaged input cannot fill memory or a log.
+// Maximum number of listed warnings, so that damaged input cannot fill the memory or a log.
 constexpr std::size_t kMaxListed = 10;
 
 }  // namespace

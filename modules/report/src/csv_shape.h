@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The CSV columns that depend on the type of a shape: size, rotation and radius.
+// The CSV columns that depend on the type of a shape, which are size, rotation and radius.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace pcl_bv {
 
-/// The columns of a shape; nullopt for an empty column.
+/// The columns of a shape. Empty columns are nullopt.
 struct CsvShape {
   std::optional<Eigen::Vector3d> size;  ///< Along the shape's own axes.
   std::optional<Eigen::Quaterniond> rotation;
@@ -20,8 +20,8 @@ struct CsvShape {
 };
 
 /// Returns the columns of a cylinder or capsule of this full height. The axis is flipped to point upwards,
-/// which does not change the shape: the rotation from z to it is then well conditioned, without the singular
-/// value decomposition of Eigen's FromTwoVectors().
+/// which does not change the shape. Then the rotation from z to the axis is well conditioned, and it needs no
+/// singular value decomposition as in Eigen's FromTwoVectors().
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
   const Eigen::Vector3d up = (axis.z() < 0 ? Eigen::Vector3d(-axis) : axis).stableNormalized();
   return {Eigen::Vector3d(2 * radius, 2 * radius, height),
@@ -29,14 +29,14 @@ inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double h
 }
 
 /// Returns the rotation to three orthogonal axes (columns). A left-handed system is made right-handed by
-/// flipping its third axis, which does not change the shape.
+/// flipping the third axis, which does not change the shape.
 inline Eigen::Quaterniond rotation_of(Eigen::Matrix3d axes) {
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return Eigen::Quaterniond(axes);
 }
 
-/// Returns the columns of a shape, selected by its member functions, so that further shapes with the same
-/// functions are supported. All other shapes give their axis-aligned box.
+/// Returns the columns of a shape. The shape's member functions select the columns, so further shapes with
+/// the same functions are supported. Shapes without these functions give their axis-aligned box.
 template <typename Shape>
 CsvShape csv_shape(const Shape& shape) {
   if constexpr (requires { shape.half_extents(), shape.quaternion(); }) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How numbers, method names and upright boxes are written in all report formats.
+// Functions that write numbers, method names and upright boxes in the same way in all report formats.
 #pragma once
 
 #include <charconv>
@@ -15,8 +15,8 @@
 
 namespace pcl_bv {
 
-/// Appends the fewest digits that read back as exactly this double; 0 for -0. Throws std::domain_error if it
-/// is not finite.
+/// Appends the fewest digits that read back as exactly this double. -0 becomes 0. Throws std::domain_error if
+/// the value is not finite.
 inline void append_shortest(double value, std::string& text) {
   if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
   char digits[32];
@@ -29,14 +29,14 @@ inline std::string shortest(double value) {
   return text;
 }
 
-/// Returns the method's name; for `best` with the shape that it chose, such as "best (obb)".
+/// Returns the method's name. For `best`, the shape that it chose is added, such as "best (obb)".
 inline std::string method_label(const VolumeEntry& entry) {
   if (entry.method != "best" || empty(entry.volume)) return entry.method;
   return entry.method + " (" + std::string(shape_name(entry.volume)) + ')';
 }
 
-/// Returns the box of an upright method (with length, width, height and yaw); null for other methods and for
-/// an empty box.
+/// Returns the box of an upright method (with length, width, height and yaw). Returns null for other methods
+/// and for an empty box.
 inline const Obb* upright_box(const VolumeEntry& entry) {
   const Obb* const box = std::get_if<Obb>(&entry.volume);
   if (box == nullptr || box->empty()) return nullptr;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes JSON directly into a text. A library's tree of values took 1.5 kB per cluster and most of the time
-// of a report.
+// Writes JSON directly into a text, because a library's tree of values took 1.5 kB per cluster and most of
+// the time of a report.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@
 
 namespace pcl_bv {
 
-/// Returns the number of bytes of the valid UTF-8 character at the beginning of `text`, or 0. In the latter
-/// case `tried` is the number of bytes of the invalid sequence.
+/// Returns the number of bytes of the valid UTF-8 character at the beginning of `text`. If there is none,
+/// returns 0 and sets `tried` to the number of bytes of the invalid sequence.
 inline std::size_t utf8_length(std::string_view text, std::size_t& tried) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = byte(0);
@@ -81,7 +81,7 @@ class JsonText {
   void value(bool yes) { literal(yes ? "true" : "false"); }
   void value(std::nullptr_t) { literal("null"); }
 
-  /// Appends a string. Each invalid UTF-8 sequence (the longest prefix of a character) becomes U+FFFD.
+  /// Appends a string. Each invalid UTF-8 sequence (the longest prefix of a character) is replaced by U+FFFD.
   void value(std::string_view text) {
     separate();
     text_ += '"';

@@ -10,7 +10,7 @@
 
 namespace pcl_bv {
 
-/// Red, green, blue in 0..1, as displayed (sRGB).
+/// Red, green and blue in 0..1, as displayed (sRGB).
 using Colour = std::array<float, 3>;
 
 /// Colours of similar brightness that are easy to distinguish on a dark background. Successive colours differ
@@ -20,7 +20,7 @@ inline constexpr Colour palette_colours[] = {
     {0.78f, 0.61f, 1.00f}, {1.00f, 0.85f, 0.40f}, {0.31f, 0.88f, 0.82f}, {1.00f, 0.44f, 0.38f},
     {0.56f, 0.70f, 1.00f}, {0.78f, 0.96f, 0.39f}, {0.97f, 0.66f, 0.88f}, {0.40f, 0.85f, 0.65f}};
 
-/// Returns the colour of a cluster or volume; the twelve colours repeat.
+/// Returns the colour of a cluster or volume. The twelve colours repeat.
 inline Colour palette(std::uint32_t number) {
   return palette_colours[number % std::size(palette_colours)];
 }

@@ -40,7 +40,8 @@ void require_same(bool same, const char* what) {
   if (!same) throw std::invalid_argument(what);
 }
 
-// Returns the union of both; adjacent shares become one. Throws std::invalid_argument if they overlap.
+// Returns the union of `a` and `b`. Adjacent ranges become one. Throws std::invalid_argument if `a` and `b`
+// overlap.
 Shares united_shares(const Shares& a, const Shares& b) {
   Shares sorted = a, shares;
   sorted.insert(sorted.end(), b.begin(), b.end());
@@ -70,7 +71,7 @@ std::size_t unsigned_integer(const Json& number) {
   return number.get<std::size_t>();
 }
 
-// Throws Json::exception and IoError.
+// Parses the line of JSON. Throws Json::exception and IoError.
 PartialFile read_partial_header(std::string_view line) {
   require(line.size() <= kMaxPartialHeaderBytes, "its header is too long");
   const Json json = read_json(line);
@@ -104,7 +105,7 @@ void PartialFile::add_input(std::string_view name, std::size_t points) {
   const auto add = [&](unsigned char byte) { inputs_hash = (inputs_hash ^ byte) * 0x100000001b3; };
   for (const char c : name)
     add(static_cast<unsigned char>(c));
-  for (std::size_t i = 0; i <= 8; ++i)  // a zero byte ends the name, then 8 bytes of the number follow
+  for (std::size_t i = 0; i <= 8; ++i)  // a zero byte ends the name; 8 bytes of the number follow
     add(i == 0 ? 0 : static_cast<unsigned char>(points >> (8 * (i - 1))));
   ++inputs;
   cloud_points += points;

@@ -25,7 +25,7 @@ constexpr double face_alpha = 0.07;
 
 struct Edge {
   std::int32_t from, to;
-  bool front;  ///< Belongs to a face that the viewer sees, or to a face without area.
+  bool front;  ///< Whether the edge belongs to a face that the viewer sees, or to a face without area.
 };
 
 void set_colour(cairo_t* cairo, const Colour& colour, double alpha) {
@@ -82,8 +82,8 @@ void draw_mesh(cairo_t* cairo, const Mesh& mesh, const View& view, const Colour&
   }
 }
 
-/// Adds an arc on a sphere: from the unit vector `from` by `angle` towards `to`, with steps small enough to
-/// look smooth. A full circle is closed.
+/// Adds an arc on a sphere, from the unit vector `from` by `angle` towards `to`. The steps are small enough
+/// to look smooth. A full circle is closed.
 void add_arc(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen::Vector3d& from,
              const Eigen::Vector3d& to, double angle) {
   const double fine = 1.6 * angle * std::sqrt(sphere.radius() * view.scale);
@@ -96,7 +96,8 @@ void add_arc(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen
   add_path(cairo, view, points, angle > M_PI);
 }
 
-/// Fills the path like a glass ball. A ball too large for Cairo's gradients is not filled.
+/// Fills the path so that it looks like a glass ball. A ball that is too large for Cairo's gradients is not
+/// filled.
 void fill_glass(cairo_t* cairo, const Eigen::Vector3d& at, double radius, const Colour& colour) {
   constexpr double widest = 1e5;
   if (!(std::max({std::abs(at.x()), std::abs(at.y()), radius}) < widest)) return cairo_new_path(cairo);
@@ -127,7 +128,7 @@ void draw_sphere(cairo_t* cairo, const Sphere& sphere, const View& view, const C
   stroke(cairo, colour, true, dash);
 }
 
-/// Draws far volumes first, so that near volumes are on top.
+/// Draws the volumes. Far volumes are drawn first, so that near volumes are on top.
 void draw_volumes(cairo_t* cairo, const Picture& picture, const View& view, const Styles& styles) {
   std::vector<std::pair<double, const PictureVolume*>> order;
   for (const PictureVolume& entry : picture.volumes) {
@@ -176,7 +177,7 @@ void check(const Picture& picture) {
 using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 using Context = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 
-/// Returns a surface of the pixels, which must outlive the surface.
+/// Returns a Cairo surface that uses the pixels. The pixels must outlive the surface.
 Surface surface_of(std::vector<std::uint32_t>& pixels, const View& view) {
   return {cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
                                               CAIRO_FORMAT_RGB24, view.width, view.height, view.width * 4),

@@ -12,7 +12,7 @@ namespace {
 using Path = std::vector<Eigen::Vector3d>;
 
 /// Returns the part of a path with sign * coordinate <= limit. Where an open path leaves this half-plane and
-/// returns, the two crossings are connected along its boundary.
+/// returns, the points where it crosses the boundary are connected.
 Path clip_path(const Path& path, bool closed, int axis, double sign, double limit) {
   Path clipped;
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -20,7 +20,7 @@ using Box = Eigen::AlignedBox2d;
 class Marks {
  public:
   Marks(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), bottom_(view.height - margin) {
-    // Cairo's built-in font: others differ between machines, and finding one takes longer than a picture.
+    // Cairo's built-in font is the same on all machines. To find any other font takes longer than a picture.
     cairo_select_font_face(cairo, "@cairo:", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cairo, text_size);
   }
@@ -73,7 +73,7 @@ std::string readable(std::string text) {
   return text;
 }
 
-// The colours are those of RViz and CloudCompare. Axes that point at the viewer are drawn last.
+// Draws the axes in the colours of RViz and CloudCompare. Axes that point at the viewer are drawn last.
 void Marks::draw_axes() {
   constexpr Colour colours[3] = {{0.95f, 0.35f, 0.35f}, {0.45f, 0.85f, 0.4f}, {0.42f, 0.6f, 1.0f}};
   const double axis_extent = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
@@ -95,7 +95,7 @@ void Marks::draw_axes() {
                          Eigen::Vector2d(x + axis_extent, y + axis_extent));
 }
 
-// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `most`.
+// Returns the largest number of the form 1, 2 or 5 times a power of ten that is not larger than `most`.
 double round_length(double most) {
   const double power = std::pow(10.0, std::floor(std::log10(most)));
   for (const double digit : {5.0, 2.0}) {
@@ -108,7 +108,7 @@ void Marks::draw_scale(const std::string& unit) {
   constexpr double longest = 180, tick = 5, x = margin + 2 * axis_length + 46;
   const double length = round_length(longest / view_.scale);
   const double pixels = length * view_.scale;
-  if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // scene size outside the range of doubles
+  if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // the scene size exceeds the range of doubles
   line(x, bottom_ - tick, x, bottom_);
   cairo_line_to(cairo_, x + pixels, bottom_);
   cairo_line_to(cairo_, x + pixels, bottom_ - tick);
@@ -143,7 +143,8 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
 
 void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
   const Box frame(Eigen::Vector2d(0, 0), Eigen::Vector2d(view_.width, view_.height));
-  // A label is above the volume's highest point; in a view from above, above its upper edge in the picture.
+  // A label is above the volume's highest point. In a view from above, it is above the volume's upper edge in
+  // the picture.
   const Eigen::Vector3d& rise = view_.world_up.dot(view_.toward) > 0.9 ? view_.up : view_.world_up;
   for (const PictureVolume& entry : volumes) {
     if (entry.label.empty() || empty(entry.volume)) continue;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of picture_png(): projection, points, lines and marks.
+// The parts of picture_png(), which are the projection, points, lines and marks.
 #pragma once
 
 #include <cairo.h>
@@ -17,8 +17,8 @@
 
 namespace pcl_bv {
 
-/// A parallel projection. Pixels are counted from the upper left corner. Depth increases away from the viewer
-/// and is in pixels, too.
+/// A parallel projection. Pixels are counted from the upper left corner. Depth is in pixels, too, and
+/// increases away from the viewer.
 struct View {
   Eigen::Vector3d right, up, toward;    ///< Orthonormal; `toward` points from the scene to the viewer.
   Eigen::Vector3d world_up;             ///< Picture::up as a unit vector.
@@ -27,27 +27,28 @@ struct View {
   double scale = 1;  ///< Pixels per unit.
   int width = 0;
   int height = 0;
-  bool empty = true;  ///< There are no points and no volumes to frame.
+  bool empty = true;  ///< Whether there are no points and no volumes to frame.
 
-  /// Returns pixel x, pixel y and depth.
+  /// Returns the pixel coordinates x and y, and the depth.
   Eigen::Vector3d project(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d d = (p - center) * scale;
     return {width / 2.0 + d.dot(right), height / 2.0 - d.dot(up), -d.dot(toward)};
   }
 };
 
-/// Whether the picture shows this point: it is finite and not at 0,0,0.
+/// Returns whether the picture shows this point, which must be finite and not at 0,0,0.
 inline bool is_drawn(const Coordinates& p) {
   return is_valid(p) && (p.x != 0 || p.y != 0 || p.z != 0);
 }
 
-/// Returns the view with the frame that picture_png() documents.
+/// Returns the view whose frame is as documented at picture_png().
 View fit_view(const Picture& picture);
 
-/// Returns rows of width x height pixels 0xffRRGGBB: the background and the points, without occluded ones.
+/// Returns width x height pixels 0xffRRGGBB, row by row. They show the background and the points that are not
+/// occluded.
 std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view);
 
-/// How methods are distinguished: by colour if each method has its own colour, else by dashes.
+/// Styles that distinguish methods. They are colours if each method has its own colour, else dashes.
 struct Styles {
   explicit Styles(const Picture& picture);
 
@@ -55,18 +56,19 @@ struct Styles {
     return by_colour ? method / static_cast<std::uint32_t>(std::size(palette_colours)) : method;
   }
 
-  std::map<std::uint32_t, std::uint32_t> colour_of;  ///< Colour of each drawn method's first volume.
+  std::map<std::uint32_t, std::uint32_t> colour_of;  ///< Colour of the first volume of each drawn method.
   bool by_colour;
 };
 
-/// Adds a polyline through points of the scene to Cairo's path, or a polygon if `closed`. It is clipped
-/// somewhat outside the picture, since Cairo's coordinates are limited to eight million pixels.
+/// Adds a polyline through points of the scene to Cairo's path, or a polygon if `closed`. The line is clipped
+/// at 64 pixels outside the picture, because Cairo's coordinates are limited to eight million pixels.
 void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3d>& points, bool closed);
 
-/// Draws and clears Cairo's path. Lines in front have a dark outline, so that they stand out from the points.
+/// Draws and clears Cairo's path. If `front`, the line has a dark outline, so that it stands out from the
+/// points.
 void stroke(cairo_t* cairo, const Colour& colour, bool front, std::uint32_t dash = 0);
 
-/// Minimum picture size with marks, and the margin at the lower edge that marks need, in pixels.
+/// Minimum picture size with marks, and the margin that marks need at the lower edge, in pixels.
 constexpr int kMinMarkedWidth = 480, kMinMarkedHeight = 320, kMarkMargin = 130;
 
 inline bool has_marks(const View& view) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Draws points as small discs in a depth buffer of twice the picture's resolution, shades them by their
-// neighbours' depth (eye-dome lighting, Boucheny 2009) and averages the samples of each pixel. Cairo would
-// need minutes for the same points, this takes 0.1 s.
+// Draws points as small discs in a depth buffer of twice the picture's resolution. Shades the points by their
+// neighbours' depth (eye-dome lighting, Boucheny 2009) and averages the samples of each pixel. Cairo is not
+// used for the points, because it would need minutes instead of 0.1 s.
 
 #include "picture_parts.h"
 
@@ -79,10 +79,10 @@ void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, co
   }
 }
 
-/// Returns the brightness of a sample, 0 to 1: lower if neighbours are closer to the viewer.
+/// Returns the brightness of a sample, from 0 to 1. It is lower if neighbours are closer to the viewer.
 float eye_dome_brightness(const Raster& raster, int x, int y) {
   constexpr int step = 3;
-  constexpr float max_depth_step = 40;  // maximum depth difference that counts, in samples
+  constexpr float max_depth_step = 40;  // in samples; larger depth differences count as this one
   constexpr int around[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
   const float here = raster.depth[static_cast<std::size_t>(y) * raster.width + x];
   float covered = 0;

@@ -14,9 +14,9 @@ namespace pcl_bv {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
-// Direction of the viewer in ViewFrom::iso. The elevation is that of an isometric drawing. The azimuth is not
-// that of a diagonal: in most clouds streets run along x or y, and would run diagonally through the picture,
-// which is wider than high.
+// Direction of the viewer in ViewFrom::iso. The elevation is the elevation of an isometric drawing. The
+// azimuth is not that of a diagonal. In most clouds, streets run along x or y. In a diagonal view they would
+// run diagonally through the picture, which is wider than high.
 constexpr double elevation = 35 * degree;
 constexpr double azimuth = -114 * degree;
 constexpr double margin_part = 0.04;  // margin at each side, relative to the picture's size
@@ -26,8 +26,8 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Returns the interval from the lowest `low` to the highest `high` of all parts, ignoring the `outliers`
-/// most extreme values of each. Without parts returns [infinity, -infinity].
+/// Returns the interval from the lowest `low` to the highest `high` of all parts. The `outliers` lowest and
+/// highest values are ignored. Returns [infinity, -infinity] if there are no parts.
 Interval robust_interval(std::vector<Interval>& parts, std::size_t outliers) {
   if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;
@@ -40,7 +40,8 @@ Interval robust_interval(std::vector<Interval>& parts, std::size_t outliers) {
   return result;
 }
 
-/// Returns a sample of the points that determine the frame: points in clusters if there are labels, else all.
+/// Returns a sample of the points that determine the frame. These are the points in clusters if there are
+/// labels, else all points.
 std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
   constexpr std::size_t enough = 100000;  // maximum size of the sample
   std::vector<Eigen::Vector3d> points;
@@ -52,7 +53,7 @@ std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
   return points;
 }
 
-/// Returns the interval of the points along the axis, without one of `extreme` points at either end.
+/// Returns the interval of the points along the axis. One of `extreme` points is ignored at each end.
 Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
                           std::size_t extreme) {
   std::vector<Interval> parts;
@@ -62,8 +63,8 @@ Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eige
   return robust_interval(parts, parts.size() / extreme);
 }
 
-/// Returns the interval of the non-empty volumes, without a sixteenth of them at either end: a few distant
-/// objects would make all others small.
+/// Returns the interval of the non-empty volumes along the axis. A sixteenth of them is ignored at each end,
+/// because a few distant objects would make all others small.
 Interval central_interval(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
   std::vector<Interval> parts;
   for (const auto& [volume, colour, label, method] : volumes) {
@@ -88,8 +89,8 @@ View oriented(const Picture& picture) {
   return view;
 }
 
-/// Returns the cropped length of a picture's side: `content` pixels and the margins for marks, at least
-/// `min_length` and at most `side`.
+/// Returns the cropped length of a picture's side, which is `content` pixels and the margins for marks. The
+/// length is at least `min_length` and at most `side`.
 int cropped(int side, double content, int min_length) {
   return std::min(side,
                   std::max(min_length, static_cast<int>(std::min<double>(side, content)) + 2 * kMarkMargin));

@@ -114,7 +114,7 @@ AnyVolume read_shape(const Json& json) {
 // The path of an entry, such as "clusters[0].volumes[2]".
 struct EntryPath {
   const EntryPath* parent;  // null for the top level
-  std::string key;          // empty for an entry of a list, which has a number
+  std::string key;          // empty for an entry of a list, which has a number instead
   std::size_t number = 0;
 
   std::string text() const {
@@ -144,8 +144,10 @@ void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
 }
 
 // Appends all volumes in a JSON value. Entries that may have been meant as volumes must be volumes or contain
-// some, since skipping a volume silently would be unsafe. These are all entries of a list or object "volumes"
-// and of a list with a volume, and all objects next to a volume in an object. Other values there are ignored.
+// some, because skipping a volume silently would be unsafe. These entries are
+// - all entries of a list or object "volumes",
+// - all entries of a list that has a volume, and
+// - all objects next to a volume in an object.
 Found collect(const Json& json, const EntryPath* path, std::vector<AnyVolume>& volumes) {
   if (json.is_object() && json.contains("shape")) {
     try {
@@ -182,7 +184,7 @@ Found collect(const Json& json, const EntryPath* path, std::vector<AnyVolume>& v
 std::vector<AnyVolume> volumes_in(std::string_view text) {
   std::vector<AnyVolume> volumes;
   std::optional<std::size_t> first_without_volume;  // position of the first value without volumes
-  // Whether a value of the text is itself a volume: then all values must have volumes.
+  // Whether a value of the text is itself a volume. Then all values must have volumes.
   bool has_top_level_volume = false;
   const auto refuse_value = [&](std::size_t at, const std::string& what) {
     std::size_t end = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes reports as JSON. Numbers are written by std::to_chars, which guarantees the fewest digits that read
+// Writes reports as JSON. std::to_chars writes the numbers, because it guarantees the fewest digits that read
 // back exactly.
 
 #include <cmath>
@@ -85,7 +85,7 @@ void add_field(const PointField& field, JsonText& json) {
   json.add("size", field.size).add("count", field.count).end('}');
 }
 
-/// Leaves out the box of an empty cloud and an unknown spacing.
+/// Adds the statistics of the cloud, without the box of an empty cloud and without an unknown spacing.
 void add_info(const CloudInfo& info, JsonText& json) {
   json.key("info").begin('{');
   if (!info.box.empty()) add_numbers(info.box, json);
@@ -97,7 +97,7 @@ void add_info(const CloudInfo& info, JsonText& json) {
   json.end(']').end('}');
 }
 
-/// Rounds to microseconds, the useful precision of the clock.
+/// Rounds to microseconds. Further digits of the clock are not useful.
 double rounded_to_microseconds(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
 }

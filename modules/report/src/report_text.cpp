@@ -23,22 +23,22 @@ std::string format(const char* pattern, int precision, double value) {
   return text;
 }
 
-/// Formats a length with the number of decimals of the whole table; negative: four significant digits.
+/// Formats a length with `decimals` decimals. If `decimals` is negative, formats four significant digits.
 std::string length(double value, int decimals) {
   if (decimals < 0) return format("%.*g", 4, value);
   const bool rounds_to_zero = std::abs(value) * std::pow(10, decimals) < 0.5;
   return format("%.*f", decimals, rounds_to_zero ? 0 : value);
 }
 
-/// Formats a volume with at least four significant digits, for any magnitude.
+/// Formats a volume of any magnitude with at least four significant digits.
 std::string four_digits(double value) {
   const int exponent = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
   return exponent < -3 || exponent > 6 ? format("%.*g", 4, value)
                                        : format("%.*f", std::max(0, 3 - exponent), value);
 }
 
-/// Returns the number of decimals that shows the largest size with five digits and keeps every centre within
-/// 11 characters; -1 if no fixed notation fits.
+/// Returns the number of decimals for the whole table, 0 to 6. The largest size should have five digits, but
+/// every centre must have at most 11 characters. Returns -1 if no fixed notation fits.
 int choose_decimals(const ClusterSource& clusters) {
   double size = 0, magnitude = 0;
   for (std::size_t i = 0; i < clusters.count; ++i) {
@@ -73,7 +73,7 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   } else {
     const auto* oriented = std::get_if<Obb>(&entry.volume);
     const Aabb box = aabb(entry.volume);
-    for (int k = 0; k < 3; ++k)  // an oriented box along its own axes
+    for (int k = 0; k < 3; ++k)  // an oriented box has its size along its own axes
       row[6 + k] = length(oriented ? 2 * oriented->half_extents()[k] : box.max()[k] - box.min()[k], decimals);
     if (const Obb* const upright = upright_box(entry)) row[9] = length(upright->yaw(), 2);
   }
@@ -81,7 +81,7 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   return row;
 }
 
-/// The rows of a table, stored in one text: a million rows of separate strings take 400 MB.
+/// The rows of a table. They are stored in one text, because a million rows of separate strings take 400 MB.
 class Table {
  public:
   void add(const Row& row) {
@@ -92,7 +92,7 @@ class Table {
     }
   }
 
-  /// Writes the heading and the rows with aligned columns; empty columns are left out.
+  /// Writes the heading and the rows with aligned columns. Empty columns are left out.
   void write(const Row& heading, const TextSink& take) {
     for (std::size_t c = 0; c < n_columns; ++c)
       width_[c] = std::max(width_[c], heading[c].size());
@@ -128,7 +128,7 @@ class Table {
   }
 
   std::string fields_;
-  std::vector<std::uint16_t> lengths_;  // of the fields: short numbers and names of methods
+  std::vector<std::uint16_t> lengths_;  // lengths of the fields, which are short numbers and method names
   std::array<std::size_t, n_columns> width_{};
 };
 
@@ -164,7 +164,8 @@ void write_table(const ClusterSource& clusters, const TextSink& take) {
   table.write(heading_of(checked, upright, other), take);
 }
 
-/// Replaces control characters: the name of a file or field must not break the line or control a terminal.
+/// Replaces control characters, because the name of a file or field must not break the line or control a
+/// terminal.
 std::string printable(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');

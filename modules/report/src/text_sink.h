@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Helpers for texts that are written in pieces.
+// Helper functions for texts that are written in pieces.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace pcl_bv {
 
-/// Passes the text to `take` and clears it if it has a megabyte or more.
+/// Passes the text to `take` and clears the text, if it has a megabyte or more.
 inline void take_if_long(std::string& text, const TextSink& take) {
   if (text.size() < std::size_t{1} << 20) return;
   take(text);
   text.clear();
 }
 
-/// Returns a sink that appends to `all`.
+/// Returns a sink that appends each piece to `all`.
 inline TextSink appended_to(std::string& all) {
   return [&all](std::string& piece) {
     if (all.empty()) {

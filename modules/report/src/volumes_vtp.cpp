@@ -21,7 +21,7 @@ std::string attribute(const std::string& name, std::size_t value) {
   return attribute(name, std::to_string(value));
 }
 
-/// Returns a <DataArray> element; append(text) appends its numbers.
+/// Returns a <DataArray> element. append(text) appends the numbers of the array.
 template <typename Append>
 std::string data_array(const std::string& type, const std::string& name, const Append& append,
                        const std::string& more_attributes = "") {
@@ -55,7 +55,7 @@ std::string cell_data(const VolumeCells& cells, const std::vector<ClusterEntry>&
   const auto column = [&](const char* type, const char* name, const auto& value_of,
                           const std::string& more_attributes = "") {
     const auto append = [&](std::string& text) {
-      // VTK numbers the cells in this order.
+      // VTK numbers the cells in the order points, lines, polygons.
       for (const Cells* kind : {&cells.points, &cells.lines, &cells.polygons}) {
         for (const Cell& cell : *kind)
           text += value_of(cells.owners[cell.owner]) + ' ';
@@ -89,7 +89,7 @@ std::string points_element(const std::vector<Eigen::Vector3d>& vertices) {
          "      </Points>\n";
 }
 
-/// Returns the methods' names as field data. VTK stores a string as the codes of its characters and a 0.
+/// Returns the methods' names as field data. In VTK, a string is the codes of its characters, then 0.
 std::string method_names(const VolumeCells& cells) {
   const auto characters = [&](std::string& text) {
     for (const std::string& method : cells.methods) {
@@ -103,7 +103,7 @@ std::string method_names(const VolumeCells& cells) {
          "    </FieldData>\n";
 }
 
-/// Returns the text escaped for the quotes of an XML attribute.
+/// Returns the text with escapes as in a quoted XML attribute.
 std::string escape(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -115,7 +115,7 @@ std::string escape(const std::string& text) {
   return escaped;
 }
 
-/// Returns a file with one piece.
+/// Returns the content of a VTK file with one piece.
 std::string polydata(const std::string& fields, const std::string& counts, const std::string& content) {
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"

@@ -8,7 +8,7 @@
 namespace pcl_bv {
 namespace {
 
-// Consecutive points and their box; their order has no meaning.
+// Consecutive points and their box. The order of the points has no meaning.
 template <typename T>
 struct Group {
   Point<T>* points;
@@ -49,7 +49,7 @@ bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
   if (a.count * b.count <= max_direct_pairs) {
     return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
   }
-  // Two groups without extent were decided above, so the longer group has at least two points.
+  // The test above decides for two groups without extent, so here the longer group has at least two points.
   if (longest_side(a.box) < longest_side(b.box)) std::swap(a, b);
   auto [near, far] = split(a);
   if (min_squared_distance(far.box, b.box) < min_squared_distance(near.box, b.box)) std::swap(near, far);
@@ -78,8 +78,8 @@ Nearest<T> nearest(const PointRun<T>& run, const Point<T>& to) {
   return best;
 }
 
-// Returns whether the point of a nearest to the first point of b is linked to this point, or to the point of
-// b nearest to it. This finds most links.
+// Let p be the point of a nearest to the first point of b. Returns whether p is linked to this first point,
+// or to the point of b nearest to p. This finds most links.
 template <typename T>
 bool nearest_points_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
   const Nearest<T> of_a = nearest(a, *b.points);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tests whether any point of one cell is linked to any point of another, without the n*m tests that two dense
-// parallel sheets just farther apart than the tolerance would cost.
+// Tests whether any point of one cell is linked to any point of another cell. Avoids the n*m tests that two
+// dense parallel sheets just farther apart than the tolerance would cost.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace pcl_bv {
 
-/// Consecutive points.
+/// Consecutive points in an array.
 template <typename T>
 struct PointRun {
   const Point<T>* points;
@@ -25,13 +25,13 @@ struct LinkScratch {
   std::vector<Point<T>> a, b;
 };
 
-/// Like any_link(): first tests points that are nearest to some point of the other run, then descends into
-/// both runs as k-d trees that are built on the way. About m^1.5 tests for two parallel sheets of m points
-/// each.
+/// Returns the same as any_link(), for many points. First tests points that are nearest to some point of the
+/// other run. Then descends into both runs as k-d trees that are built on the way. Takes about m^1.5 tests
+/// for two parallel sheets of m points each.
 template <typename T>
 bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch);
 
-/// Like any_link(): tests pairs until one is linked.
+/// Returns the same as any_link(), for few points. Tests pairs until one is linked.
 template <typename T>
 bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
   for (std::size_t i = 0; i < a.count; ++i) {
@@ -42,10 +42,10 @@ bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
   return false;
 }
 
-/// Number of pairs up to which testing all is cheaper than splitting.
+/// Largest number of pairs for which testing all pairs is cheaper than splitting the runs.
 inline constexpr std::size_t max_direct_pairs = 256;
 
-/// Returns whether squared_distance(p, q) < r2 for some p of a and q of b. Neither may be empty.
+/// Returns whether squared_distance(p, q) < r2 for any p of a and q of b. Neither run may be empty.
 template <typename T>
 bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
   return a.count * b.count <= max_direct_pairs ? any_link_of_few(a, b, r2)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A hash table that numbers the keys of blocks in the order in which points meet them.
+// A hash table that numbers the keys of blocks in the order in which points first need them.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@
 
 namespace pcl_bv {
 
-/// Maps the key of a block to its number. Points come in scan order, and the next point is mostly in the same
-/// block, so this costs less than sorting the points.
+/// Maps the key of a block to its number. Numbering costs less than sorting the points, because points come
+/// in scan order and the next point is mostly in the same block.
 template <typename Key>
 class BlockIndex {
  public:
-  /// Removes all keys. The capacity stays, clamped to a range that suits the number of points.
+  /// Removes all keys. Retains the capacity, clamped to a range that suits the number of points.
   void reset(std::size_t points) {
     const std::size_t min_slots = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
     count_ = 0;
     allocate_slots(std::clamp(slots_.size(), min_slots, 16 * min_slots));
   }
 
-  /// Returns the number of a key. New keys get 0, 1, 2, ...
+  /// Returns the number of a key. New keys get the next of the numbers 0, 1, 2, ...
   std::uint32_t number(Key key) {
     Slot* slot = find(key);
     if (slot->number == none) {
@@ -44,7 +44,7 @@ class BlockIndex {
 
   void allocate_slots(std::size_t slots) {
     slots_.assign(slots, {0, none});
-    old_.reserve(slots / 2);  // So that no later call has to allocate it.
+    old_.reserve(slots / 2);  // so that grow() need not allocate it
     shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
   }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers of cells, and the blocks of 4 x 4 x 4 cells: neighbours are searched by block, and a 64-bit word
-// says which cells of a block hold points.
+// Numbers of cells and of blocks of 4 x 4 x 4 cells. Neighbours are searched by block. The bits of a 64-bit
+// word mark the cells of a block that hold points.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace pcl_bv {
 
-/// Type of the keys of grids that need more than 64 bits; g++ and clang have it on every 64-bit machine.
+/// Type of keys that need more than 64 bits. g++ and clang have it on every 64-bit machine.
 __extension__ using WideKey = unsigned __int128;
 
-/// Distance from the origin, in cells, from which the cells grow with the distance.
+/// Smallest distance from the origin, in cells, at which the size of a cell grows with the distance.
 constexpr double far_cells = 0x1p40;
 
-/// Distance from the origin, in cells, up to which the width of a cell is correct to 2^-24 of itself.
+/// Largest distance from the origin, in cells, at which the width of a cell is correct to 2^-24 of the width.
 constexpr double near_cells = 0x1p28;
 
-/// cell_number() for |cells| >= far_cells.
+/// Returns cell_number() for |cells| >= far_cells.
 std::int64_t far_cell_number(double cells);
 
-/// Returns the number of the cell of a coordinate. It is monotone in the coordinate and below 2^41 in
+/// Returns the number of the cell of a coordinate. The number is monotone in the coordinate and below 2^41 in
 /// magnitude for each valid coordinate. Two coordinates less than 1.9 cells apart get numbers that differ by
 /// at most 2.
 ///
-/// Up to 2^40 cells from the origin it is floor(coordinate / side), computed in double, to 2^-12 of a cell.
-/// Farther out a cell spans 2^-28 of its distance, which is still finer than the spacing of floats, so it
-/// holds one float value only.
+/// At a distance of at most 2^40 cells from the origin the number is floor(coordinate / side), computed in
+/// double, to 2^-12 of a cell. Farther out the width of a cell is 2^-28 of its distance from the origin. This
+/// is finer than the spacing of floats, so the cell holds only one float value.
 inline std::int64_t cell_number(double coordinate, double inverse_side) {
   const double cells = coordinate * inverse_side;
   if (!(std::abs(cells) < far_cells)) return far_cell_number(cells);
@@ -39,20 +39,20 @@ inline std::int64_t cell_number(double coordinate, double inverse_side) {
   return towards_zero - (cells < static_cast<double>(towards_zero));
 }
 
-/// Position of a cell: the key of its block and its number in the block, two bits each of x (lowest), y and
-/// z.
+/// Position of a cell, given by the key of its block and its number in the block. The number has two bits
+/// each of x (lowest), y and z.
 template <typename Key>
 struct CellKey {
   Key block;
   std::uint8_t bit;
 };
 
-/// The blocks over a box. Keys order them by z, then y, then x. Each axis has a spare block on either side,
-/// so that the key of a neighbour never carries into the next axis.
+/// The blocks that cover a box. Keys order blocks by z, then y, then x. Each axis has a spare block on either
+/// side, so that the key of a neighbour never carries into the next axis.
 struct CellGrid {
   double inverse_side;
-  std::array<std::int64_t, 3> origin;  ///< Cell number that becomes 0, along x, y, z.
-  std::array<unsigned, 3> shift;       ///< Lowest bit of a block's x, y, z in the key.
+  std::array<std::int64_t, 3> origin;  ///< Cell number along x, y, z that the grid counts as 0.
+  std::array<unsigned, 3> shift;       ///< Lowest bit of the x, y, z of a block in its key.
   unsigned key_bits;                   ///< Width of the key, at most 120.
   bool near;                           ///< Whether all cell numbers are below near_cells in magnitude.
 
@@ -84,8 +84,8 @@ struct CellGrid {
     return cell_number(coordinate, inverse_side) - origin[axis];
   }
 
-  // As cell(), except for rounding at the boundaries of cells. The converted number is positive, so
-  // truncation rounds down.
+  // Returns the same as cell(), except for rounding at the boundaries of cells. The converted number is
+  // positive, so truncation rounds down.
   std::int32_t near_cell(std::size_t axis, double coordinate) const {
     return static_cast<std::int32_t>(coordinate * inverse_side - static_cast<double>(origin[axis]));
   }

@@ -17,9 +17,9 @@ void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockK
                CellPart<Key>& part) {
   const FloatEnvironment environment;
   part.runs.clear();
-  // The key of no block with points, as each of those has a spare block below.
+  // No block with points has the key 0, because each axis has a spare block below them.
   Key last = 0;
-  std::uint64_t occupied = 0;  // a register is faster than memory
+  std::uint64_t occupied = 0;  // local, because a register is faster than memory
   for (std::size_t i = part.begin; i < part.end; ++i) {
     const CellKey<Key> key = grid.template key_of<Key>(points[i]);
     keys.bit_of_point[i] = key.bit;
@@ -34,7 +34,7 @@ void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockK
   if (!part.runs.empty()) part.runs.back().occupied = occupied;
 }
 
-// Numbers the blocks in the order of the points.
+// Numbers the blocks in the order in which the points first need them.
 template <typename Key>
 void number_blocks(std::size_t points, BlockKeys<Key>& keys) {
   keys.occupied.clear();
@@ -89,8 +89,8 @@ void count_cells(const BlockKeys<Key>& keys, std::uint32_t count, Cells<T>& cell
 }  // namespace
 
 std::int64_t far_cell_number(double cells) {
-  // The bits of a positive double increase with it, with 2^52 values in each octave. Dropping 24 bits leaves
-  // 2^28 steps an octave, each of at least 2^12 cells.
+  // The bits of a positive double increase with the double, with 2^52 values in each octave. Dropping 24 bits
+  // leaves 2^28 steps per octave. Each step is at least 2^12 cells.
   const auto steps = [](double v) { return std::bit_cast<std::int64_t>(v) >> 24; };
   const std::int64_t magnitude =
       static_cast<std::int64_t>(far_cells) + steps(std::abs(cells)) - steps(far_cells);

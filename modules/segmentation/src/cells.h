@@ -18,7 +18,8 @@
 
 namespace pcl_bv {
 
-/// Returns the number of bits set: twelve instructions inline, instead of a call on x86-64 without POPCNT.
+/// Returns the number of bits set. Uses twelve inline instructions, because std::popcount() is a call on
+/// x86-64 without POPCNT.
 inline std::uint32_t count_bits(std::uint64_t bits) {
   bits -= bits >> 1 & 0x5555555555555555U;
   bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
@@ -28,8 +29,8 @@ inline std::uint32_t count_bits(std::uint64_t bits) {
 
 /// A block of 4 x 4 x 4 cells. The occupied cells are numbered in the order of their bits.
 struct Block {
-  std::uint64_t occupied = 0;    ///< A bit for each cell that holds points.
-  std::uint32_t first_cell = 0;  ///< Number of the first occupied cell.
+  std::uint64_t occupied = 0;    ///< Has bit i set if cell i of the block holds points.
+  std::uint32_t first_cell = 0;  ///< Number of the first occupied cell of the block.
   bool united = false;           ///< Whether all points of the block are in one component.
 
   std::uint32_t cell(unsigned bit) const {
@@ -37,14 +38,14 @@ struct Block {
   }
 };
 
-/// Points in the order of their cells.
+/// Points sorted by cell. A node is a member of the sets that join_cells() joins.
 template <typename T>
 struct Cells {
-  std::vector<Point<T>> points;      ///< Cell by cell.
-  std::vector<std::uint32_t> begin;  ///< Start of each cell in `points`, then the total.
-  std::vector<Block> blocks;         ///< By ascending key.
-  std::vector<std::uint32_t> node;   ///< Node of each point passed to make_cells().
-  bool by_point = false;             ///< Whether nodes are positions in `points`; else they are cells.
+  std::vector<Point<T>> points;      ///< Points in the order of their cells.
+  std::vector<std::uint32_t> begin;  ///< Start of each cell in `points`; the last entry is the size.
+  std::vector<Block> blocks;         ///< Blocks in ascending order of their keys.
+  std::vector<std::uint32_t> node;   ///< For each point passed to make_cells(), its node.
+  bool by_point = false;             ///< Whether nodes are positions in `points`, not cells.
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(begin.size() - 1); }
   PointRun<T> run(std::uint32_t cell) const {
@@ -52,16 +53,17 @@ struct Cells {
   }
 };
 
-/// Consecutive points in one block. A sensor's next point is mostly in the same block.
+/// Consecutive points in the same block. Runs are long, because a sensor's next point is mostly in the same
+/// block.
 template <typename Key>
 struct BlockRun {
   Key key;
-  std::uint64_t occupied;  ///< Cells of these points, as bits.
-  std::uint32_t begin;     ///< The first point.
+  std::uint64_t occupied;  ///< The bits of the cells of these points.
+  std::uint32_t begin;     ///< Index of the first point.
   std::uint32_t block;     ///< Number of the block in BlockKeys::index.
 };
 
-/// A part of the points, which one thread sorts.
+/// A part of the points. One thread sorts it.
 template <typename Key>
 struct CellPart {
   std::size_t begin, end;
@@ -69,22 +71,23 @@ struct CellPart {
   std::vector<std::uint32_t> next;  ///< For each cell, the position of its next point.
 };
 
-/// Number of blocks from which the memory used to find them is freed at once. A street has 10 000.
+/// Smallest number of blocks for which the buffers of BlockKeys are freed after make_cells() instead of
+/// retained for the next call. A street has 10 000 blocks.
 constexpr std::size_t free_memory_from_blocks = 1 << 18;
 
-/// Keys of one width, and the buffers to sort them.
+/// Keys of one width, and the buffers for sorting them.
 template <typename Key>
 struct BlockKeys {
   std::vector<Key> keys;  ///< Key of each block, ascending.
   PointParts<CellPart<Key>> parts;
   std::vector<KeyedPoint<Key>> order, spare;
   BlockIndex<Key> index;
-  /// Position of each block in `keys`, by its number in `index`; `occupied` likewise.
+  /// Position of each block in `keys`, by the number of the block in `index`. `occupied` has the same order.
   std::vector<std::uint32_t> rank;
   std::vector<std::uint64_t> occupied;
   std::vector<std::uint8_t> bit_of_point;
 
-  /// Frees all memory but that of `keys`.
+  /// Frees all memory except that of `keys`.
   void release_memory() {
     BlockKeys only_keys;
     only_keys.keys.swap(keys);
@@ -92,7 +95,8 @@ struct BlockKeys {
   }
 };
 
-/// Sorts the points into the cells of `grid`; within a cell they keep their order. Reads cells.by_point.
+/// Sorts the points into the cells of `grid`. Within a cell, points stay in their order. Reads
+/// cells.by_point.
 template <typename T, typename Key>
 void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const ParallelPolicy& policy,
                 Cells<T>& cells, BlockKeys<Key>& keys);

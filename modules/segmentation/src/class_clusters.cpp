@@ -45,7 +45,7 @@ std::size_t ClassClusterer::group_of(std::int64_t value) {
   return position;
 }
 
-// Writes the point indices class by class, within a class in the order of the view.
+// Writes the point indices to numbers_, ordered by class, and within a class in the order of the view.
 void ClassClusterer::sort_points(const PointView& points, const std::vector<std::int64_t>& classes) {
   groups_.clear();
   for (std::size_t i = 0; i < points.count; ++i)

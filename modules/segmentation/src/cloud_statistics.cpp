@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Finds the median spacing without an exact nearest-neighbour search for all samples. The smallest distance
-// seen so far bounds a sample's spacing, so the median of these bounds is at least the median of the
-// spacings. Each point is compared only with samples within that median: a point farther away cannot change a
-// spacing below it.
+// found so far is an upper bound of the spacing of a sample. So the median of these bounds is at least the
+// median of the spacings. Each point is compared only with samples within the median of the bounds, because a
+// point farther away cannot change a spacing below this median.
 
 #include "pcl_bv/segmentation/cloud_statistics.h"
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMaxSamples = 1000;
 
-// Number of points before and after a sample that give its first bound.
+// Number of points before and after a sample in the list that give the first bound of its spacing.
 constexpr std::size_t kNeighboursInList = 64;
 
 bool is_no_return(const Coordinates& p) {
@@ -41,7 +41,7 @@ double distance(const Coordinates& a, const Coordinates& b) {
 struct Sample {
   Coordinates point;
   std::size_t index;
-  double nearest;  // smallest distance so far
+  double nearest;  // smallest distance found so far
 };
 
 struct ChunkCounts {
@@ -75,8 +75,8 @@ double nearest_listed(const PointView& points, std::size_t i, const Coordinates&
   return best;
 }
 
-// Takes the samples of a chunk. They are evenly spaced among the `used` points of the cloud, of which
-// `before` are in earlier chunks.
+// Takes the samples of a chunk. The samples of all chunks are evenly spaced among the `used` points of the
+// cloud. `before` is the number of such points in earlier chunks.
 std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
   const std::size_t samples = std::min(used, kMaxSamples);
   std::vector<Sample> taken;
@@ -101,8 +101,8 @@ double median(const std::vector<Sample>& samples) {
   return *middle;
 }
 
-// Lowers the distances of the samples, which are sorted along `axis`, by comparing them with the points. The
-// search radius shrinks with the median.
+// Compares points with the samples, which are sorted along `axis`, and lowers the distances of the samples.
+// The search radius is the median of the distances, so it shrinks.
 void lower_distances(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
   constexpr std::size_t points_per_update = 4096;
   const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };
@@ -146,7 +146,7 @@ double spacing(const PointView& points, std::vector<Sample> samples, const Aabb&
   double Coordinates::*const axis = longest_axis(box);
   std::sort(samples.begin(), samples.end(),
             [&](const Sample& a, const Sample& b) { return a.point.*axis < b.point.*axis; });
-  std::mutex merging;  // the order does not matter for minima
+  std::mutex merging;  // the order of merging does not change minima
   for_each_chunk(policy, chunk_count(points.count), [&](std::size_t chunk) {
     std::vector<Sample> mine;
     {

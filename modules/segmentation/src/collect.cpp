@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t dropped = unseen - 1;  // component of a size that is not allowed
 
-// Computes the sizes of the components, and lists those to keep in the order of the result.
+// Computes the sizes of the components, and lists the components of allowed sizes in the order of the result.
 void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
             std::uint32_t noise, const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
   collector.size.assign(roots.size(), 0);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In a dense cloud most points are core points because of the number of points in their cell. Other points
-// test the cells around them, and stop at the point that makes them core points.
+// In a dense cloud most points are core points because of the number of points in their cell. For other
+// points the cells around them are tested until enough points are found.
 #include "core_points.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
 
-// Fewer blocks are not worth the start of a thread.
+// Number of blocks that a thread takes at a time. Fewer blocks are not worth starting a thread.
 constexpr std::size_t blocks_per_part = 256;
 
 // The data that all steps use.
@@ -30,8 +30,8 @@ struct CoreSearch {
   std::size_t min_points;
   bool solid;
 
-  // Calls test(begin, end) for the positions of a run, group by group. Whole groups are left out if skip(box)
-  // is true. Stops and returns false when test returns false.
+  // Calls test(begin, end) for the positions of a run, in groups of group_size. Skips a whole group if
+  // skip(box) is true for its box. Stops and returns false when test() returns false.
   template <typename Skip, typename Test>
   bool by_group(const PositionRange& run, Skip skip, Test test) const {
     for (std::uint32_t i = run.begin; i < run.end;) {
@@ -44,7 +44,7 @@ struct CoreSearch {
     return true;
   }
 
-  // Returns how many points of a run are linked to p. Stops once it has counted `needed`.
+  // Returns how many points of a run are linked to p. Stops counting at `needed`.
   std::size_t count(const PositionRange& run, const Point<T>& p, std::size_t needed) const {
     const Box<T> at{p, p};
     std::size_t found = 0;
@@ -65,7 +65,8 @@ struct CoreSearch {
   }
 };
 
-// Returns whether a point is a core point. Searches other blocks only if the cells of its own are not enough.
+// Returns whether a point is a core point. Searches other blocks only if the cells in its own block have too
+// few points.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   std::size_t found = 0;
@@ -108,7 +109,7 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
   search.scratch.cells_with_non_core[number] = cells_with_non_core;
 }
 
-// Returns the position of the core point to which a point that is not core belongs, or `noise`.
+// Returns the position of the core point to which the non-core point p belongs, or `noise`.
 template <typename T>
 std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const Neighbourhood<T>& near) {
   const CoreScratch<T>& scratch = search.scratch;
@@ -122,7 +123,8 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
           for (std::uint32_t i = begin; i < end; ++i) {
             const T d2 = squared_distance(search.cells.points[i], p);
             if (scratch.core[i] == 0 || d2 > min_d2) continue;
-            // Equal to another core point's distance, or to r2, which is not linked.
+            // d2 may be equal to the distance of another core point, or to r2. At r2 the points are not
+            // linked.
             const bool tie = d2 == min_d2;
             if (tie && (nearest == noise || scratch.number[i] > scratch.number[nearest])) continue;
             min_d2 = d2;
@@ -207,7 +209,7 @@ std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch) {
     const std::uint32_t end_cell = cell + count_bits(cells.blocks[b].occupied);
     cells.blocks[b] = {scratch.core_cells[b], to_cell, false};
     for (; cell < end_cell; ++cell) {
-      // Read before begin[to_cell] is written, which may be the same entry.
+      // The end is read before begin[to_cell] is written, because both may be the same entry.
       const std::uint32_t end = cells.begin[cell + 1];
       const std::uint32_t first = to;
       for (std::uint32_t i = begin; i < end; ++i) {

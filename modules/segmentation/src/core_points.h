@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The core points and border points of DBSCAN, found in the cells of the Euclidean clusters.
+// Finds the core points and border points of DBSCAN in the cells of the Euclidean clusters.
 #pragma once
 
 #include <cstddef>
@@ -13,33 +13,35 @@
 
 namespace pcl_bv {
 
-/// Buffers that calls reuse: 9 bytes a point and 16 a block.
+/// Buffers that calls reuse. They take about 10 bytes per point and 16 bytes per block.
 template <typename T>
 struct CoreScratch {
-  std::vector<std::uint8_t> core;         ///< For each position in Cells::points, whether it is a core point.
-  std::vector<std::uint64_t> core_cells;  ///< For each block, its cells with core points.
-  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, its cells with other points.
-  std::vector<std::uint32_t> number;  ///< For each position, the index in the points of make_cells().
-  std::vector<std::uint32_t> label;   ///< For each border point, its core point; later the node.
-  std::vector<Box<T>> groups;         ///< Boxes of `group_size` positions each.
+  std::vector<std::uint8_t> core;         ///< Whether the point at each position of Cells::points is core.
+  std::vector<std::uint64_t> core_cells;  ///< For each block, bits of its cells with core points.
+  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of its cells with other points.
+  std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
+  std::vector<std::uint32_t> label;   ///< For each border point, its core point. Later its node.
+  /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last group
+  /// with fewer points has no box.
+  std::vector<Box<T>> groups;
 };
 
-/// Number of consecutive positions with a common box: cells of very many points are tested group by group.
+/// Number of consecutive positions with a common box. Cells of very many points are tested by these groups.
 inline constexpr std::uint32_t group_size = 32;
 
 /// Finds the core points, and the core point of each border point. A point is a core point if at least
-/// min_points (>= 2) points, itself included, have squared_distance() < r2. A border point belongs to its
-/// nearest core point, among equals to the one with the smallest index.
+/// min_points (>= 2) points, itself included, have squared_distance() < r2 from it. A border point belongs to
+/// its nearest core point, among equals to the one with the smallest index.
 ///
-/// `cells` must be made by_point. `solid`: all points of a cell are linked, so cells of min_points points are
-/// core without a test.
+/// `cells` must be made with by_point. `solid` means that all points of a cell are linked. Then the points of
+/// a cell with min_points or more points are core points without a test.
 template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
                const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch);
 
-/// Removes all but the core points from the cells. Nodes are then core points if cells.by_point, else cells.
-/// Sets cells.node of every point to the node of its cluster. Noise gets the number after the last node,
-/// which is returned.
+/// Removes all points but the core points from the cells. Nodes are then core points if cells.by_point, else
+/// cells. Sets cells.node of every point to the node of its cluster. For noise this is the number after the
+/// last node. Returns this number.
 template <typename T>
 std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch);
 

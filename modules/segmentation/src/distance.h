@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distances of points and bounds on them, in the same arithmetic that decides whether two points are linked.
+// Distances of points and bounds on distances, in the arithmetic that decides whether two points are linked.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@ struct Point {
   T x, y, z;
 };
 
-/// Adds in the order of PCL (FLANN), x first, with one rounding after each operation.
+/// Returns the squared norm. Adds in the order of PCL (FLANN), x first, with one rounding after each
+/// operation.
 template <typename T>
 T squared_norm(T dx, T dy, T dz) {
   return (dx * dx + dy * dy) + dz * dz;
@@ -43,9 +44,9 @@ Box<T> box_of(const Point<T>* points, std::size_t count) {
   return box;
 }
 
-// Rounding is monotone: a <= b implies fl(a) <= fl(b), so fl(a - c) <= fl(b - c), and likewise for squares
-// and for sums of non-negative numbers. So the two bounds below hold exactly for the rounded d2 of each pair,
-// without a margin.
+// Rounding is monotone, i.e. a <= b implies fl(a) <= fl(b). So fl(a - c) <= fl(b - c). The same holds for
+// squares and for sums of non-negative numbers. So the two bounds below hold exactly for the rounded d2 of
+// each pair, without a margin.
 
 /// Returns a lower bound of squared_distance() for all pairs of points in the two boxes.
 template <typename T>

@@ -24,7 +24,7 @@
 namespace pcl_bv {
 namespace {
 
-// The buffers that calls reuse, for one scalar type.
+// The buffers for one scalar type, which calls reuse.
 template <typename T>
 struct PointScratch {
   ValidPoints<T> valid;
@@ -55,9 +55,10 @@ void check(const ClusterSettings& settings) {
   throw std::invalid_argument(message.str());
 }
 
-// Returns 1 / side of the cells. sqrt(r2), not the tolerance, bounds the coordinate differences of a linked
-// pair (d2 < r2): r2 may have been rounded up among the denormals, or to infinity while d2 is finite. The
-// margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
+// Returns 1 / side of the cells. The coordinate differences of a linked pair (d2 < r2) are bounded by
+// sqrt(r2), not by the tolerance, because r2 may have been rounded up among the denormals, or to infinity
+// while d2 is finite. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell
+// are linked.
 template <typename T>
 double inverse_cell_side(T r2) {
   using limits = std::numeric_limits<T>;
@@ -66,15 +67,16 @@ double inverse_cell_side(T r2) {
   return std::sqrt(3.0) * (1 + 1e-6) / max_difference;
 }
 
-// Returns whether all points of a cell are certainly linked. The margin of the cells' side covers the
-// rounding of the cell boundaries (if grid.near), and that of d2 if r2 is far from underflow and overflow.
+// Returns whether all points of a cell are certainly linked. The margin of inverse_cell_side() covers the
+// rounding of the cell boundaries if grid.near. It covers the rounding of d2 if r2 is far from underflow and
+// overflow.
 template <typename T>
 bool cells_are_solid(const CellGrid& grid, T r2) {
   return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
 }
 
-// Finds the connected components. Returns the root of noise, or no_root if min_points is 1: then every point
-// is a core point.
+// Finds the connected components. Returns the root of noise. If min_points is 1, every point is a core point,
+// and the function returns no_root.
 template <typename T, typename Key>
 std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<T>& scratch,
                               const CellGrid& grid, T r2, std::size_t min_points,
@@ -105,7 +107,7 @@ struct EuclideanClusterer::Scratch {
   Collector collector;
   SplitScratch split;
 
-  /// Links the points at one tolerance: point i is in the component sets.roots()[scratch.cells.node[i]].
+  /// Links the points at one tolerance. Point i is then in the component sets.roots()[scratch.cells.node[i]].
   /// Returns the root of noise.
   template <typename T>
   std::uint32_t link(const std::vector<Point<T>>& all, const Box<T>& box, double r, std::size_t min_points,
@@ -152,7 +154,7 @@ struct EuclideanClusterer::Scratch {
                    clusters);
   }
 
-  /// Appends the clusters. Those above max_size are left out only for Oversized::drop.
+  /// Appends the clusters to `clusters`. Omits clusters above max_size only for Oversized::drop.
   void append(const PointView& view, ClusterSettings settings, const ParallelPolicy& policy,
               Clusters& clusters) {
     if (settings.oversized != Oversized::drop) settings.max_size = std::numeric_limits<std::size_t>::max();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks of settings and point indices.
+// Checks of ground settings and point indices.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace pcl_bv {
 
-/// Throws std::invalid_argument with `who`, the setting, its value and the range.
+/// Throws std::invalid_argument unless `in_range`. The message has `who`, the setting, its value and the
+/// range.
 inline void require(bool in_range, const char* who, const char* name, double value, const char* range) {
   if (in_range) return;
   throw std::invalid_argument(std::string(who) + ": " + name + " is " + std::to_string(value) + ", must be " +
@@ -32,7 +33,8 @@ inline void check_ground(const char* who, double distance, double max_slope_degr
   require(height >= 0 && height <= largest, who, "sensor_height", height, "finite and at least 0");
 }
 
-/// Throws std::length_error if a point index exceeds 2^31 - 1. Index lists have 32-bit indices anyway.
+/// Throws std::length_error if a point index exceeds 2^31 - 1. Only views without an index list are checked,
+/// because index lists have 32-bit indices.
 inline void check_indices(const PointView& points) {
   constexpr std::size_t max_index = std::numeric_limits<std::int32_t>::max();
   if (points.indices || points.empty() || points.first + points.count - 1 <= max_index) return;

@@ -11,31 +11,35 @@
 namespace pcl_bv {
 namespace {
 
-// A cell's lowest point is ground if it is at most `above` over, or `below` under, the expected height,
-// metres. Both limits grow for each metre since ground was last seen, up to the maxima. Curbs and clods pass;
-// bonnets and the seats of benches do not.
+// A cell's lowest point is ground if it is at most `above` over or at most `below` under the expected height,
+// metres. Both limits grow per metre since ground was last seen, until `above_max` and `below_max`. With
+// these values curbs and clods are ground, but bonnets and the seats of benches are not.
 constexpr float above = 0.12F, above_growth = 0.024F, above_max = 0.225F;
 constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 
-// Limits above the expected height in cells with an object, as the lowest point may belong to the object.
+// Limits above the expected height in cells with an object. They are low because the lowest point may belong
+// to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// Distance over which a rise changes the slope, in addition to the distance since ground was last seen;
-// metres.
+// Distance over which a rise changes the slope, metres. The distance since ground was last seen is added to
+// it.
 constexpr float slope_memory = 2.6F;
 
-// The expected height follows lower points by at most this much a metre, beyond its slope: behind a ditch the
-// ground continues as before.
+// Largest fall of the expected height below its slope, per metre, when it follows lower points. It is small
+// because the ground behind a ditch continues at the height before the ditch.
 constexpr float max_fall = 0.06F;
 
-// Metres; the plane around the sensor is only a guess for the innermost cells.
+// Metres since ground was seen, for the innermost cells. It is not 0 because the plane around the sensor is
+// only an estimate there.
 constexpr float first_since_ground = 2;
-constexpr float never_seen = 1000;  // metres since ground was seen
-constexpr float roughness = 0.02F;  // metres from the lowest point to the middle of the points of bare ground
+// since_ground while no ground has been seen. Larger than every distance within the cells.
+constexpr float never_seen = 1000;
+constexpr float roughness = 0.02F;  // metres from the lowest to the middle point of bare ground
 
 }  // namespace
 
-// Mixes in the states of the neighbours that have seen the ground more recently.
+// Mixes the states of neighbouring sectors into the state of each sector, if the neighbours have seen the
+// ground more recently.
 void GroundSurface::WalkState::mix_with_neighbours(float width) {
   for (RingRow* row : {&height, &slope, &last_ground, &since_ground})
     row->close();
@@ -89,7 +93,7 @@ void GroundSurface::estimate_outwards(const CellSummary& cells) {
   }
 }
 
-// Interpolates linearly between two cells of a sector where ground is seen.
+// Interpolates the height linearly between two cells of a sector in which ground is seen.
 void GroundSurface::interpolate_inwards() {
   WalkState state;
   state.slope.fill(0), state.height.fill(0), state.last_ground.fill(0), state.since_ground.fill(never_seen);

@@ -11,15 +11,15 @@
 
 namespace pcl_bv {
 
-/// The ground in every cell, relative to the plane around the sensor: its height is base + range * slope,
-/// metres.
+/// The surface of the ground. The height of the ground in a cell is base + range * slope, in metres relative
+/// to the plane around the sensor.
 class GroundSurface {
  public:
   struct Line {
     float base, slope;
   };
 
-  /// Computes the lines of all cells. The heights in `cells` are relative to `plane`. `max_slope` is the
+  /// Computes the line of each cell. The heights in `cells` are relative to `plane`. `max_slope` is the
   /// tangent of the largest angle between the ground and the horizontal. O(cells).
   void find(const CellSummary& cells, const Slope& plane, float max_slope);
 
@@ -30,12 +30,12 @@ class GroundSurface {
   }
 
  private:
-  /// The state of a walk in the current ring, by sector.
+  /// The state of a traversal in the current ring, for each sector.
   struct WalkState {
     RingRow height;        // expected height of the ground
     RingRow slope;         // slope of the ground, outwards
     RingRow last_ground;   // height where ground was last seen
-    RingRow since_ground;  // metres since ground was last seen
+    RingRow since_ground;  // metres from the last cell with ground
     void mix_with_neighbours(float width);
   };
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// First the cells of each block are joined, then neighbouring blocks, found by a sweep over the sorted keys.
-// Most blocks are one set after the first step. A pair of such blocks costs one comparison if they already
-// share a root; otherwise it ends at the first link.
+// First the cells of each block are joined. Then neighbouring blocks, found by a sweep over the sorted keys,
+// are joined. After the first step the cells of most blocks are in one set. A pair of such blocks needs one
+// comparison if both already have the same root. Otherwise its tests end at the first link.
 #include "join_cells.h"
 
 #include <algorithm>
@@ -34,8 +34,8 @@ struct JoinContext {
   bool is_non_solid(std::uint32_t cell) const { return !non_solid.empty() && non_solid[cell]; }
 };
 
-// Calls visit(bit of a, bit of b) for the pairs of occupied cells of two blocks that are neighbours by
-// `masks`. Stops and returns true when visit returns true.
+// Calls visit(bit in a, bit in b) for the pairs of occupied cells of two blocks that are neighbours by
+// `masks`. Stops and returns true when visit() returns true.
 template <typename Visit>
 bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit visit) {
   for (; a != 0; a &= a - 1) {
@@ -47,11 +47,11 @@ bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit
   return false;
 }
 
-// Joins the points of two cells, at least one of which is non-solid. The two may be the same cell.
+// Joins the points of two cells, at least one of which is non-solid. Both may be the same cell.
 template <typename T>
 void join_non_solid(const JoinContext<T>& context, std::uint32_t a, std::uint32_t b,
                     LinkScratch<T>& scratch) {
-  // The nodes of a non-solid cell are its points; any other cell is one node.
+  // Each point of a non-solid cell is a node. Any other cell is one node.
   const auto parts = [&context](std::uint32_t cell) {
     return context.is_non_solid(cell) ? context.cells.run(cell).count : 1;
   };
@@ -79,7 +79,7 @@ void join_pair(const JoinContext<T>& context, std::uint32_t a, std::uint32_t b, 
 }
 
 // Adds to `reached` the cells of a block that are linked to a cell of `from` and near it by `masks`. Returns
-// them.
+// the added cells.
 template <typename T>
 std::uint64_t spread(const JoinContext<T>& context, const Block& block, const CellMasks& masks,
                      std::uint64_t from, std::uint64_t& reached, LinkScratch<T>& scratch) {
@@ -101,7 +101,7 @@ std::uint64_t spread(const JoinContext<T>& context, const Block& block, const Ce
 }
 
 // Returns the cells of a block that are connected to the lowest cell of `rest`. Spreads over touching cells
-// as far as possible, then over cells two away, until neither adds a cell.
+// as far as possible, then over cells two away, until no cell is added.
 template <typename T>
 std::uint64_t component(const JoinContext<T>& context, const Block& block, std::uint64_t rest,
                         LinkScratch<T>& scratch) {
@@ -125,7 +125,7 @@ std::uint64_t component(const JoinContext<T>& context, const Block& block, std::
   return all;
 }
 
-// Joins the cells of one block. No other thread uses them yet.
+// Joins the cells of one block. No other thread uses these cells yet.
 template <typename T>
 void join_within(const JoinContext<T>& context, Block& block, LinkScratch<T>& scratch) {
   std::uint64_t rest = block.occupied;
@@ -140,7 +140,7 @@ void join_within(const JoinContext<T>& context, Block& block, LinkScratch<T>& sc
   }
 }
 
-// Joins the cells of one block if some may be non-solid.
+// Joins the cells of one block if some of these cells may be non-solid.
 template <typename T>
 void join_within_by_pairs(const JoinContext<T>& context, Block& block, LinkScratch<T>& scratch) {
   for (std::uint32_t i = 0; i < count_bits(block.occupied); ++i) {
@@ -174,8 +174,8 @@ void join_between(const JoinContext<T>& context, const TouchingAndNext& masks, c
   });
 }
 
-// Returns the difference between the key of a block and that of the first block in a row of neighbours,
-// modulo 2^bits.
+// Returns the key of the first block in a row of neighbours of a block, minus the key of the block, modulo
+// 2^bits.
 template <typename Key>
 Key key_offset(const CellGrid& grid, const BlockRow& row) {
   const auto along = [&grid](int blocks, std::size_t axis) {
@@ -184,8 +184,8 @@ Key key_offset(const CellGrid& grid, const BlockRow& row) {
   return static_cast<Key>(along(row.dz, 2) + along(row.dy, 1) + along(-1, 0));
 }
 
-// Joins a chunk of blocks with the preceding blocks in one row. The position in the row moves forward with
-// the block.
+// Joins each block of a chunk with the preceding blocks in one row of its neighbours. The position in the row
+// only moves forward from block to block.
 template <typename T, typename Key>
 void sweep(const JoinContext<T>& context, const std::vector<Key>& keys, Key offset,
            const std::array<TouchingAndNext, 3>& masks, std::size_t begin, std::size_t end,
@@ -213,7 +213,7 @@ void find_non_solid(const Cells<T>& cells, T r2, std::vector<std::uint8_t>& non_
   }
 }
 
-// Makes a set of each cell; of a non-solid cell, a set of each point.
+// Makes one set per cell. For a non-solid cell, makes one set per point.
 template <typename T>
 void start_sets(const JoinContext<T>& context) {
   const Cells<T>& cells = context.cells;
@@ -225,8 +225,8 @@ void start_sets(const JoinContext<T>& context) {
   }
 }
 
-// Reserves memory for any two cells in each chunk, except for cells of very many points. Which cells a thread
-// compares depends on timing; allocations should not.
+// Reserves memory in each chunk for any two cells, but at most for 4096 points each. Which cells a thread
+// compares depends on timing, but allocations should not depend on it.
 template <typename T>
 void reserve_links(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
   constexpr std::size_t max_reserved = 4096;
@@ -239,7 +239,7 @@ void reserve_links(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, st
   }
 }
 
-// Fewer blocks are not worth the start of a thread.
+// Number of blocks that a thread takes at a time. Fewer blocks are not worth starting a thread.
 constexpr std::size_t blocks_per_chunk = 256;
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cells around a cell, on every side. (Joining cells needs only half of them: neighbours.h.)
+// The cells around a cell, on all sides. Joining cells needs only half of them (see neighbours.h).
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,26 @@
 
 namespace pcl_bv {
 
-/// Masks for one row of blocks. Each row is a variable of its own, as clang allows a million steps for a
-/// constant.
+/// Masks for one row of blocks. Each row is a separate variable, because clang limits the evaluation of each
+/// constant to a million steps.
 template <int dy, int dz>
 inline constexpr std::array<CellMasks, 3> masks_of_row{
     cells_within({-1, dy, dz}, 2), cells_within({0, dy, dz}, 2), cells_within({1, dy, dz}, 2)};
 
-/// Indices: (dz + 1) * 3 + dy + 1, then dx + 1.
+/// Masks for all blocks around a block. The first index is (dz + 1) * 3 + dy + 1, the second index is dx + 1.
 inline constexpr std::array<const std::array<CellMasks, 3>*, 9> masks_around{
     &masks_of_row<-1, -1>, &masks_of_row<0, -1>, &masks_of_row<1, -1>,
     &masks_of_row<-1, 0>,  &masks_of_row<0, 0>,  &masks_of_row<1, 0>,
     &masks_of_row<-1, 1>,  &masks_of_row<0, 1>,  &masks_of_row<1, 1>};
 
-/// Numbers of the blocks around a block and of itself, at index ((dz + 1) * 3 + dy + 1) * 3 + dx + 1.
+/// Numbers of the blocks around a block and of the block itself. The index is ((dz + 1) * 3 + dy + 1) * 3 +
+/// dx + 1.
 using BlocksAround = std::array<std::uint32_t, 27>;
 inline constexpr std::uint32_t no_block = std::numeric_limits<std::uint32_t>::max();
 inline constexpr std::size_t own_block = 13;
 
-/// Finds the blocks around a block. Blocks must be queried in ascending order: the position in each of the
-/// nine rows only moves forward.
+/// Finds the blocks around a block. Blocks must be queried in ascending order, because the position in each
+/// of the nine rows only moves forward.
 template <typename Key>
 class BlockRows {
  public:
@@ -69,20 +70,20 @@ class BlockRows {
   std::array<std::size_t, 9> next_{};
 };
 
-/// A range of positions in Cells::points: points of consecutive cells of a block.
+/// A range of positions in Cells::points. It holds the points of consecutive cells of a block.
 struct PositionRange {
   std::uint32_t begin, end;
 };
 
-/// The points in all cells at most two cells away from a cell along each axis, including the cell itself.
-/// start() takes those of the same block, add_other_blocks() adds those of other blocks. Consecutive occupied
-/// cells of a block form one run: for the 125 cells there are mostly about ten runs.
+/// The points in the cells at most two cells away from a cell along each axis, including the cell itself.
+/// start() takes the points in the block of the cell. add_other_blocks() adds the points in other blocks.
+/// Consecutive occupied cells of a block form one run, so the 125 cells mostly have about ten runs.
 template <typename T>
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Cells<T>& cells) : cells_(cells) {}
 
-  /// Starts at cell `bit` of the block in the middle of `around`, which must outlive the search.
+  /// Starts at cell `bit` of the block in the middle of `around`, which must outlive the object.
   void start(const BlocksAround& around, unsigned bit) {
     around_ = &around;
     bit_ = bit;
@@ -92,8 +93,9 @@ class Neighbourhood {
     has_other_blocks_ = false;
   }
 
-  /// Adds the runs in other blocks. At most seven matter: a cell in the lower half of its block is never
-  /// within two cells of the next block, nor a cell in the upper half within two of the block before.
+  /// Adds the runs in other blocks. At most seven blocks matter. A cell in the lower half of its block is
+  /// never within two cells of the next block, and a cell in the upper half is never within two cells of the
+  /// previous block.
   void add_other_blocks() {
     if (has_other_blocks_) return;
     has_other_blocks_ = true;
@@ -128,7 +130,7 @@ class Neighbourhood {
   unsigned bit_ = 0;
   bool has_other_blocks_ = false;
   std::size_t count_ = 0, points_ = 0;
-  std::array<PositionRange, 125> runs_;  // Only the first count_ are set.
+  std::array<PositionRange, 125> runs_;  // only the first count_ entries are set
 };
 
 }  // namespace pcl_bv

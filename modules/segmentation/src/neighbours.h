@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Masks of the cells of a block, or of a block next to it, that are near a cell; computed at compile time.
+// Masks of the cells near a cell, in the block of the cell or in a neighbouring block. They are computed at
+// compile time.
 #pragma once
 
 #include <array>
@@ -15,20 +16,21 @@ struct BlockOffset {
   int dx, dy, dz;
 };
 
-/// A row of three neighbours along x: dx = -1, 0, 1.
+/// A row of three neighbours along x, with dx = -1, 0 and 1.
 struct BlockRow {
   int dy, dz;
 };
 
-/// Half of the 26 neighbours; each pair of blocks is visited from one side only. In the first row only the
-/// first neighbour precedes the block itself.
+/// Half of the 26 neighbours, because each pair of blocks is visited from one side only. Of the first row,
+/// only the first neighbour is used, because only this one precedes the block itself.
 inline constexpr std::array<BlockRow, 5> half_of_neighbours{{{0, 0}, {-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
 /// For each cell of a block, a set of cells of another block.
 using CellMasks = std::array<std::uint64_t, 64>;
 
-/// Returns the cells whose coordinate in bits [shift, shift + 2) is at most `max_distance` from the
-/// coordinate `own` of a cell in another block.
+/// Returns the cells of another block that are at most `max_distance` from a cell along one axis. The
+/// coordinate on this axis is in bits [shift, shift + 2) of a cell number. `own` is the coordinate of the
+/// cell. `offset` is the offset of the other block.
 constexpr std::uint64_t cells_within_on_axis(int shift, int own, int offset, int max_distance) {
   std::uint64_t mask = 0;
   for (int b = 0; b < 64; ++b) {
@@ -38,8 +40,8 @@ constexpr std::uint64_t cells_within_on_axis(int shift, int own, int offset, int
   return mask;
 }
 
-/// Returns, for each cell, the cells at most `max_distance` away along each axis. Computed by axis, which
-/// takes few steps: clang allows a million.
+/// Returns, for each cell, the cells of the other block at most `max_distance` away along each axis. Computes
+/// each axis separately, which takes few steps, because clang limits constants to a million steps.
 constexpr CellMasks cells_within(const BlockOffset& offset, int max_distance) {
   std::array<std::array<std::uint64_t, 4>, 3> on_axis{};
   for (int own = 0; own < 4; ++own) {
@@ -53,7 +55,8 @@ constexpr CellMasks cells_within(const BlockOffset& offset, int max_distance) {
   return masks;
 }
 
-/// Cells that touch a cell, and cells two away. Touching cells are mostly linked, so they are tested first.
+/// Masks of the cells that touch a cell, and of the cells two away. Touching cells are mostly linked, so they
+/// are tested first.
 struct TouchingAndNext {
   CellMasks touching, two_away;
 };
@@ -71,7 +74,7 @@ constexpr TouchingAndNext touching_and_next(const BlockOffset& offset) {
 
 inline constexpr TouchingAndNext within_block = touching_and_next({0, 0, 0});
 
-/// Index: row, then dx + 1.
+/// Masks for half_of_neighbours. The first index is the row, the second index is dx + 1.
 inline constexpr std::array<std::array<TouchingAndNext, 3>, half_of_neighbours.size()> next_to_block = [] {
   std::array<std::array<TouchingAndNext, 3>, half_of_neighbours.size()> all{};
   for (std::size_t row = 0; row < all.size(); ++row) {

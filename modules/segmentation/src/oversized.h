@@ -16,12 +16,12 @@ struct SplitScratch {
   std::vector<std::size_t> order;
 };
 
-/// Clusters the points of a view with the given settings and appends the clusters, of any size.
+/// Clusters the points of a view with the given settings and appends all clusters, whatever their size.
 using ClusterPoints = std::function<void(const PointView&, const ClusterSettings&, Clusters&)>;
 
 /// Replaces each cluster above max_size by the clusters of its points with half the tolerance, up to three
-/// times. Clusters that are then still too large are dropped. `clusters` must be found with `settings`,
-/// without its max_size.
+/// times. Clusters that are then still too large are dropped. `clusters` must be found with `settings`, but
+/// without the max_size of `settings`.
 void split_oversized(const PointView& points, const ClusterSettings& settings, const ClusterPoints& cluster,
                      Clusters& clusters, SplitScratch& scratch);
 

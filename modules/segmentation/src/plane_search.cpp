@@ -28,7 +28,7 @@ struct Spread {
   double low, middle, high;
 };
 
-// Returns the median along an axis, and limits that do not depend on a few outliers.
+// Returns the median along an axis, and limits that a few outliers do not change.
 Spread spread_of(const std::vector<Vector3d>& sample, const Vector3d& axis) {
   std::array<double, 1024> values;
   const std::size_t n = std::min(sample.size(), values.size());
@@ -47,7 +47,7 @@ Spread spread_of(const std::vector<Vector3d>& sample, const Vector3d& axis) {
   return {low - margin, *middle, high + margin};
 }
 
-// Returns the row or column of the grid; the outermost ones hold all values beyond them.
+// Returns the row or column of the grid. The outermost rows and columns hold all values beyond them.
 std::size_t grid_line(double value, const Spread& spread) {
   if (!(spread.high > spread.low)) return 0;
   const double line = (value - spread.low) / (spread.high - spread.low) * cells_per_side;
@@ -59,7 +59,7 @@ struct Cell {
   std::size_t lowest = 0;  // position of its lowest point in GroundScratch::lowest
 };
 
-// Adds a point to its cell. Only the first few points of a cell are support.
+// Adds a point to its cell. Only the first points_per_cell points of a cell are support.
 void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& scratch) {
   if (cell.count < points_per_cell) scratch.support.push_back(p);
   if (cell.count == 0) {
@@ -71,10 +71,11 @@ void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& s
   ++cell.count;
 }
 
-// Fills `scratch`: `sample` with up to `sample_size` points evenly spread over the point indices, `support`
-// with at most 4096 of them evenly spread over the area seen from above, and `lowest` with the lowest point
-// of each of at most 1024 cells of that area. Without valid points all are empty. The points are relative to
-// the returned position in the middle of the cloud, so that UTM coordinates lose no precision.
+// Fills the buffers of `scratch` with points relative to the returned position, which is in the middle of the
+// cloud, so that UTM coordinates lose no precision. Without valid points all buffers are empty.
+// - `sample` has at most `sample_size` points, evenly spread over the point indices.
+// - `support` has at most 4096 points of the sample, evenly spread over the area seen from above.
+// - `lowest` has the lowest point of each of at most 1024 cells of this area.
 Vector3d sample_ground(const PointView& points, const UpFrame& frame, std::uint32_t seed,
                        std::size_t sample_size, GroundScratch& scratch) {
   constexpr std::size_t cells = cells_per_side * cells_per_side;
@@ -102,8 +103,8 @@ constexpr double max_above = 1;
 constexpr double max_below = 2;
 constexpr unsigned refinements = 3;
 
-// Points whose second width is less than this share of the first are treated as a line, which determines no
-// plane.
+// Smallest ratio of the second width of points to the first width. Points with a smaller ratio are treated as
+// a line, which determines no plane.
 constexpr double min_width_ratio = 0.02;
 
 Vector3d normalized(const Vector3d& v) {
@@ -135,15 +136,15 @@ Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3
 std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                    const Limits& limits) {
   const Vector3d normal =
-      normalized(normalized(b - a).cross(normalized(c - a)));  // zero if on a line: not allowed
+      normalized(normalized(b - a).cross(normalized(c - a)));  // zero for points on a line, so not allowed
   const Plane plane = plane_at(a, normal, limits.up);
   if (!limits.allow(plane)) return {};
   return plane;
 }
 
 // Returns the sum over the points of the squared height in units of `distance`, clamped to max_above and
-// -max_below. Stops early for a plane that cannot beat `best`. Eigen's min and max do not branch; the
-// branches that compilers make are three times slower, as heights are unpredictable. Each of four lanes is
+// -max_below. Stops early for a plane that cannot have a smaller cost than `best`. Eigen's min and max do not
+// branch. Branches would be three times slower, because heights are unpredictable. Each of the four lanes is
 // summed in order, so the bits do not depend on the packet size.
 double cost_of(const Plane& plane, const Points& points, double distance, double best) {
   using Lanes = Eigen::Array4d;
@@ -188,12 +189,13 @@ std::optional<Plane> refine(const Plane& plane, const Points& points, double dis
   return refined;
 }
 
-// Returns the best plane through three of the lowest points. Ground points are among these even below tables.
+// Returns the best plane through three of the lowest points. Even below tables, ground points are among the
+// lowest points.
 std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
                             const GroundPlaneSettings& settings) {
   const Points& lowest = points.lowest;
   if (lowest.size() < 3) return {};
-  std::mt19937 random(settings.seed);  // the standard fixes its numbers
+  std::mt19937 random(settings.seed);  // the standard fixes the numbers of mt19937
   const auto pick = [&]() -> const Vector3d& {
     return lowest[static_cast<std::size_t>(std::uint64_t{random()} * lowest.size() >> 32)];
   };
@@ -224,9 +226,10 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& 
   const Limits limits{frame.up, std::cos(settings.max_slope_degrees * std::numbers::pi / 180),
                       sensor - origin, settings.sensor_height};
   std::optional<Plane> best = search(scratch, limits, settings);
-  // The search weights points by area, so its plane fits the few distant points as well as the many near
-  // ones. Least squares over all points move it to where most points are. Refining fails if three points were
-  // within the limits but the plane of the points near them is not, e.g. on a strip of a wall.
+  // The search weights points by area, so its plane fits a few distant points as well as many near points.
+  // Least squares over the whole sample moves the plane to where most points are. The refinement fails if
+  // three points were within the limits but the plane of the points near them is not, e.g. on a strip of a
+  // wall.
   for (unsigned i = 0; best && i < refinements; ++i)
     best = refine(*best, scratch.sample, settings.distance, limits);
   if (best) best->offset += dot3(best->normal, origin);

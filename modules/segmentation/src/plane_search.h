@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Searches the ground plane and writes the split.
+// Finds the ground plane and writes the split.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
   return dot3(plane.normal, p) - plane.offset;
 }
 
-/// Number of points in the sample of a cloud: one in 15 of a 64-beam sweep, 8 for each cell of the grid of
-/// areas.
+/// Number of points in the sample of a cloud. It is one in 15 points of a 64-beam sweep, and 8 points per
+/// cell of the grid of areas.
 inline constexpr std::size_t default_sample_size = 8192;
 
 /// Finds the ground plane as split_ground() describes, in a sample of at most `sample_size` points.
@@ -33,9 +33,10 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vec
                                        const GroundPlaneSettings& settings, GroundScratch& scratch,
                                        std::size_t sample_size = default_sample_size);
 
-/// Stores `plane` in the split and fills its lists. visit(put) must call put(index, is_ground) for each valid
-/// point, at most `max_count` times. Each index is written to both lists, and the end of one list advances.
-/// This takes half the time of a branch, which clouds in scan order make unpredictable.
+/// Stores `plane` in the split and fills the two lists of the split. visit(put) must call put(index,
+/// is_ground) for each valid point, at most `max_count` times. Each index is written to both lists, but only
+/// the end of one list advances. This takes half the time of a branch, because branches are unpredictable in
+/// clouds in scan order.
 template <typename Visit>
 void write_split(const std::optional<Plane>& plane, std::size_t max_count, GroundSplit& split,
                  const Visit& visit) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Polar cells around the sensor: rings of 0.5 m, each with 256 sectors. They are fine enough that the foot of
-// a wall shares its cell with the wall above it, and coarse enough that one or two beams above the foot hit
-// the same cell.
+// Polar cells around the sensor, in rings of 0.5 m with 256 sectors each. The cells are fine enough that the
+// foot of a wall is in the same cell as the wall above it. They are coarse enough that one or two beams above
+// the foot hit the same cell.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace pcl_bv {
 
-inline constexpr std::size_t sector_count = 256;  ///< The first begins at the u axis.
-/// The last ring has no outer limit: it holds all that is 100 m away or farther.
+inline constexpr std::size_t sector_count = 256;  ///< Sector 0 begins at the u axis.
+/// Number of rings. The last ring has no outer limit. It holds all points at 100 m or farther.
 inline constexpr std::size_t ring_count = 201;
-inline constexpr std::size_t cell_count = ring_count * sector_count;  ///< Ring by ring.
+inline constexpr std::size_t cell_count = ring_count * sector_count;  ///< Cells are numbered ring by ring.
 inline constexpr float ring_width = 0.5F;                             ///< Metres.
 
 /// Returns the distance of a point from the centre, metres.
@@ -26,8 +26,8 @@ inline float range_of(float u, float v) {
   return std::sqrt(u * u + v * v);
 }
 
-/// Returns the angle of a point in turns, 0 to 1, to 0.004 rad. The same on every machine, unlike atan2() of
-/// the C libraries.
+/// Returns the angle of a point in turns, from 0 to 1, accurate to 0.004 rad. The result is the same on every
+/// machine, unlike that of atan2() of the C libraries.
 inline float angle_in_turns(float u, float v) {
   const float along = std::abs(u), across = std::abs(v);
   const float longer = std::max(along, across);
@@ -38,14 +38,14 @@ inline float angle_in_turns(float u, float v) {
   return v < 0 ? 1 - turn : turn;
 }
 
-/// Returns the index of the cell of a range and an angle in turns. 1 turn is the same as 0.
+/// Returns the index of the cell with the given range and angle. The angle is in turns; 1 is the same as 0.
 inline std::int32_t cell_of(float range, float turn) {
   const auto ring = static_cast<std::int32_t>(std::min(range / ring_width, float{ring_count - 1}));
   const auto sector = static_cast<std::int32_t>(turn * float{sector_count});
   return ring * std::int32_t{sector_count} + (sector & std::int32_t{sector_count - 1});
 }
 
-/// Returns the range of the middle of a ring, metres.
+/// Returns the distance of the middle of a ring from the centre, metres.
 constexpr float middle_of(std::size_t ring) {
   return ring_width * (static_cast<float>(ring) + 0.5F);
 }
@@ -59,7 +59,8 @@ struct Direction {
   double u, v;
 };
 
-/// Unit vectors to the middle of the sectors. By Taylor series, to 1e-8, as results of C libraries differ.
+/// Unit vectors to the middle of the sectors. They are computed by Taylor series to 1e-8, because the results
+/// of C libraries differ.
 inline constexpr std::array<Direction, sector_count> sector_directions = [] {
   std::array<Direction, sector_count> all{};
   for (std::size_t s = 0; s < sector_count; ++s) {
@@ -76,7 +77,8 @@ inline constexpr std::array<Direction, sector_count> sector_directions = [] {
   return all;
 }();
 
-/// A value for each cell of a ring, with a copy of the last before the first and of the first after the last.
+/// A value for each cell of a ring. It also has a copy of the last value before the first, and of the first
+/// value after the last.
 struct RingRow : std::array<float, sector_count + 2> {
   void copy(const float* cells) {
     std::copy_n(cells, sector_count, data() + 1);

@@ -11,7 +11,7 @@
 namespace pcl_bv {
 
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level) {
-  // Not exp2(), which differs between libraries.
+  // A table instead of exp2(), whose result differs between libraries.
   constexpr std::array<double, 4> quarters{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
   const double level_tolerance =
       std::ldexp(double{tolerance} * quarters[level % 4], static_cast<int>(level / 4));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clusters with a tolerance that grows with the distance from the origin, in steps of a quarter octave.
+// Clusters with a tolerance that grows with the distance from the origin, in levels of a quarter octave.
 #pragma once
 
 #include <cstddef>
@@ -13,39 +13,41 @@
 
 namespace pcl_bv {
 
-/// The tolerance of level i, tolerance * 2^(i/4), and the squared distance from the origin from which points
-/// have at least this tolerance.
+/// A level. Level i has the tolerance tolerance * 2^(i/4). Points at min_squared_range or farther (squared,
+/// from the origin) have at least this tolerance.
 struct RangeLevel {
   double tolerance, min_squared_range;
 };
-/// Returns a level for ClusterSettings::tolerance and tolerance_per_metre.
+/// Returns the given level for ClusterSettings::tolerance and tolerance_per_metre.
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level);
 
-/// Unites the clusters of all levels. Two points are linked if they are nearer than the smaller of their
-/// tolerances, that is, if they are linked at a level that both reach. So the clusters are the union, over
-/// the levels, of the clusters of the points that reach the level.
+/// Unites the clusters of all levels. A point is at a level if its tolerance is at least that of the level.
+/// Two points are linked if their distance is below the smaller of their tolerances, that is, if they are
+/// linked at some level that both points are at. So the clusters are the union, over the levels, of the
+/// clusters of the points at the level.
 template <typename T>
 class RangeLevels {
  public:
-  /// Starts with all points, each in a set of its own.
+  /// Starts with all points, each in a separate set.
   void start(const std::vector<Point<T>>& points);
 
-  /// Removes the points that do not reach the level. Returns false if none are left.
+  /// Removes the points that are not at the level. Returns false if no point remains.
   bool advance_to(const RangeLevel& level);
 
-  /// Returns the points that reach the current level.
+  /// Returns the points at the current level.
   const std::vector<Point<T>>& points() const { return points_; }
 
-  /// Unites the points with the same root at this level: point i of points() has the root roots[node[i]].
+  /// Unites the points that have the same root at this level. The root of point i of points() is
+  /// roots[node[i]].
   void unite(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node);
 
-  /// Returns the root of each point of start(). Call after the last level.
+  /// Returns the root of each point passed to start(). Call it after the last level.
   const std::vector<std::uint32_t>& roots() { return sets_.roots(); }
 
  private:
   std::vector<Point<T>> points_;
-  std::vector<std::uint32_t> position_;       // position of each point in those of start()
-  std::vector<std::uint32_t> first_of_root_;  // for each root, a point that has it
+  std::vector<std::uint32_t> position_;       // position of each point in the list passed to start()
+  std::vector<std::uint32_t> first_of_root_;  // for each root, the first point with this root
   UnionFind sets_;
 };
 

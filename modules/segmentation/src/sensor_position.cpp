@@ -59,11 +59,11 @@ Vector3d mean_near(const FlatPoints& points, const Vector3d& position) {
   return count > 0 ? Vector3d(sum / count) : position;
 }
 
-/// Returns the position where the points are densest: the centre of the fullest of squares of 25 m, in steps
-/// of 12.5 m, moved twice to the mean of the points near it.
+/// Returns the position where the points are densest. It starts at the centre of the square of 25 m with most
+/// points, in steps of 12.5 m, and moves twice to the mean of the points near the position.
 Vector3d densest_position(const FlatPoints& points) {
   using Square = std::pair<double, double>;
-  std::array<Square, 4 * kSample> corners;  // four for each point, those of its grid cell
+  std::array<Square, 4 * kSample> corners;  // for each point, the four corners of its grid cell
   auto end_of_all = corners.begin();
   for (const Vector3d& p : points) {
     const Square cell{std::floor(p.x() / kNear), std::floor(p.y() / kNear)};

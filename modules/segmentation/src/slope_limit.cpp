@@ -10,7 +10,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t max_sectors = 16;  // to either side
+constexpr std::size_t max_sectors = 16;  // on either side of a cell
 
 class SlopeLimit {
  public:
@@ -25,13 +25,13 @@ class SlopeLimit {
   }
 
  private:
-  // Limits the heights of `ring` by its own cells and by at most `max_rings` finished rings; at(1) is the
-  // nearest.
+  // Limits the heights of `ring` by its own cells and by the cells of at most `max_rings` finished rings.
+  // at(steps) is the ring that is `steps` rings away.
   template <typename At>
   void limit(std::size_t ring, std::size_t max_rings, const At& at) {
     for (std::size_t sectors = 1; sectors <= max_sectors; sectors *= 2)
       limit_by(ring, ring, 0, sectors);
-    // Number of sectors that are together as wide as a ring.
+    // Number of neighbouring sectors that are together as wide as a ring.
     const float square = ring_width / width_of(ring);
     const auto sectors =
         std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(square)), 1, max_sectors);
@@ -41,8 +41,8 @@ class SlopeLimit {
       limit_by(ring, at(steps), steps, sectors);
   }
 
-  // Limits the heights of `ring` by the cells of ring `from`, which is `steps` rings away, `sectors` sectors
-  // to either side.
+  // Limits the heights of `ring` by the cells of ring `from`, which is `steps` rings away. Uses the cells
+  // that are `sectors` sectors to either side.
   void limit_by(std::size_t ring, std::size_t from, std::size_t steps, std::size_t sectors) {
     const float across = width_of(ring) * static_cast<float>(sectors);
     const float along = ring_width * static_cast<float>(steps);

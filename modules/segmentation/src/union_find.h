@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Disjoint sets, joined by any number of threads.
+// Disjoint sets that any number of threads may join.
 #pragma once
 
 #include <atomic>
@@ -12,24 +12,25 @@
 
 namespace pcl_bv {
 
-/// Disjoint sets of 0 to n - 1. The root of a set is its smallest member, so the result depends neither on
-/// the order of the unions nor on the threads.
+/// Disjoint sets of the numbers 0 to n - 1. The root of a set is its smallest member, so the result depends
+/// neither on the order of the unions nor on the threads.
 ///
-/// A parent is smaller than its child and is only replaced by another ancestor. A thread that reads an old
-/// parent finds a longer path to the same root, so relaxed memory order is enough (Anderson and Woll 1991).
+/// A parent is smaller than its child and is only replaced by another ancestor of the child. A thread that
+/// reads an old parent finds a longer path to the same root, so relaxed memory order is enough (Anderson and
+/// Woll 1991).
 class UnionFind {
  public:
-  /// Makes n sets of one member each.
+  /// Makes n sets with one member each.
   void reset(std::size_t n) {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
-  /// Adds a set with the one member n, for n members before.
+  /// Adds a set with one member. This member is n if there were n members.
   void add() { parent_.push_back(static_cast<std::uint32_t>(parent_.size())); }
 
-  /// Sets the parent of a root to another root that is not larger. No other thread may use either at that
-  /// time.
+  /// Sets the parent of a root to another root that is not larger. No other thread may use the two sets
+  /// meanwhile.
   void set_root(std::uint32_t i, std::uint32_t root) { parent_[i] = root; }
 
   std::uint32_t find(std::uint32_t i) {
@@ -54,10 +55,10 @@ class UnionFind {
     }
   }
 
-  /// Returns the root of every member. Call after the last union.
+  /// Returns the root of every member. Call it after the last union.
   const std::vector<std::uint32_t>& roots() {
     for (std::uint32_t& parent : parent_)
-      parent = parent_[parent];  // Parents are smaller, so already replaced by their roots.
+      parent = parent_[parent];  // a parent is smaller, so already replaced by its root
     return parent_;
   }
 

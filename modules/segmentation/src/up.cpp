@@ -23,7 +23,7 @@ bool is_direction(const Vector3d& up) {
   return up.allFinite() && !up.isZero(0);
 }
 
-// Reads three numbers between commas; false for other text.
+// Reads three numbers between commas. Returns false for other text.
 bool read_numbers(std::string_view text, Vector3d& up) {
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -75,7 +75,7 @@ UpFrame::UpFrame(const Vector3d& any_length) : up(normalized_up(any_length)) {
   Vector3d axis = Vector3d::Zero();
   axis[nearest] = std::copysign(1, up[nearest]);
   along_axis = up == axis;
-  const auto rotated = [&](Index i) -> Vector3d {  // rotated as the axis is rotated to up
+  const auto rotated = [&](Index i) -> Vector3d {  // the rotation moves the nearest axis to up
     return Vector3d::Unit(i) - up[i] / (1 + std::abs(up[nearest])) * (up + axis);
   };
   u = rotated((nearest + 1) % 3);

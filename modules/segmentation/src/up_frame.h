@@ -8,15 +8,16 @@
 
 namespace pcl_bv {
 
-/// Three orthogonal unit vectors: `up` and two horizontal directions u and v. If up is an axis of the cloud
-/// or its opposite, u and v are the two next axes: x and y for z and -z. Otherwise they are the axes after
-/// the nearest axis, rotated by the smallest rotation of that axis to up. Throws as normalized_up().
+/// Three orthogonal unit vectors, namely `up` and two horizontal directions u and v. If `up` is along an axis
+/// of the cloud or opposite to it, u and v are the next two axes, e.g. x and y for z and -z. Otherwise the
+/// axis nearest to `up` is rotated to `up` by the smallest rotation, and u and v are the next two axes,
+/// rotated in the same way. Throws as normalized_up().
 struct UpFrame {
   explicit UpFrame(const Eigen::Vector3d& any_length);
 
   Eigen::Vector3d u, v, up;
   Eigen::Index nearest = 0;  ///< Index of the axis nearest to up.
-  bool along_axis;           ///< Whether up is this axis or its opposite.
+  bool along_axis;           ///< Whether `up` is along the nearest axis or opposite to it.
 };
 
 }  // namespace pcl_bv

@@ -13,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-// Returns the same points in strictly ascending order.
+// Returns a view of the same points in strictly ascending order of their index.
 PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_list) {
   if (!view.indices) return view;
   const std::int32_t* const end = view.indices + view.count;
@@ -27,7 +27,8 @@ PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_lis
   return sorted;
 }
 
-// is_valid() for arrays. A float is below the limit if it is finite.
+// Returns the same as is_valid() of point_view.h, for arrays. Every finite float is within the coordinate
+// limit.
 bool is_valid(const float (&p)[3]) {
   return 0 * p[0] + 0 * p[1] + 0 * p[2] == 0;
 }
@@ -35,12 +36,13 @@ bool is_valid(const double (&p)[3]) {
   return pcl_bv::is_valid(Coordinates{p[0], p[1], p[2]});
 }
 
-// Stores the valid points of a part, from its beginning.
+// Copies the valid points of a part of `points` to `valid`, without gaps, starting at position part.begin.
+// Sets their box and number in `part`.
 template <typename T>
 void copy_valid_part(const PointView& points, ValidPoints<T>& valid, CopyPart<T>& part) {
   const FloatEnvironment environment;
   constexpr T largest = std::numeric_limits<T>::max();
-  const PointView view = points;  // local, so that it is not read again after each store
+  const PointView view = points;  // a local copy, so that it is not read again after each store
   part.box = {{largest, largest, largest}, {-largest, -largest, -largest}};
   std::size_t to = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {

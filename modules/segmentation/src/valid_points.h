@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Copies the valid points of a PointView to an array, ascending by index.
+// Copies the valid points of a PointView to an array, in ascending order of their index.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace pcl_bv {
 
-/// A part of the points of a view, which one thread copies.
+/// A part of the points of a view. One thread copies it.
 template <typename T>
 struct CopyPart {
   std::size_t begin, end;
@@ -31,7 +31,7 @@ struct ValidPoints {
   PointParts<CopyPart<T>> parts;
 };
 
-/// Fills `valid` with each valid point of `view`, once. T is the scalar type of the view. Throws
+/// Fills `valid` with each valid point of `view` once. T must be the scalar type of the view. Throws
 /// std::length_error if a point index exceeds 2^31 - 1.
 template <typename T>
 void copy_valid_points(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid);

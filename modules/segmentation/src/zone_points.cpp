@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points are processed in batches, one step at a time for the whole batch, so that compilers vectorise all
-// steps except look-ups.
+// Points are processed in batches. Each step runs for the whole batch before the next step, so that compilers
+// vectorise all steps except look-ups.
 
 #include "zone_points.h"
 
@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t kBatch = 512;
 
-// A cell whose lowest point is this far below all cells around it has a reflection in it; metres.
+// If the lowest point of a cell is this far below those of all cells around it, it is a reflection; metres.
 constexpr float pit_depth = 0.2F;
 
-// An object stands in a cell if it has points this far above its lowest one, metres. Curbs are lower, and
-// things above a road are higher.
+// An object stands in a cell if the cell has points this far above its lowest point, metres. Curbs are lower,
+// and things above a road are higher.
 constexpr float object_from = 0.3F, object_to = 2;
 
-// Clamps to the range of float.
+// Clamps a value to the range of float.
 float in_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -largest, largest));
@@ -39,13 +39,13 @@ T load_coordinate(const std::byte* at) {
   return value;
 }
 
-// Calls put(x, n) for each point from `begin` to `end`; x is the address of its coordinates, which are
-// view.step() bytes apart. put() stores the point at position n and returns whether it is valid; the next
-// point overwrites an invalid one. Returns the number of valid points.
+// Calls put(x, n) for each point from `begin` to `end`. x is the address of the point's first coordinate; the
+// coordinates are view.step() bytes apart. put() stores the point at position n and returns whether the point
+// is valid. The next point overwrites an invalid one. Returns the number of valid points.
 template <typename Put>
 std::size_t load(const PointView& points, std::size_t begin, std::size_t end, std::int32_t* number,
                  const Put& put) {
-  const PointView view = points;  // local, so that it is not read again after each store
+  const PointView view = points;  // a local copy, so that it is not read again after each store
   std::size_t n = 0;
   for (std::size_t i = begin; i < end; ++i) {
     number[n] = static_cast<std::int32_t>(view.index(i));
@@ -54,14 +54,14 @@ std::size_t load(const PointView& points, std::size_t begin, std::size_t end, st
   return n;
 }
 
-// Where load() stores points.
+// The arrays in which load() stores points.
 struct LoadTarget {
   float *u, *v, *height;
   std::int32_t* number;
 };
 
-// Loads floats for an up direction along an axis and a sensor at the origin: coordinates are only reordered,
-// and the sign of the height may change.
+// Loads floats for an up direction along an axis and a sensor at the origin. Then the coordinates are only
+// reordered, and the sign of the height may change.
 std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
                          const LoadTarget& to) {
   const std::size_t step = view.step();
@@ -97,7 +97,7 @@ std::size_t load_rotated(const PointView& view, std::size_t begin, std::size_t e
 
 GroundPoint ZoneFrame::point(const Coordinates& p) const {
   const double relative[3] = {p.x - sensor.x(), p.y - sensor.y(), p.z - sensor.z()};
-  if (along_axis) {  // else the sums below would add zeros, 2 % of the time of a sweep
+  if (along_axis) {  // saves sums with zeros, 2 % of the time of a sweep
     return {in_float(relative[(nearest + 1) % 3]), in_float(relative[(nearest + 2) % 3]),
             in_float(up[nearest] * relative[nearest])};
   }

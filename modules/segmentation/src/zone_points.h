@@ -17,17 +17,17 @@
 
 namespace pcl_bv {
 
-/// A point in the frame of the zones: horizontal position and height relative to the sensor, metres.
+/// A point in the frame of the zones. Position and height are relative to the sensor, metres.
 struct GroundPoint {
   float u, v, height;
 };
 
-/// A plane: height = offset + u * slope_u + v * slope_v.
+/// A plane with height = offset + u * slope_u + v * slope_v.
 struct Slope {
   double offset, slope_u, slope_v;
 };
 
-/// The frame of the zones: horizontal axes, up and the sensor as the origin.
+/// The frame of the zones. It has horizontal axes, the up direction and the sensor as the origin.
 struct ZoneFrame : UpFrame {
   Eigen::Vector3d sensor;
 
@@ -42,31 +42,31 @@ struct ZoneFrame : UpFrame {
   Plane level(double height) const;
 };
 
-/// A summary of each cell, from some of the points.
+/// A summary of each cell, computed from some of the points.
 struct CellSummary {
-  /// Height of the lowest point above the plane, metres; no_lowest if empty.
+  /// Height of the lowest point above the plane, metres. It is no_lowest for an empty cell.
   std::vector<float> lowest;
-  /// Whether an object stands in the cell: it has points 0.3 to 2 m above the lowest one.
+  /// Whether an object stands in the cell, i.e. the cell has points 0.3 to 2 m above its lowest point.
   std::vector<std::uint8_t> has_object;
 };
 
 inline constexpr float no_lowest = 1e30F;
 
-/// A part of the points of a view, which one thread takes.
+/// A part of the points of a view. One thread takes it.
 struct ZonePart {
   std::size_t begin, end;  ///< Range in the view.
   std::size_t valid;       ///< Number of valid points, stored from `begin`.
   CellSummary cells;
 };
 
-/// The valid points of a view, part by part, in its order.
+/// The valid points of a view. Each part has its points in the order of the view.
 class ZonePoints {
  public:
   PointParts<ZonePart> parts;
   std::vector<std::int32_t> number;  ///< Index in the cloud.
   std::vector<std::uint16_t> cell;
   std::vector<float> range;  ///< Horizontal distance from the sensor, metres.
-  /// Metres above the sensor; after measure_from(), above its plane.
+  /// Height above the sensor, metres. After measure_from() it is the height above the plane.
   std::vector<float> height;
 
   /// Replaces all points by the valid points of a view. O(n).
@@ -75,10 +75,10 @@ class ZonePoints {
   /// Lists the cloud indices of the points in the first `rings` rings.
   void list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const;
 
-  /// Makes the heights relative to `plane`, and computes cells().
+  /// Makes the heights relative to `plane`, and computes the summary that cells() returns.
   void measure_from(const Slope& plane, const ParallelPolicy& policy);
 
-  /// Returns the summary of all cells, which measure_from() stores in the first part.
+  /// Returns the summary of all cells. measure_from() stores it in the first part.
   const CellSummary& cells() const { return parts.front().cells; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks of arguments.
+// Checks of function arguments.
 #pragma once
 
 #include <sstream>

@@ -14,8 +14,8 @@ std::size_t groups_of(std::size_t below) {
   return (below + kTreeWidth - 1) / kTreeWidth;
 }
 
-// Error bound of the rounding to float and of the two roundings before it. The second term is for denormal
-// floats.
+// Returns an error bound of the rounding to float and of the two roundings before it. The second term of the
+// sum is for denormal floats.
 float rounding_error_bound(float rounded) {
   return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
 }
@@ -32,8 +32,8 @@ const BoxGroup& empty_group() {
   return group;
 }
 
-// Returns the squared radius of the smallest ball that covers a face of one of the boxes; the best centre is
-// the middle of the face. Each face of a tight box has a point, so the ball certainly holds one.
+// Returns the squared radius of the smallest ball that covers a face of one of the boxes. The centre of the
+// ball is the middle of the face. Each face of a tight box has a point, so the ball certainly holds a point.
 float min_side_radius(const BoxGroup& group) {
   float smallest = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
@@ -60,7 +60,7 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bou
     boxes.child_counts[boxes.levels] = groups;
   } while (boxes.child_counts[boxes.levels] > 1);
   boxes.groups.assign(boxes.first[boxes.levels], empty_group());
-  if (!(bounds.low.x <= bounds.high.x)) return;  // items without any position
+  if (!(bounds.low.x <= bounds.high.x)) return;  // no item has a position
   double half = 0;
   const auto middle = [&half](double low, double high) {
     const double at = low / 2 + high / 2;
@@ -69,8 +69,8 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bou
   };
   boxes.origin = {middle(bounds.low.x, bounds.high.x), middle(bounds.low.y, bounds.high.y),
                   middle(bounds.low.z, bounds.high.z)};
-  // Clouds with a half extent up to 2^-400 are not scaled, so all their boxes are nearly the same: the square
-  // of a larger scale would leave the range of double.
+  // Clouds with a half extent of at most 2^-400 are not scaled, because the square of a larger scale would
+  // leave the range of double. So all boxes of such a cloud are nearly the same.
   boxes.scale = std::ldexp(1.0, half > 0x1p-400 ? -std::ilogb(half) - 1 : 0);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of three terms may be added in any order here: the margins are a thousand times the rounding errors.
+// Sums of three terms may be added in any order here, because the margins are a thousand times the rounding
+// errors.
 
 #include "box_relation.h"
 
@@ -14,7 +15,7 @@
 namespace pcl_bv {
 namespace {
 
-// A box as half extents and a centre relative to the region's centre, and an error bound for comparisons.
+// A box as a centre relative to the region's centre and half extents, with an error bound for comparisons.
 struct CenteredBox {
   Eigen::Vector3d center, half;
   double margin;
@@ -63,8 +64,8 @@ double weighted_square(double weight, double beyond) {
   return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite
 }
 
-// For slabs and bodies: compares the smallest and the largest distance of the box from the centre along each
-// axis.
+// Returns the relation for slabs and bodies. Compares the smallest and the largest distance of the box from
+// the centre along each axis.
 Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
   bool inside = true;
   double smallest = 0, largest = 0;

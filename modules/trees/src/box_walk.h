@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Traversals of levels of boxes, for queries without a vector kernel of their own.
+// Traversals of levels of boxes, for queries that have no vector kernel.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace pcl_bv {
 
-/// Depth-first traversal. pick(group) returns the boxes of a group to enter, as bits. Calls visit(item) for
-/// the items entered; stops and returns true when visit returns true.
+/// Traverses the boxes depth-first. pick(group) returns as bits which boxes of a group to enter. Calls
+/// visit(item) for the items entered. Stops and returns true when visit returns true.
 template <typename Pick, typename Visit>
 bool walk(const BoxLevels& boxes, std::size_t level, std::size_t group, const Pick& pick,
           const Visit& visit) {
@@ -33,9 +33,9 @@ bool walk(const BoxLevels& boxes, const Pick& pick, const Visit& visit) {
   return boxes.levels != 0 && walk(boxes, boxes.levels - 1, 0, pick, visit);
 }
 
-/// Calls visit(item) for the items whose lower bound is at most limit(), which visit may lower. In each
+/// Calls visit(item) for the items whose lower bound is at most limit(). visit() may lower the limit. In each
 /// group, boxes are entered in ascending order of their bounds. bounds(group) returns the bounds of the 16
-/// boxes of a group; infinity excludes a box. Its values for boxes that the group lacks are ignored.
+/// boxes of a group, where infinity excludes a box. Bounds of boxes that the group lacks are ignored.
 template <typename Bounds, typename Limit, typename Visit>
 void visit_nearest_first(const BoxLevels& boxes, std::size_t level, std::size_t group, const Bounds& bounds,
                          const Limit& limit, const Visit& visit) {
@@ -52,7 +52,7 @@ void visit_nearest_first(const BoxLevels& boxes, std::size_t level, std::size_t 
   for (std::size_t k = 0; k < count; ++k) {
     const double bound = of_boxes[k];
     if (!(bound <= largest)) continue;
-    std::size_t position = entered++;  // insertion sort, as mostly few are left
+    std::size_t position = entered++;  // insertion sort, because mostly few boxes are entered
     for (; position > 0 && bound < children[position - 1].bound; --position)
       children[position] = children[position - 1];
     children[position] = {bound, first + k};

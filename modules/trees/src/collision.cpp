@@ -32,7 +32,7 @@ void require(const Eigen::Isometry3d& pose, double margin) {
 
 struct Prepared {
   ConvexBody body;
-  AnyVolume rotatable_volume;  // the volume, or a larger one, as a type that can be rotated
+  AnyVolume rotatable_volume;  // the volume, or a larger volume, of a type that can be rotated
   Sphere bounding_sphere;      // a sphere around the volume; empty if none is known
 
   explicit Prepared(const AnyVolume& volume)
@@ -41,8 +41,8 @@ struct Prepared {
         bounding_sphere(sphere_around(extent_of(volume))) {}
 };
 
-// Returns whether a point may be within `margin` of a moved volume. Conservative; takes a fiftieth of the
-// time of is_within().
+// Returns whether a point may be within `margin` of a moved volume. It is never wrongly false. It is tested
+// first because it takes a fiftieth of the time of is_within().
 bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
                    double stretch, double margin) {
   if (volume.body.empty()) return false;
@@ -68,7 +68,7 @@ bool is_within(const PointTree& points, const Prepared& volume, const Eigen::Iso
                      });
 }
 
-// Returns a box around everything within `margin` of a moved volume.
+// Returns a box around all points within `margin` of a moved volume.
 PositionBounds extent_near(const AnyVolume& volume, const Eigen::Isometry3d& pose, double margin) {
   PositionBounds box = extent_of(transformed(volume, pose));
   box.low = {-add_up(-box.low.x, margin), -add_up(-box.low.y, margin), -add_up(-box.low.z, margin)};
@@ -103,8 +103,8 @@ const std::vector<AnyVolume>& MovingVolumes::volumes() const {
 
 namespace {
 
-// Calls found(i) for the volumes within `margin` of a point, ascending. Stops and returns true when found()
-// returns true.
+// Calls found(i) for each volume i that is within `margin` of a point, in ascending order. Stops and returns
+// true when found() returns true.
 template <typename Found>
 bool each_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
                  double margin, const Found& found) {
@@ -121,8 +121,8 @@ bool each_within(const PointTree& points, const MovingVolumes& volumes, const Ei
   return false;
 }
 
-// Calls found(i, j) for the pairs of volumes within `margin`, in the order of j. Stops and returns true when
-// found() returns true.
+// Calls found(i, j) for each pair of volumes within `margin` of each other, in the order of j. Stops and
+// returns true when found() returns true.
 template <typename Found>
 bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                double margin, const Found& found) {

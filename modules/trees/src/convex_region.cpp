@@ -20,7 +20,7 @@ Direction direction(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Returns more than contains() of any volume type accepts beyond the volume, along an axis.
+// Returns a margin along an axis that is larger than that of contains() of any volume type.
 double margin(double coordinate) {
   return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
 }
@@ -48,8 +48,8 @@ Eigen::Matrix3d axes_about(const Eigen::Vector3d& unit) {
   return axes;
 }
 
-// Collects half-spaces relative to a centre. A normal along an axis also gives the box a side: contains()
-// accepts less than margin() beyond it.
+// Collects half-spaces relative to a centre. A normal along an axis also gives a side of the box, because
+// contains() accepts less than margin() beyond it.
 class Planes {
  public:
   explicit Planes(const Aabb& box) : center_(box.empty() ? Eigen::Vector3d::Zero().eval() : box.center()) {
@@ -70,7 +70,8 @@ class Planes {
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
-  // If the planes along the axes leave the box unbounded, all planes together may bound it.
+  // Returns the region. If the planes along the axes leave its box unbounded, all planes together may bound
+  // it.
   template <typename Volume>
   const ConvexRegion& region_within(const Volume& volume) {
     const Coordinates &low = region_.low, &high = region_.high;
@@ -83,8 +84,8 @@ class Planes {
   }
 
  private:
-  // Only normals exactly along the axis. A nearly aligned normal has another small component, which matters
-  // in n . p if the coordinate there is 10^16 times the others.
+  // Uses only normals exactly along the axis. A nearly aligned normal has another small component. That
+  // component matters in n . p if the coordinate of p along it is 10^16 times the other coordinates.
   static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) return;
     if (n[axis] == 1) high = std::min(high, offset + margin(offset));

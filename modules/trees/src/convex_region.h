@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Converts volumes to the regions that the kernel region_states() tests.
+// Converts volumes to the regions that the kernel function region_states() tests.
 #pragma once
 
 #include "pcl_bv/kernels/region_states.h"
@@ -9,8 +9,8 @@
 
 namespace pcl_bv {
 
-/// Returns the region of a non-empty volume. Where the kernel says `inside` or `outside`, contains() of the
-/// volume agrees.
+/// Returns the region of a non-empty volume. If region_states() returns `inside` or `outside` for a point,
+/// contains() of the volume agrees.
 ConvexRegion convex_region(const AnyVolume& volume);
 
 }  // namespace pcl_bv

@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// Upper bound of how much n . p grows if p moves by `padding`.
+// Returns an upper bound of how much n . p grows if p moves by `padding`.
 double support_growth(const Eigen::Vector3d& n, double padding) {
   return multiply_up(sqrt_up(Expansion().add_dot(n, n).up()), padding);
 }
@@ -57,8 +57,8 @@ struct Inflate {
     return Capsule(capsule.a(), capsule.b(), add_up(capsule.radius(), padding));
   }
 
-  // Proof that the result holds all sums of a point of the ellipsoid and a point of the padding ball. x and y
-  // are the coordinates of the two points along an axis, m > 0, and R is the new radius as in Region.
+  // Proof that the result holds all sums of a point of the ellipsoid and a point of the padding ball. Let x
+  // and y be the coordinates of the two points along an axis, m > 0, and R the new radius as in Region.
   // Cauchy's inequality gives
   //   (x + y)^2 / R^2 <= (x^2 / r^2) m / (m + padding) + (y^2 / padding^2) padding / (m + padding).
   // Over the three axes the right sides sum up to at most 1. The axes are orthonormal to 1e-12, so the sum of
@@ -81,8 +81,8 @@ struct Inflate {
     return Hull(hull.vertices(), hull.triangles(), planes, hull.rank());
   }
 
-  // Returns the m of a nearly minimal volume: at the minimum, m^2 is the mean of the r^2 with the weights
-  // 1/R^2. Any m > 0 gives a valid volume.
+  // Returns the m of a nearly minimal volume. At the minimum, m^2 is the mean of the r^2 with the weights
+  // 1/R^2. Any m > 0 gives a volume that holds the inflated ellipsoid.
   double nearly_minimal_m(const Eigen::Vector3d& radii) const {
     const double largest = radii.maxCoeff();
     if (largest == 0) return 0;
@@ -97,7 +97,7 @@ struct Inflate {
       }
       m = std::sqrt(squares / weights);
     }
-    return std::isnan(m) ? largest : m * largest;  // NaN: squares left the range of double
+    return std::isnan(m) ? largest : m * largest;  // NaN if squares left the range of double
   }
 };
 

@@ -8,8 +8,8 @@
 
 namespace pcl_bv {
 
-/// Returns the volume inflated as Region says; padding 0 returns it unchanged. For a Hull only the planes
-/// move: use contains() of the result, not member functions that use the vertices.
+/// Returns the volume inflated as Region documents. Padding 0 returns the volume unchanged. For a Hull only
+/// the planes move, so use contains() of the result, not member functions that use the vertices.
 AnyVolume inflated(const AnyVolume& volume, double padding);
 
 }  // namespace pcl_bv

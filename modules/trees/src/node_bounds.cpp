@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All sums here have a few terms below a few times 1 + |point| in double, so their errors are below 2^-45 of
-// that. This is negligible against the margin of 2^-20, so no bound adds a margin of its own.
+// The terms of all sums in this file are below a few times 1 + |point|, in double, so the errors of the sums
+// are below 2^-45 (1 + |point|). This is negligible against the margin of 2^-20 (1 + |point|), so no bound
+// adds another margin for it.
 
 #include "node_bounds.h"
 
@@ -36,8 +37,8 @@ void clip(double start, double slope, double low, double high, double& enter, do
   exit = std::min(exit, std::max(a, b));
 }
 
-// Returns where the ray enters, at least 0; infinity if the interval has no t >= 0. The margin accepts
-// what underflow may have added to the interval.
+// Returns the t >= 0 at which the ray enters, or infinity if the interval has no t >= 0. The margin covers
+// the error of the interval by underflow in intersect().
 double entered(const FrameRay& ray, double enter, double exit) {
   return enter - ray.underflow_margin <= exit + ray.underflow_margin
              ? std::max(0.0, enter - ray.underflow_margin)
@@ -220,7 +221,8 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
     const Eigen::Vector3d q = ball.center.cast<double>() - ray.from.at;
     const double radius = ball.radius + 4 * ray.from.margin, uu = dot3(ray.u, ray.u),
                  nearest = dot3(q, ray.u) / uu;
-    // The error is below 2^-48 |q|^2, and (4 margin)^2 is at least 2^-38 |q|^2.
+    // The error of min_square is below 2^-48 |q|^2, so radius covers it: (4 margin)^2 is at least 2^-38
+    // |q|^2.
     const double min_square = dot3(q, q) - nearest * nearest * uu;
     const double half = radius * radius - min_square;
     if (half < 0) return kInfinity;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bounds of the nodes of a VolumeTree in addition to their boxes, all in the frame of the boxes.
+// The slabs or spheres of the nodes of a VolumeTree, in addition to the boxes and in the frame of the boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,39 +22,40 @@ struct FramePoint {
 
   FramePoint(const VolumeBoxes& boxes, const Coordinates& point);
 
-  /// Returns whether distances to bounds can be computed: beyond 2^500 squares leave the range of double.
+  /// Returns whether distances to bounds can be computed. Beyond 2^500 their squares leave the range of
+  /// double.
   bool is_in_range() const { return at.cwiseAbs().maxCoeff() < 0x1p500; }
 };
 
-/// A ray in the frame of the boxes: at + t u, where `at` is from.at. The largest component of u is from 1 to
-/// 2.
+/// A ray in the frame of the boxes, at + t u. `at` is from.at. The largest component of u is 1 to 2 in
+/// magnitude.
 struct FrameRay {
   FramePoint from;
   Eigen::Vector3d u;
   int exponent;             ///< t in the frame is 2^exponent times t of the given ray.
-  double underflow_margin;  ///< Bound of what underflow in intersect() adds to either end.
+  double underflow_margin;  ///< Bound of the error of `enter` and `exit` by underflow in intersect().
 
   FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction);
-  /// Converts t of the given ray to the frame. Overflow gives infinity.
+  /// Converts the parameter t of the given ray to the frame. Overflow gives infinity.
   double time(double t) const;
 };
 
 /// The slabs or spheres of all nodes, if the tree has any.
 class NodeShapes {
  public:
-  /// Builds the shapes. Item i is volumes[boxes.volume_index(i)].
+  /// Builds the shapes. Item i of the boxes is volumes[boxes.volume_index(i)].
   void measure(NodeBounds kind, const VolumeBoxes& boxes, const std::vector<AnyVolume>& volumes,
                const ParallelPolicy& policy);
 
   bool none() const { return slabs_.empty() && balls_.empty(); }
 
-  /// The shape of box k of group g has the number 16 g + k. distance() is a lower bound of the distance from
-  /// a query point, 0 if the point may be inside. enter() is a lower bound of t where a ray enters, infinity
-  /// if the ray misses.
+  /// Box k of group g has the shape number 16 g + k. distance() returns a lower bound of the distance from a
+  /// query point, or 0 if the point may be inside. enter() returns a lower bound of the t at which a ray
+  /// enters, or infinity if the ray misses the shape.
   double distance(std::size_t shape, const FramePoint& point) const;
   double enter(std::size_t shape, const FrameRay& ray) const;
 
-  /// Returns those of the boxes `bits` of a group whose shape may hold the query point, as bits.
+  /// Returns as bits which of the boxes `bits` of a group have a shape that may hold the query point.
   std::uint32_t may_contain(std::size_t group, std::uint32_t bits, const FramePoint& point) const;
 
  private:
@@ -75,10 +76,10 @@ class NodeShapes {
   std::vector<Ball> balls_;
 };
 
-/// Returns a lower bound of the distance from a query point to a box; 0 if the point may be inside.
+/// Returns a lower bound of the distance from a query point to a box, or 0 if the point may be inside.
 double distance_to_box(const FramePoint& point, const BoxGroup& group, std::size_t k);
 
-/// Returns a lower bound of t where a ray enters a box; infinity if the ray misses.
+/// Returns a lower bound of the t at which a ray enters a box, or infinity if the ray misses it.
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k);
 
 }  // namespace pcl_bv

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bounds are proven by weak duality. If weights w >= 0 make the sum of w n equal to d up to a residual r,
-// then
+// Bounds are proven by weak duality. Let n be the normals of planes and w >= 0 weights of the planes. If the
+// sum of w n is equal to d up to a residual r, then
 //   d . p <= sum of w offset + |r|_1 |p|
 // for every p of the body, however inaccurate the search for the weights was. Here |p| is the largest
 // absolute coordinate of p, and |n| that of n. contains() and intersect() also accept points beyond a plane
-// by less than 2^-46 |n| |p|; the weights multiply this as well.
+// by less than 2^-46 |n| |p|, so the error bound has the sum of w 2^-46 |n| in addition.
 //
 // Six bounds along the axes then bound |p| itself. If all are at most B, with an error of at most e |p|, then
 //   |p| <= B + e |p|, so |p| <= 2 B.
@@ -26,8 +26,8 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kFences = 6;
-// Largest error bound, relative to |p|, that is accepted. A larger one means nearly parallel planes: the
-// vertex is ill-conditioned and its bound useless.
+// Largest accepted error bound, relative to |p|. A larger error bound means nearly parallel planes. Then the
+// vertex is ill-conditioned and its bound is useless.
 constexpr double kMaxErrorBound = 0x1p-26;
 
 double max_abs(const Eigen::Vector3d& v) {
@@ -52,7 +52,8 @@ PlaneBody::PlaneBody(const Hull& hull) {
   prove_box();
 }
 
-// Adds the fences: the sides of a box around the expected body, with a margin. The search starts from them.
+// Adds the fences, which are the sides of a box around the expected body, with a margin. The search starts
+// from them. Returns false if the expected body is empty.
 bool PlaneBody::add_fences(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
@@ -70,7 +71,8 @@ void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
   local_offsets_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
-// Skips the fences: no bound may rest on them, and a vertex beyond them can be proven as well.
+// Returns the plane that a point violates most, or nothing. Skips the fences, because no bound may rest on
+// them and a vertex beyond the fences can be proven as well.
 std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point) const {
   const double tolerance = 0x1p-44 * taxicab3(point);
   std::optional<std::size_t> side;
@@ -87,8 +89,9 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
   return side;
 }
 
-// The dual simplex method (Lemke 1954). After every step the weights are valid; the limit on the steps ends a
-// cycle.
+// Finds three planes, and weights >= 0 with which their normals sum to `direction`, by the dual simplex method
+// (Lemke 1954). The weights have this property, up to rounding, after every step, so the search may stop at any
+// step. The limit on the number of steps ends a possible cycle.
 PlaneBody::PlaneVertex PlaneBody::optimal_vertex(const Eigen::Vector3d& direction) const {
   PlaneVertex vertex{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)
@@ -104,7 +107,7 @@ PlaneBody::PlaneVertex PlaneBody::optimal_vertex(const Eigen::Vector3d& directio
     const Eigen::Matrix3d inverse = normals.inverse();
     const std::optional<std::size_t> side = most_violated(inverse * offsets);
     if (!side) break;
-    // Compares as if all normals had length 1; otherwise long normals would hide short ones.
+    // The comparison scales all normals to length 1, because otherwise long normals would hide short ones.
     const Eigen::Vector3d component = inverse.transpose() * planes_[*side].normal,
                           of_units = component.cwiseProduct(normals.rowwise().norm());
     Eigen::Index leaving = 0;
@@ -153,8 +156,8 @@ void PlaneBody::prove_box() {
   };
   const Aabb box(-Eigen::Vector3d(upper_bound(proofs[3]), upper_bound(proofs[4]), upper_bound(proofs[5])),
                  {upper_bound(proofs[0]), upper_bound(proofs[1]), upper_bound(proofs[2])});
-  // An empty box proves that no point is in all half-spaces. contains() may still accept points by rounding,
-  // so no box is stored.
+  // An empty box proves that no point is in all half-spaces. No box is stored then, because contains() may
+  // still accept points by rounding.
   if (!box.empty()) box_ = box;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Support values of a body that half-spaces enclose: linear programs in three variables with proven results.
+// Bounds of a body that half-spaces enclose. They are linear programs in three variables with proven results.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,31 +14,33 @@
 
 namespace pcl_bv {
 
-/// All points with normal . p <= offset for each plane, by exact arithmetic or as Hull::contains() and
-/// Kdop::contains() compute it.
+/// All points p with normal . p <= offset for each plane, by exact arithmetic or as computed by
+/// Hull::contains() and Kdop::contains().
 class PlaneBody {
  public:
   explicit PlaneBody(const Kdop& kdop);
   explicit PlaneBody(const Hull& hull);
 
-  /// Returns an upper bound of direction . p. Infinity if the planes prove no bound, as a body of planes need
-  /// not be bounded. Tight to a few units in the last place of the coordinates and 2^-48 of the weights with
-  /// which the planes prove it. O(planes), about ten passes over them.
+  /// Returns an upper bound of direction . p for all points p of the body. Returns infinity if the planes
+  /// prove no bound, because a body of planes may be unbounded. The bound is tight to a few units in the last
+  /// place of the coordinates and 2^-46 of the weights with which the planes prove it. O(planes), about ten
+  /// passes over the planes.
   double support_bound_up(const Eigen::Vector3d& direction) const;
 
-  /// Returns a box around all points; nothing if no box is proven.
+  /// Returns a box around all points of the body. Returns nothing if no box is proven.
   std::optional<Aabb> box() const;
 
  private:
-  // direction . p <= bound + error_bound |p|, where |p| is the largest absolute coordinate of p
+  // The inequality direction . p <= bound + error_bound |p|, where |p| is the largest absolute coordinate of
+  // p.
   struct Proof {
     double bound;
     double error_bound;
   };
-  // A vertex: the intersection of three planes.
+  // The intersection of three planes.
   struct PlaneVertex {
     std::array<std::size_t, 3> planes;
-    Eigen::Vector3d weights;  // of the planes' normals; the weighted sum is the direction
+    Eigen::Vector3d weights;  // the sum of the normals with these weights is the direction
   };
 
   bool add_fences(const Aabb& about);
@@ -48,7 +50,8 @@ class PlaneBody {
   Proof prove(const Eigen::Vector3d& direction) const;
   void prove_box();
 
-  // The first six are fences: sides of a box that should hold the body. No bound may rest on them.
+  // The first six planes are fences, the sides of a box that should hold the body. No bound may rest on
+  // fences.
   std::vector<HullPlane> planes_;
   std::vector<double> local_offsets_;  // offsets relative to origin_
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();

@@ -17,7 +17,7 @@ namespace {
 template <typename T>
 using Rows = std::vector<T>;
 
-// Writes the points of a tree to the rows of their indices, three coordinates each.
+// Writes three coordinates per point of a tree to `rows`, at the row of the point's index.
 template <typename T>
 void write_points(const PackedTree& tree, T* rows) {
   const PointView points = tree.view();
@@ -80,7 +80,7 @@ PointForest::Tree PointForest::joined(const Tree* trees, std::size_t count, cons
   const bool floats = std::all_of(trees, trees + count, [](const Tree& tree) {
     return tree.tree.packed().scalar == ScalarType::float32 || tree.tree.empty();
   });
-  // Rows of invalid points stay NaN.
+  // Builds the merged tree. Rows of invalid points stay NaN.
   const auto build = [&]<typename T>(T nan) {
     Rows<T> rows(3 * points, nan);
     for (std::size_t i = 0; i < count; ++i)
@@ -117,8 +117,8 @@ void PointForest::nearest(const Eigen::Vector3d& place, std::size_t k, std::vect
   found.clear();
   require_distance("PointForest", max_distance);
   std::vector<Neighbor> of_tree;
-  // Merged trees start with the largest, which mostly has the nearest points; they limit the search in the
-  // others.
+  // The first tree of a merged forest is the largest and mostly has the nearest points. They limit the search
+  // in the other trees.
   for (const Tree& tree : trees_) {
     double limit = max_distance;
     if (k > 0 && found.size() == k) limit = std::min(limit, next_up(sqrt_up(found.back().squared_distance)));

@@ -48,7 +48,8 @@ std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volume
   return boxes;
 }
 
-// Two chunks take about 50 us; for less, starting a thread does not pay.
+// Returns the number of threads that pays, one for two chunks. Two chunks take about 50 us; starting a thread
+// does not pay for less.
 std::size_t threads_for_chunks(std::size_t chunks) {
   return chunks / 2;
 }

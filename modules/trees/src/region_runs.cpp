@@ -15,9 +15,11 @@ namespace {
 
 using Chosen = std::vector<std::uint32_t>;
 
-// Costs a point. The unit is the test of a point against one region of the complete list (0.16 ns with
-// AVX-512, 0.5 ns with SSE4). kChooseCost: finding the regions whose boxes overlap the run of the point.
-// kTestChosenCost: testing one of these. kSortCost: sorting the points (25 ns) and everything after that.
+// Costs per point. The unit is the test of a point against one region of the complete list (0.16 ns with
+// AVX-512, 0.5 ns with SSE4).
+// - kChooseCost is for finding the regions whose boxes overlap the run of the point.
+// - kTestChosenCost is for testing the point against one of these regions.
+// - kSortCost is for sorting the points (25 ns) and for the steps after the sort.
 constexpr double kChooseCost = 6, kTestChosenCost = 1.6, kSortCost = 150;
 constexpr std::size_t kRunsOfSample = 16;
 
@@ -49,7 +51,7 @@ struct SortedPoints {
   SpatialOrder<T> order;
   std::vector<std::uint8_t> states;
 
-  // Loads and sorts the points; returns their number.
+  // Loads and sorts the points. Returns the number of valid points.
   std::size_t load(const PointView& points) {
     PositionedItem<T>* const items = order.reset(points.count);
     std::size_t count = 0;
@@ -64,7 +66,7 @@ struct SortedPoints {
   }
 };
 
-// Retained by each thread: allocating a megabyte takes longer than the work on it.
+// Buffers that each thread retains, because allocating a megabyte takes longer than the work on it.
 struct Scratch {
   Runs runs;
   SortedPoints<float> floats;
@@ -99,7 +101,7 @@ TestStrategy cheapest(const VolumeBoxes& boxes, Runs& runs) {
 void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& regions,
                      const VolumeBoxes& boxes, Runs& runs, std::uint8_t* states) {
   runs.chosen.clear();
-  std::size_t begin = 0;  // first point that runs.chosen is for
+  std::size_t begin = 0;  // first point to test against runs.chosen
   const auto flush = [&](std::size_t end) {
     if (runs.chosen.empty()) {
       std::fill(states + begin, states + end, static_cast<std::uint8_t>(RegionState::outside));

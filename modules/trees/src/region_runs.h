@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tests points against many regions, run by run.
+// Tests points against many regions. Points are tested in runs of consecutive points.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace pcl_bv {
 
-/// Sets the states of at most kChunkPoints points. They are as from region_states(), except that other points
-/// may be `unclear`. Each run of points is tested only against regions whose boxes overlap the box of the
-/// run. `boxes` are the boxes of `regions`.
+/// Sets the states of at most kChunkPoints points. The states are those of region_states(), except that other
+/// points may be `unclear`. Each run of points is tested only against regions whose boxes overlap the box of
+/// the run. `boxes` must be the boxes of `regions`.
 void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionTests& regions,
                            const VolumeBoxes& boxes, std::uint8_t* states);
 

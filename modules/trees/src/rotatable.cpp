@@ -10,7 +10,8 @@
 namespace pcl_bv {
 namespace {
 
-// Returns the polytope of a k-DOP as a hull. Planes move outward by an error bound of their rounded normals.
+// Returns the polytope of a k-DOP as a hull. Planes move outward by a bound of the error that rounding their
+// normals causes.
 Hull hull_of(const Kdop& kdop) {
   const Mesh mesh = kdop.mesh();
   if (mesh.vertices.empty()) return {};

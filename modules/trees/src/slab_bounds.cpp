@@ -39,7 +39,7 @@ SlabBounds<N, T>::SlabBounds(const AnyVolume& volume) : SlabBounds() {
   }
 }
 
-// The rounding error of a sum of three terms is at most 2 2^-53 of their magnitudes.
+// The rounding error of a sum of three terms is at most 2 * 2^-53 times the sum of their magnitudes.
 template <std::size_t N, typename T>
 bool SlabBounds<N, T>::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;

@@ -37,7 +37,7 @@ Side longest_side(const ItemRun<T>& run) {
   return longest;
 }
 
-// The positions in a run where its parts begin, and where the last part ends.
+// The positions at which the parts of a run begin, and at which the last part ends.
 struct Cuts {
   std::array<std::size_t, kMaxParts + 1> at{};
   std::size_t parts;
@@ -54,7 +54,7 @@ struct Cuts {
   }
 };
 
-// Writes the bin of each item, ascending along the side, and counts the items of each bin.
+// Writes the bin of each item and counts the items of each bin. Bins are ascending along the side.
 template <typename T>
 void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
   std::fill_n(counts, bins, 0U);
@@ -68,12 +68,12 @@ void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::u
   }
 }
 
-// Groups the bins to buckets: a bin that a cut passes through is one bucket, all bins between two of these
-// are another. `begin` has the first position of each bucket.
+// Groups the bins to buckets. A bin that a cut divides is one bucket. All bins between two such bins are
+// another bucket. `begin` holds the first position of each bucket.
 struct Buckets {
   std::array<std::uint8_t, kMaxBins> of_bin;
   std::array<std::size_t, 2 * kMaxParts> begin{};
-  std::array<std::size_t, kMaxParts + 1> of_cut{};  // bucket of the bin that the cut passes through
+  std::array<std::size_t, kMaxParts + 1> of_cut{};  // for each cut, the bucket of the bin that it divides
 
   Buckets(const Cuts& cuts, std::size_t bins, const std::uint32_t* counts) {
     std::size_t position = 0, bucket = 0, cut = 1;
@@ -100,7 +100,7 @@ void move_items(const ItemRun<T>& run, const Buckets& buckets) {
     run.other[position[buckets.of_bin[run.bins[i]]]++] = run.items[i];
 }
 
-// Moves the items to `other`, each to the positions of its part.
+// Moves each item to `other`, to the positions of the item's part.
 template <typename T>
 void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   std::array<std::uint32_t, kMaxBins> counts;
@@ -119,7 +119,8 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   }
 }
 
-// Cuts a run and calls take(part) for its parts. A run that needs no cut is only moved to its buffer.
+// Cuts a run and calls take(part) for each part. If the run needs no cut, its items are only moved to the
+// final buffer.
 template <typename T, typename Take>
 void cut_run(const ItemRun<T>& run, const Take& take) {
   const Side side = run.count > kTreeWidth ? longest_side(run) : Side{};
@@ -138,8 +139,8 @@ void sort_run(const ItemRun<T>& run) {
   cut_run(run, [](const ItemRun<T>& part) { sort_run(part); });
 }
 
-// Number of runs that threads share. A thread takes at least 8192 items: fewer are sorted before another
-// thread has started. Four runs a thread balance the load.
+// Returns the number of runs that threads take. A thread takes at least 8192 items, because fewer are sorted
+// before another thread has started. Four runs per thread balance the load.
 std::size_t runs_for(std::size_t threads, std::size_t items) {
   threads = std::min(threads, items / 8192);
   return threads > 1 ? 4 * threads : 1;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sorts items so that boxes around 16 consecutive items, and around 16 times as many, are small and separate.
+// Sorts items so that boxes around each 16 consecutive items, each 256 items and so on are small and
+// separate.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace pcl_bv {
 
-/// An item with the position that represents it, which must be valid. 16 bytes for float, 32 for double.
+/// An item and a valid position that represents it. It takes 16 bytes for float and 32 bytes for double.
 template <typename T>
 struct PositionedItem {
   T position[3];
@@ -27,7 +28,8 @@ struct PositionBounds {
   Coordinates low, high;
 };
 
-/// The smallest and the largest coordinates, compared as T: floats are faster than doubles. NaN is ignored.
+/// The smallest and the largest coordinates. They are compared as T, because floats are faster than doubles.
+/// NaN is ignored.
 template <typename T>
 struct Extremes {
   static constexpr T kMost = std::numeric_limits<T>::infinity();
@@ -37,13 +39,14 @@ struct Extremes {
     low[axis] = value < low[axis] ? value : low[axis];
     high[axis] = value > high[axis] ? value : high[axis];
   }
-  /// Returns the box. -0 becomes 0, as otherwise the sign of a zero would depend on the order of add().
+  /// Returns the box. -0 becomes 0, because otherwise the sign of a zero would depend on the order of add()
+  /// calls.
   PositionBounds bounds() const {
     return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}};
   }
 };
 
-/// A run of items: their buffer, the buffer that the next cut moves them to, and a bin for each item.
+/// A run of items with their buffer, the buffer to which the next cut moves them, and a bin for each item.
 template <typename T>
 struct ItemRun {
   PositionedItem<T>* items = nullptr;
@@ -53,7 +56,7 @@ struct ItemRun {
   /// Whether the sorted items belong to the buffer `items`, not `other`.
   bool in_place = true;
 
-  /// Returns a part of the run after its items have moved to `other`.
+  /// Returns a part of the run after the items of the run have moved to `other`.
   ItemRun part(std::size_t begin, std::size_t end) const {
     return {other + begin, items + begin, bins + begin, end - begin, !in_place};
   }
@@ -61,22 +64,25 @@ struct ItemRun {
 
 /// Sorts items in the order of the leaves of a balanced k-d tree (Bentley 1975). O(n log n).
 ///
-/// The longest side of the box around the items is cut into up to four parts. Each part begins at a multiple
-/// of the largest 16^k (k > 0) below the number of items. The parts are cut likewise. Items with equal
-/// coordinates are ordered by index. Runs of at most 16 items, or with all items at one position, are not
-/// cut. Which items are in such a run depends on the items only, and their order within it on the order
-/// before; neither depends on the policy. With fewer than 1000 items a bin, a cut is one pass that counts and
-/// one that moves, and divides a run by four.
+/// A run is cut along the longest side of the box around its items into up to four parts. Each part begins at
+/// a multiple of the largest 16^k (k > 0) below the number of items. Each part is then cut in the same way.
+/// Items with equal coordinates are ordered by index. A run of at most 16 items, or with all items at the
+/// same position, is not cut.
+///
+/// Which items are in such a run depends on the set of items only. The order within the run depends on the
+/// order before the sort. Neither depends on the policy. A cut takes three passes over a run. They find the
+/// longest side, count the items of each bin and move the items. In addition it partitions each bin that it
+/// divides, which is cheap for fewer than 1000 items per bin.
 template <typename T>
 class SpatialOrder {
  public:
-  /// Makes a buffer of `count` items and returns it, to be filled by the caller.
+  /// Makes a buffer of `count` items and returns it. The caller must fill it.
   PositionedItem<T>* reset(std::size_t count);
 
   /// Sorts the first `count` items.
   void sort(std::size_t count, const ParallelPolicy& policy);
 
-  /// Returns the item in a position of the sorted order.
+  /// Returns the item at a position of the sorted order.
   const PositionedItem<T>& operator[](std::size_t position) const { return items_[position]; }
 
  private:
@@ -84,7 +90,7 @@ class SpatialOrder {
 
   std::vector<PositionedItem<T>> items_, buffer_;
   std::vector<std::uint16_t> bins_;
-  std::vector<ItemRun<T>> runs_, parts_;  // runs that threads share
+  std::vector<ItemRun<T>> runs_, parts_;  // runs that threads take
 };
 
 }  // namespace pcl_bv

@@ -12,8 +12,8 @@
 
 namespace pcl_bv {
 
-/// Returns a sphere around a box; empty for an empty or infinite box. Rounding errors are below 2^-50 of
-/// radius + |low|_1 + |high|_1; the radius grows by 2^-45 of this sum.
+/// Returns a sphere around a box. The sphere is empty for an empty or infinite box. Rounding errors are below
+/// 2^-50 of radius + |low|_1 + |high|_1, so the radius grows by 2^-45 of this sum.
 inline Sphere sphere_around(const PositionBounds& box) {
   const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
   if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};

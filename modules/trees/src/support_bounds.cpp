@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each step rounds up. The bounds along the axes are those of the volume's aabb().
+// Each step of a computation rounds up. The bounds along the axes are those of the volume's aabb().
 
 #include "support_bounds.h"
 
@@ -16,12 +16,13 @@
 namespace pcl_bv {
 namespace {
 
-// Adds more than the rounding errors of some tens of sums and products of magnitudes, and their underflow.
+// Returns the magnitude increased by more than the rounding errors of some tens of sums and products, and
+// their underflow.
 double inflate_by_rounding(double magnitude) {
   return magnitude * (1 + 0x1p-45) + 0x1p-1000;
 }
 
-// Returns the norm, without squares that leave the range of double.
+// Returns the norm. Computes no squares that leave the range of double.
 double length(const Eigen::Vector3d& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   return largest > 0 ? norm3(Eigen::Vector3d(v / largest)) * largest : 0;
@@ -34,13 +35,13 @@ void add_axes(const Aabb& box, CubeSupportBounds& found) {
   }
 }
 
-// Each half_width_up() is an upper bound of n . q and of -n . q for all points q of the volume, relative to
-// its centre. `half` is a bound of |q|, coordinate by coordinate.
+// Each half_width_up() returns an upper bound of n . q and of -n . q for all points q of the volume, relative
+// to the volume's centre. `half` is a bound of the absolute coordinates of q.
 double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere, const Eigen::Vector3d&) {
   return inflate_by_rounding(length(n) * sphere.radius());
 }
 
-// Splits n into the sum of weights[i] axes[i] and a remainder. Valid for any weights.
+// Splits n into the sum of weights[i] axes[i] and a remainder. The split is valid for any weights.
 struct AlongAxes {
   Eigen::Vector3d weights;
   double remainder_bound = 0;  // upper bound of |remainder . q|
@@ -60,14 +61,14 @@ double half_width_up(const Eigen::Vector3d& n, const Obb& box, const Eigen::Vect
   return inflate_by_rounding(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.remainder_bound);
 }
 
-// Cauchy's inequality bounds the projection.
+// Cauchy's inequality bounds the projection of the ellipsoid.
 double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid, const Eigen::Vector3d& half) {
   const AlongAxes along(n, ellipsoid.axes(), half);
   return inflate_by_rounding(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.remainder_bound);
 }
 
-// q has a part along the axis, of at most half_height, and a perpendicular part, of at most the radius. For
-// the perpendicular part any multiple of the axis may be subtracted from n.
+// The part of q along the axis is at most half_height long, and the perpendicular part is at most the radius
+// long. For the perpendicular part any multiple of the axis may be subtracted from n.
 double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder, const Eigen::Vector3d&) {
   const Eigen::Vector3d& a = cylinder.axis();
   const double along = dot3(n, a), error_bound = 0x1p-49 * taxicab3(n);
@@ -113,7 +114,7 @@ struct Measure {
     });
   }
 
-  // Sphere, Obb, Cylinder, Ellipsoid.
+  // Measures a Sphere, Obb, Cylinder or Ellipsoid.
   template <typename Shape>
   CubeSupportBounds operator()(const Shape& shape) const {
     const Aabb box = shape.aabb();

@@ -19,12 +19,12 @@ inline Eigen::Vector3d cube_vector(std::size_t i) {
 }
 
 /// Upper bounds, by exact arithmetic, of the projections d . p (up) and -d . p (down) of all points p of a
-/// non-empty volume, along each d of kCubeDirections. Infinite where no bound is proven.
+/// non-empty volume, for each direction d of kCubeDirections. They are infinite where no bound is proven.
 struct CubeSupportBounds {
   std::array<double, kMaxDirections> up, down;
 };
 
-/// Computes the bounds along the first `count` directions; the others stay unset.
+/// Computes the bounds along the first `count` directions. The other bounds stay unset.
 CubeSupportBounds cube_support_bounds(const AnyVolume& volume, std::size_t count);
 
 }  // namespace pcl_bv

@@ -17,7 +17,8 @@ void SweepWindow::add(const PointView& points, const Execution& execution) {
     throw std::invalid_argument(points.scalar == ScalarType::float64
                                     ? "SweepWindow: the points are double, the window holds float points"
                                     : "SweepWindow: the points are float, the window holds double points");
-  // Partial adds PointView::first to this number, so it is subtracted here; unsigned numbers wrap.
+  // Partial adds PointView::first to the number that it is given, so first is subtracted here. Unsigned
+  // numbers wrap.
   const std::size_t number = static_cast<std::size_t>(first_) + points_;
   const Partial sweep(points, number - points.first, execution);
   Partial with_sweep = newest_merged_;

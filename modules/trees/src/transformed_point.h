@@ -11,7 +11,7 @@
 
 namespace pcl_bv {
 
-/// A transformed point, rounded, and a bound of the rounding errors of its three products and three sums.
+/// A transformed point, rounded, and a bound of the rounding errors in its coordinates.
 struct TransformedPoint {
   Coordinates position;
   double error;
@@ -27,8 +27,8 @@ inline TransformedPoint transform_point(const Eigen::Isometry3d& pose, const Coo
   return {{sums[0], sums[1], sums[2]}, 0x1p-50 * sizes + 0x1p-500};
 }
 
-/// Returns an upper bound of |M v| / |v| for the linear part M. Its square is at most the largest absolute
-/// row sum of M'M.
+/// Returns an upper bound of |M v| / |v| for the linear part M of the pose. The square of this ratio is at
+/// most the largest absolute row sum of M'M.
 inline double max_stretch(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d squares = pose.linear().transpose() * pose.linear();
   return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-45);

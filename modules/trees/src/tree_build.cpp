@@ -69,7 +69,7 @@ PositionBounds bounds_of(const PointPacket<T>& packet) {
   return extremes.bounds();
 }
 
-// Calls fill(p, packet) for all packets, and then sets the boxes around their points.
+// Calls fill(p, packets[p]) for all packets, and then sets the boxes around their points.
 template <typename T, typename Fill>
 void fill_packets(PackedTree& tree, const ParallelPolicy& policy, PointParts<PacketPart>& parts,
                   const Fill& fill) {

@@ -12,13 +12,13 @@
 
 namespace pcl_bv {
 
-/// A part of the points, which one thread loads.
+/// A part of the points. One thread loads it.
 struct LoadPart {
   std::size_t begin = 0, end = 0;  ///< Range of the points.
-  std::size_t valid = 0;           ///< Number of valid points; they are stored from `begin`.
+  std::size_t valid = 0;           ///< Number of valid points, stored from `begin` on.
 };
 
-/// A part of the packets, which one thread fills.
+/// A part of the packets. One thread fills it.
 struct PacketPart {
   std::size_t begin = 0, end = 0;  ///< Range of the packets.
   PositionBounds bounds{};

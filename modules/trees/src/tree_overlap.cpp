@@ -10,8 +10,8 @@
 namespace pcl_bv {
 namespace {
 
-// Descends into the boxes of the moved tree that are near a point of the other tree, and tests the points of
-// their packets.
+// Descends into those boxes of the moved tree that are near a point of the other tree, and tests the points
+// in their packets.
 class TreeOverlap {
  public:
   TreeOverlap(const PointTree& points, const PackedTree& moving, const Eigen::Isometry3d& pose, double margin)
@@ -53,8 +53,9 @@ class TreeOverlap {
 
 }  // namespace
 
-// The factor 1 + 2^-48 covers the six roundings of Neighbor::squared_distance, the two here and two in
-// `distance`: 2^-49 in all. The square does not underflow because the error of an image is at least 2^-500.
+// The factor 1 + 2^-48 covers the roundings, 2^-49 in all. Six are in Neighbor::squared_distance, two in this
+// function and two in `distance`. The square does not underflow because the error of a transformed point is
+// at least 2^-500.
 bool any_within(const PointTree& points, const TransformedPoint& point, double distance) {
   const double limit = distance + point.error;
   return any_in_ball(points.isa(), points.packed(), point.position, limit * limit * (1 + 0x1p-48));

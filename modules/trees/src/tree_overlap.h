@@ -12,9 +12,9 @@
 namespace pcl_bv {
 
 /// Returns whether any point of the tree is within `distance` of the exact transformed point that `point`
-/// approximates (transform_point()). Never false if one is, even if `distance` has been rounded twice. May be
-/// true for points farther by 2^-48 of the distance and twice the error of `point`. Squares underflow if both
-/// the error and the distance are below 2^-500.
+/// approximates (see transform_point()). The result is never false if such a point exists, even if `distance`
+/// has been rounded twice. It may be true for points that are farther by 2^-48 of the distance and twice the
+/// error of `point`. Squares underflow only if both the error and the distance are below 2^-500.
 bool any_within(const PointTree& points, const TransformedPoint& point, double distance);
 
 /// Implements within() of collision.h for two trees that have points.

@@ -18,19 +18,19 @@
 
 namespace pcl_bv {
 
-/// Number of volumes that a thread measures at a time; takes about 20 us.
+/// Number of volumes that a thread measures at a time, which takes about 20 us.
 inline constexpr std::size_t kVolumesOfChunk = 64;
 
-/// Returns an upper bound of the distance from a volume in `box` at which contains() may accept a point.
-/// contains() of each type exceeds the volume by less than 2^-45 of the distance and the sizes, along each of
-/// up to three perpendicular distances.
+/// Returns an upper bound of the distance from a volume in `box` at which contains() may still accept a
+/// point. Along each of up to three perpendicular distances, contains() of each type exceeds the volume by
+/// less than 2^-45 of the distance and the sizes.
 double contains_margin(const Aabb& box);
 
 /// Returns a box around aabb() and all points that contains() may accept. For an empty volume `low` is above
-/// `high`. For a volume without a known box (planes may bound no body) it is infinite.
+/// `high`. For a volume without a known box the result is infinite, because planes may bound no body.
 PositionBounds extent_of(const AnyVolume& volume);
 
-/// A box in float, in the frame of the boxes, to compare with a BoxGroup.
+/// A box of floats, in the frame of the boxes, to compare with a BoxGroup.
 struct BoxQuery {
   float low[3], high[3];
 };
@@ -41,21 +41,21 @@ class VolumeBoxes {
   /// Chooses the order of the volumes and builds the boxes. O(n log n).
   void build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy);
 
-  /// Rebuilds the boxes of the same number of volumes after they have moved; the order stays.
+  /// Rebuilds the boxes after the volumes have moved. Their number must be the same, and their order stays.
   void refit(const std::vector<PositionBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
   std::size_t size() const { return order_.size(); }
-  /// Returns the index of the volume in position `item` of the order.
+  /// Returns the index of the volume at position `item` of the order.
   std::uint32_t volume_index(std::size_t item) const { return order_[item]; }
 
   /// Returns the indices of the volumes without a box, ascending.
   const std::vector<std::uint32_t>& without_box() const { return without_box_; }
 
-  /// Margin by which queries at a coordinate x, in the frame of the boxes, extend the boxes: a volume
-  /// whose extended box a point or a ray misses cannot change the answer. Rounding errors in double are below
-  /// 2^-40 of the distance and the sizes. Flat ellipsoids and sharp hulls amplify them by less than 2^20;
-  /// volumes with a larger factor are tested without a box (see volume_tree.cpp).
+  /// Returns the margin by which queries at a coordinate x, in the frame of the boxes, extend the boxes. If a
+  /// point or a ray misses the extended box of a volume, the volume cannot change the result. Rounding errors
+  /// in double are below 2^-40 of the distance and the sizes. Flat ellipsoids and sharp hulls amplify them by
+  /// less than 2^20. Volumes with a larger factor are tested without a box (see volume_tree.cpp).
   static double margin(double x) { return 0x1p-20 * (1 + std::abs(x)); }
 
   double to_frame(double coordinate, std::size_t axis) const {
@@ -65,18 +65,18 @@ class VolumeBoxes {
   /// Returns the box [low, high], extended by margin().
   BoxQuery query(const Coordinates& low, const Coordinates& high) const;
 
-  /// Calls visit(index) for the volumes without a box, then for those whose box overlaps the query. Stops and
-  /// returns true when visit returns true.
+  /// Calls visit(index) for the volumes without a box, then for the volumes whose box overlaps the query.
+  /// Stops and returns true when visit() returns true.
   template <typename Visit>
   bool visit(const BoxQuery& query, const Visit& visit) const;
 
  private:
   BoxLevels boxes_;
-  std::vector<std::uint32_t> order_;  // index of the volume in each position
+  std::vector<std::uint32_t> order_;  // index of the volume at each position
   std::vector<std::uint32_t> without_box_;
 };
 
-/// Returns the boxes of a group that overlap a box, as bits.
+/// Returns as bits which boxes of a group overlap the query box.
 inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
   // Uses values 0 and 1 instead of branches, so that the compiler vectorises the loop.
   alignas(64) std::uint32_t out[kTreeWidth];

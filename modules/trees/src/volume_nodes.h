@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The data of a VolumeTree: its volumes and the bounds of its nodes.
+// The data of a VolumeTree, which are its volumes and the bounds of its nodes.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ struct VolumeTree::Nodes {
   NodeBounds kind = NodeBounds::aabb;
   VolumeBoxes boxes;
   NodeShapes shapes;
-  std::vector<std::uint32_t> too_flat_for_rays;  // flat ellipsoids, which rays test without a box
+  std::vector<std::uint32_t> too_flat_for_rays;  // ellipsoids that every ray tests without a box
 
-  /// Builds the boxes and shapes: in a new order if `new_order`, else in the present order.
+  /// Builds the boxes and shapes. Sorts the volumes anew if `new_order` is true.
   void measure(bool new_order, const Execution& execution);
 
-  /// Calls visit(index) for the volumes that may hold a point, and for those without a box. Stops and returns
-  /// true when visit returns true.
+  /// Calls visit(index) for the volumes that may hold a point, and for the volumes without a box. Stops and
+  /// returns true when visit() returns true.
   template <typename Visit>
   bool visit_candidates_at(const Coordinates& point, const Visit& visit) const {
     const BoxQuery query = boxes.query(point, point);
@@ -40,7 +40,7 @@ struct VolumeTree::Nodes {
     return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.volume_index(item)); });
   }
 
-  /// Calls visit(index) for the volumes whose bound(group, k) is at most limit(), in the order of
+  /// Calls visit(index) for the volumes with a box whose bound(group, k) is at most limit(), in the order of
   /// visit_nearest_first().
   template <typename Bound, typename Limit, typename Visit>
   void nearest_first(const Bound& bound, const Limit& limit, const Visit& visit) const {

@@ -14,8 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// Returns whether the ends of a ray's interval may be farther from the volume than VolumeBoxes::margin()
-// covers.
+// Returns whether the errors of `enter` and `exit` of intersect() may exceed VolumeBoxes::margin().
 bool is_too_flat_for_rays(const AnyVolume& volume) {
   const auto* const ellipsoid = std::get_if<Ellipsoid>(&volume);
   return ellipsoid != nullptr && !ellipsoid->empty() &&

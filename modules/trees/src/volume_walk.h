@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the points of a tree that are inside a volume: whole boxes if they are inside, single points near the
-// surface.
+// Finds the points of a tree that are inside a volume. Boxes inside the volume are taken as a whole. Near the
+// surface single points are tested.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ class VolumeProbe {
     return relation(region_, plain_box(boxes, group, k));
   }
 
-  /// Returns for which points of a packet contains() holds, as bits. Lanes without a point are NaN, so
-  /// outside.
+  /// Returns as bits for which points of a packet contains() holds. Lanes without a point are NaN, so their
+  /// bits are 0.
   std::uint32_t inside(UsableIsa isa, const PackedTree& tree, std::size_t packet) const {
     const PointView points = tree.view().slice(packet * kTreeWidth, kTreeWidth);
     std::array<std::uint8_t, kTreeWidth> states;
@@ -51,8 +51,8 @@ class VolumeProbe {
   RegionTests tests_;
 };
 
-/// Calls found(packet, bits), in order, for each packet with points inside. Stops and returns true when
-/// found() returns true.
+/// Calls found(packet, bits) for each packet with points inside the volume, in the order of the packets.
+/// Stops and returns true when found() returns true.
 template <typename Found>
 class VolumeWalk {
  public:
@@ -93,7 +93,7 @@ class VolumeWalk {
     return false;
   }
 
-  // Returns the lanes of a packet that are not NaN, as bits.
+  // Returns as bits which lanes of a packet are not NaN.
   std::uint32_t valid_points(std::size_t packet) const {
     const auto bits_of = [](const auto& points) {
       std::uint32_t bits = 0;
@@ -111,7 +111,7 @@ class VolumeWalk {
   const Found& found_;
 };
 
-/// Walks the points inside any volume; an empty volume has none. Otherwise as VolumeWalk.
+/// Runs a VolumeWalk for a volume that may be empty. An empty volume has no points, so the result is false.
 template <typename Found>
 bool walk_inside(UsableIsa isa, const PackedTree& tree, const AnyVolume& volume, const Found& found) {
   if (empty(volume)) return false;

@@ -19,7 +19,8 @@ namespace {
 constexpr double kSmallExtent = 0x1p-400;
 constexpr double kLift = 0x1p600;
 
-// Adds sign * (a - b)^2 exactly, as three products: a - b = d + e, where e is the rounding error of d.
+// Adds sign * (a - b)^2 exactly, as the products d^2, 2 d e and e^2 with a - b = d + e, where e is the
+// rounding error of d.
 void add_square_of_difference(Expansion& sum, double a, double b, double sign) {
   const double d = a - b;
   const double e = Expansion().add(a).add(-b).add(-d).value();
@@ -46,7 +47,8 @@ bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double
   const double slack = r - s;
   const Eigen::Vector3d q = a - b;
   const double d2 = dot3(q, q);
-  // The relative errors of d2 and slack^2 are at most 5 * 2^-53 and 3 * 2^-53; 2^-48 is 32 * 2^-53.
+  // The relative errors of d2 and slack^2 are at most 5 * 2^-53 and 3 * 2^-53. The bound of 2^-48 = 32 *
+  // 2^-53 exceeds their sum.
   constexpr double error_bound = 0x1p-48;
   const double limit = slack * slack;
   if (limit > kSmallExtent * kSmallExtent) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upper bounds of lengths, also after a stored isometry, whose matrix is rarely exactly orthonormal. Code
-// that several sources share is in the namespace volumes_internal, because other modules have internal
-// functions of similar names.
+// Upper bounds of lengths, also of vectors transformed by a stored isometry, whose matrix is rarely exactly
+// orthonormal. Code that several sources share is in the namespace volumes_internal, because other modules
+// have internal functions with similar names.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// Upper bounds of |v| and of |a - b|, by exact arithmetic.
+/// Return upper bounds of |v| and of |a - b|, by exact arithmetic.
 double norm_up(const Eigen::Vector3d& v);
 double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
@@ -21,15 +21,15 @@ double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 /// underflow so far that the comparison cannot be decided.
 bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s);
 
-/// Returns a box that encloses all center + q with |q[i]| <= half[i], by exact arithmetic.
+/// Returns a box that encloses all points center + q with |q[i]| <= half[i], by exact arithmetic.
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half);
 
-/// Returns how far the columns of `axes` are from orthonormal: the largest magnitude of an entry of
-/// axes' axes - 1. NaN if an entry of `axes` is not finite.
+/// Returns the largest magnitude of an entry of axes' axes - I, which is 0 if the columns of `axes` are
+/// orthonormal. NaN if an entry of `axes` is not finite.
 double orthonormality_error(const Eigen::Matrix3d& axes);
 
-/// Returns an upper bound of |M v| / |v| over all v: sqrt(max row sum of |M'M|), rounded up; 1 for the
-/// identity.
+/// Returns an upper bound of |M v| / |v| over all v, namely sqrt(max row sum of |M'M|), rounded up. The
+/// result is 1 for the identity.
 double matrix_norm_up(const Eigen::Matrix3d& m);
 
 /// A transformed point, rounded, and an upper bound of its distance from the exact transformed point.
@@ -39,7 +39,7 @@ struct TransformedPoint {
 };
 TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
 
-/// An upper bound of |m v - factor w|, by exact arithmetic.
+/// Returns an upper bound of |m v - factor w|, by exact arithmetic.
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,
                      const Eigen::Vector3d& w);
 

@@ -23,9 +23,9 @@ using namespace volumes_internal;
 
 namespace {
 
-// Returns the distance of a point from a segment; q is the point and e the segment's second end, both
-// relative to its first end. An error of the foot of the perpendicular increases the distance, by less than
-// that error.
+// Returns the distance of a point from a segment. q is the point and e is the second end of the segment, both
+// relative to the first end. An error in the position of the nearest point of the segment increases the
+// result by less than this error.
 double distance_to_segment(const Eigen::Vector3d& q, const Eigen::Vector3d& e) {
   const double length = e.stableNorm();
   if (length == 0) return q.stableNorm();
@@ -54,9 +54,10 @@ Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radi
   radius_ = radius + 0.0;
 }
 
-// Rounding moves q and e by U = 2^-53 of themselves, the foot of the perpendicular by less than
-// 12 U (|q| + |e|) and the distance by that plus 6 U of itself. Near the surface, the distance is about the
-// radius, so the tolerance of 32 U (|q|_1 + |e|_1 + radius) exceeds the sum.
+// Let U = 2^-53. Rounding moves q and e by at most U of their size, and the foot of the perpendicular by less
+// than 12 U (|q| + |e|). It changes the distance by the sum of these errors plus 6 U of the distance. Near
+// the surface, the distance is about the radius, so the tolerance of 32 U (|q|_1 + |e|_1 + radius) exceeds
+// the total error.
 bool Capsule::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
@@ -100,7 +101,7 @@ std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
-  // The radius is inflated by the rounding error of the axis; contains() has a similar tolerance.
+  // The inflated radius covers the rounding error of the axis; contains() has a similar tolerance.
   const double size = (b_ - a_).lpNorm<1>() + radius_;
   const double inflated = radius_ + 0x1p-46 * size + kSmallestNormal;
   std::optional<RayInterval> all;

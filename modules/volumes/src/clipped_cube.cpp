@@ -44,7 +44,7 @@ void ClippedCube::cut(const Eigen::Vector3d& normal, double offset, double round
   }
 }
 
-// No vertex is below the plane: only the face, edge or vertex on the plane remains.
+// Handles the case that no vertex is below the plane. Only the face, edge or vertex on the plane remains.
 void ClippedCube::collapse() {
   Loop remaining;
   for (const Loop& loop : loops_) {
@@ -77,12 +77,12 @@ ClippedCube::Loop ClippedCube::clip_loop(const Loop& loop) {
     if (height(a) <= 0) part.push_back(a);
     if ((height(a) < 0 && height(b) > 0) || (height(a) > 0 && height(b) < 0)) part.push_back(crossing(a, b));
   }
-  // A loop of two vertices passes its edge twice and would have the new vertex twice.
+  // A loop of two vertices passes its edge twice, so the new vertex was added twice.
   part.erase(std::unique(part.begin(), part.end()), part.end());
   return part;
 }
 
-// Returns the new vertex on an edge, the same one for both faces of the edge.
+// Returns the new vertex on an edge. Both faces of the edge get the same vertex.
 std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
   if (a > b) std::swap(a, b);
   for (const Crossing& c : crossings_) {
@@ -96,8 +96,8 @@ std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
   return vertex;
 }
 
-// Adds the loops (caps) that close the surface. They consist of the edges on the plane whose opposite edge is
-// missing, in reverse direction.
+// Adds the loops (caps) that close the surface. A cap consists of the edges on the plane that have no
+// opposite edge, in reverse direction.
 void ClippedCube::close() {
   std::vector<std::pair<std::int32_t, std::int32_t>> open;
   for (const Loop& loop : loops_) {

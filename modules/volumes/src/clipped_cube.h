@@ -10,23 +10,23 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A convex polytope inside the unit cube, as a closed surface of vertex loops. Every cut leaves the surface
-/// closed in spite of rounding: an edge that is cut gets one new vertex, which both its faces share, and the
-/// cap is the boundary of the remaining faces. A polytope that collapses becomes a polygon with two sides
-/// (rank 2), an edge (rank 1) or a vertex (rank 0).
+/// A convex polytope inside the unit cube, as a closed surface of vertex loops. The surface stays closed
+/// after every cut in spite of rounding, because a cut edge gets one new vertex, which both faces of the edge
+/// share, and the cap is the boundary of the remaining faces. A polytope that collapses becomes a polygon
+/// with two sides (rank 2), an edge (rank 1) or a vertex (rank 0).
 class ClippedCube {
  public:
   using Loop = std::vector<std::int32_t>;
 
   ClippedCube();
 
-  /// Keeps the points with normal . y <= offset. A vertex is treated as on the plane if |normal . y - offset|
-  /// is at most 2^-42 of the normal's largest component plus `rounding`, the error bound of the offset. A
-  /// normal of 0 cuts nothing.
+  /// Cuts off the points y with normal . y > offset. A vertex is treated as on the plane if |normal . y -
+  /// offset| is at most 2^-42 of the normal's largest component plus `rounding`, the error bound of the
+  /// offset. A normal of 0 cuts nothing.
   void cut(const Eigen::Vector3d& normal, double offset, double rounding = 0);
 
-  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Also vertices cut off.
-  const std::vector<Loop>& loops() const { return loops_; }                   ///< None if nothing is left.
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Also those cut off.
+  const std::vector<Loop>& loops() const { return loops_; }                   ///< Empty if all was cut off.
   int rank() const { return rank_; }
 
  private:
@@ -44,7 +44,7 @@ class ClippedCube {
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Loop> loops_;
   int rank_ = 3;
-  // State of the current cut:
+  // State of the current call of cut():
   std::vector<double> heights_;  // height of each vertex above the plane; exactly 0 if treated as on it
   std::vector<Crossing> crossings_;
 };

@@ -22,7 +22,7 @@ using namespace volumes_internal;
 
 namespace {
 
-// The components of a vector q from the centre, along and across the axis.
+// The components of a vector q from the centre, parallel and perpendicular to the axis.
 struct AxisComponents {
   double along;           // q . axis
   Eigen::Vector3d cross;  // q x axis, whose length is the distance of q from the axis
@@ -32,8 +32,8 @@ AxisComponents axis_components(const Eigen::Vector3d& axis, const Eigen::Vector3
   return {dot3(q, axis), q.cross(axis)};
 }
 
-// Returns the vector unchanged if its squared length is 1 to 2^-50, else normalised. So a vector that was
-// normalised once never changes again.
+// Returns the vector unchanged if its squared length is 1 to 2^-50, otherwise normalised. This ensures that a
+// vector that was normalised once never changes again.
 Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
   const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
   return unit.array() + 0.0;
@@ -64,9 +64,10 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
   half_height_ = half_height + 0.0;
 }
 
-// Errors, with U = 2^-53: each component of q is off by U of itself, `along` by 5 U |q|_1, each component of
-// `cross` by 6 U |q|_1 and its length by 11 U |q|_1. Computing the length adds 4 U of it, and |axis| another
-// 4 U. The tolerance of 32 U |q|_1 exceeds all sums of these.
+// Error bounds, with U = 2^-53. Each component of q is off by at most U of itself, `along` by at most 5 U
+// |q|_1 and each component of `cross` by at most 6 U |q|_1, which changes the length of `cross` by at most 11
+// U |q|_1. Computing the length adds 4 U of the length; the deviation of |axis| from 1 adds another 4 U. The
+// tolerance of 32 U |q|_1 exceeds all sums of these errors.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
@@ -107,9 +108,10 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
       .stableNorm();
 }
 
-// The part of the ray inside the cylinder is no farther from the ray's origin than |q|, half_height and the
-// radius allow, so its ends are off by less than `error_bound`: half of that covers the positions, half the
-// square roots. A cylinder that is inflated by `error_bound` therefore encloses the exact cylinder.
+// The distance from the ray's origin to its part inside the cylinder is bounded in terms of |q|, half_height
+// and the radius, so the ends of this part are off by less than `error_bound`. Half of `error_bound` covers
+// the positions, the other half the square roots. A cylinder that is inflated by `error_bound` therefore
+// encloses the exact cylinder.
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
@@ -160,9 +162,10 @@ Mesh Cylinder::mesh() const {
 }
 
 // A point center + s axis + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) +
-// M v, where w is the new axis and e the small error M axis - length w. The projection of M v on w is that of
-// v on M' w. M' w is `length` times the old axis plus a small error. Since v is perpendicular to the old
-// axis, only the error counts, and `back` bounds its projection.
+// M v, where w is the new axis, `length` is |M axis| and e is the small error M axis - length w. The
+// projection of M v on w equals the projection of v on M' w. M' w is `length` times the old axis plus a small
+// error. Since v is perpendicular to the old axis, only the projection of v on this error is not 0. `back`
+// bounds this projection.
 Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Double-double numbers, with twice the digits of a double, for differences of nearly equal numbers. Meant
-// for values near 1: overflow and underflow are not handled.
+// Double-double numbers, with twice the digits of a double, for differences of nearly equal numbers. Overflow
+// and underflow are not handled, so values should be near 1.
 #pragma once
 
 #include <cmath>
 
 namespace pcl_bv::volumes_internal {
 
-/// The number hi + lo, with |lo| at most half a unit in the last place of hi. The errors of sums and products
-/// are about 2^-103 of their terms (Dekker 1971; Knuth's TwoSum).
+/// The number hi + lo, with |lo| at most half a unit in the last place of hi. The error of a sum or product
+/// is about 2^-103 of the magnitudes of its terms (Dekker 1971; Knuth's TwoSum).
 struct DoubleDouble {
   DoubleDouble(double value = 0) : hi(value), lo(0) {}
   DoubleDouble(double high, double low) : hi(high + low), lo(low - (hi - high)) {}  // needs |high| >= |low|

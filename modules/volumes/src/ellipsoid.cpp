@@ -38,7 +38,8 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
   radii_ = radii.array() + 0.0;
 }
 
-// Each axis . q is off by at most 5 U |q|_1 (U = 2^-53); quotients, squares and the sum add 6 U.
+// Each axis . q is off by at most 5 U |q|_1, where U = 2^-53. The quotients, squares and the sum add a
+// relative error of 6 U.
 bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d q = point - center_;
@@ -68,8 +69,8 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
 
-// In coordinates in which the ellipsoid is the unit sphere, positions of the ray up to its exit are off by
-// less than `error_bound` divided by the smallest radius. The sphere is inflated by that.
+// In coordinates in which the ellipsoid is the unit sphere, the positions of the ray up to its exit are off
+// by less than `error_bound` divided by the smallest radius. The sphere is inflated by this quotient.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
@@ -92,8 +93,8 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-// With N = axes', the ellipsoid is the unit ball transformed by N^-1 diag(radii); N^-1 differs from the axes
-// by less than 4 orthonormality_error() in each row.
+// With N = axes', the ellipsoid is the unit ball transformed by N^-1 diag(radii). In each row, N^-1 differs
+// from `axes` by less than 4 orthonormality_error().
 Aabb Ellipsoid::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
@@ -104,9 +105,9 @@ Aabb Ellipsoid::aabb() const {
   return box_around(center_, half);
 }
 
-// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, where
-// d_i = M' a'_i - a_i and e is the rounding error of the new centre. The last two terms are at most extra_i
-// together. So it suffices that all radii grow by the factor 1 + |(extra_i / radius_i)|.
+// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, where d_i = M'
+// a'_i - a_i and e is the rounding error of the new centre. The sum of the last two terms is at most extra_i.
+// Therefore, it suffices to multiply all radii by the factor 1 + |(extra_i / radius_i)|.
 Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

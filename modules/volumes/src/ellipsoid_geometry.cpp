@@ -45,8 +45,8 @@ double Ellipsoid::surface_area() const {
   if (r[1] == 0) return 0;
   if (r[0] == 0) return 2 * std::numbers::pi * r[1] * r[2];
   const double unit = r[2], a = r[0] / unit, b = r[1] / unit;
-  // Carlson's symmetric integral, without promotion to long double, whose precision depends on the platform:
-  // the result has the same bits everywhere.
+  // Carlson's symmetric integral. The policy prevents promotion to long double, whose precision depends on
+  // the platform, so the result has the same bits on all platforms.
   const boost::math::policies::policy<boost::math::policies::promote_double<false>> doubles;
   const double integral = boost::math::ellint_rg(b * b, a * a, a * a * b * b, doubles);
   return 4 * std::numbers::pi * integral * unit * unit;

@@ -20,10 +20,15 @@ Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& rotation, const Eigen::Ve
   return {dot3(rotation.col(0), d), dot3(rotation.col(1), d), dot3(rotation.col(2), d)};
 }
 
-// Tolerances of the two number types. `margin`: the origin is inside four points only if the volumes that
-// they span with it exceed this (coordinates are below 4 in magnitude, so sums of six products of three
-// numbers are off by 1e-13). `negligible_length`: shorter lengths are treated as 0. `rounding`: absolute
-// error of a projection.
+// Tolerances of the two number types.
+//
+// `margin`: the origin is treated as inside four points only if all determinants of three of them exceed
+// `margin`. (Coordinates are below 4 in magnitude, so the error of a determinant, a sum of six products of
+// three numbers, is at most 1e-13.)
+//
+// `negligible_length`: shorter lengths are treated as 0.
+//
+// `rounding`: absolute error of a projection.
 template <typename Real>
 struct Precision;
 template <>
@@ -60,7 +65,7 @@ class GjkSearch {
       delta_rest_[k] = apart.lo;
       extent = std::max(extent, std::abs(delta_[k]));
     }
-    // Bodies are treated as overlapping also if a number overflows or the size of a body is not known.
+    // If a number overflows or the size of a body is not known, the bodies are treated as overlapping.
     overlap_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
     if (overlap_) return;
     scale_ = std::ldexp(1.0, -std::max(std::ilogb(extent), -1000));
@@ -84,8 +89,8 @@ class GjkSearch {
  private:
   bool done() const { return overlap_ || (goal_ == Goal::exceeds_bound && lower_bound_ > bound_); }
 
-  // Returns the distance of the bounding balls around the origins, a lower bound that decides most pairs of a
-  // scene.
+  // Returns the distance of the bounding balls around the origins. This lower bound is cheap and decides most
+  // pairs of a scene.
   double bounding_ball_gap() const {
     const double radii = add_up(add_up(a_.size, b_.size), radii_);
     const double apart = length3(delta_) * (1 - 0x1p-49) - radii;
@@ -98,9 +103,9 @@ class GjkSearch {
     return upper_bound_ - radii_ - lower_bound_ <= 0x1p-42 * upper_bound_ + 0x1p-46 * sizes;
   }
 
-  // Returns a lower bound of the distance, by exact arithmetic, from the gap along d, whose length is about
-  // 1; 0 if d does not separate the bodies. With U = 2^-53, delta is off by U of itself, products and sums by
-  // 3.01 U, each further step by U of its result.
+  // Returns a lower bound of the distance, by exact arithmetic, from the gap along d, whose length must be
+  // about 1. Returns 0 if d does not separate the bodies. With U = 2^-53, delta is off by at most U of
+  // itself, the products and sums by 3.01 U of their terms, and each further step by U of its result.
   double certified(const Eigen::Vector3d& d) const {
     const double x = d[0] * delta_[0], y = d[1] * delta_[1], z = d[2] * delta_[2];
     const double support_a = a_.support_value_up(d), support_b = b_.support_value_up(-d);
@@ -114,15 +119,16 @@ class GjkSearch {
 
   void prove(const Eigen::Vector3d& d) { lower_bound_ = std::max(lower_bound_, certified(d)); }
 
-  // Returns the point of the difference b - a with the smallest projection on d, multiplied by scale_.
+  // Returns the point of the Minkowski difference b - a with the smallest projection on d, multiplied by
+  // scale_.
   template <typename Real>
   Vector<Real> support(const Eigen::Vector3d& d) const {
     const Vector<Real> w = difference(delta_, delta_rest_, b_.support(-d), a_.support(d), Real());
     return times(Real(scale_), w);
   }
 
-  // Ends if the points of the simplex prove that no direction is better, if rounding prevents further
-  // progress, or if the bodies are known to overlap.
+  // Runs the iteration. It ends if the points of the simplex prove that no direction is better, if rounding
+  // prevents further progress, if done() is true, or after 100 steps.
   template <typename Real>
   void search() {
     using P = Precision<Real>;
@@ -156,8 +162,9 @@ class GjkSearch {
     prove(direction_);
   }
 
-  // Returns whether two points of the cores, `length` apart after scaling, prove that the bodies overlap (for
-  // Goal::exceeds_bound: that their distance is below the bound) by more than rounding errors.
+  // Returns whether two points of the cores, `length` apart after scaling, prove that the bodies overlap by
+  // more than rounding errors. For Goal::exceeds_bound: that their distance is below the bound by more than
+  // rounding errors.
   bool near_enough(double length) {
     if (goal_ == Goal::distance && lower_bound_ > 0) return false;
     overlap_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::exceeds_bound ? bound_ : 0);
@@ -175,7 +182,8 @@ class GjkSearch {
   double upper_bound_ = kInfinity;  // distance of two points of the cores, up to rounding
 };
 
-// Numbers of one body, by which a pair is ordered, so that the order of the arguments does not matter.
+// Returns numbers of one body. lower_bound() orders the bodies of a pair by these numbers, so that the order
+// of the arguments does not matter.
 auto key(const PosedShape& p) {
   const Eigen::Vector3d order_key = p.shape.order_key();
   return std::array{static_cast<double>(p.shape.kind),
@@ -207,8 +215,8 @@ Eigen::Vector3d PosedShape::support(const Eigen::Vector3d& d) const {
   return {dot3(rotation->row(0), q), dot3(rotation->row(1), q), dot3(rotation->row(2), q)};
 }
 
-// d . (rotation q) = (rotation' d) . q. With U = 2^-53, the rounding error of rotation' d is below 4 U of its
-// terms.
+// Uses d . (rotation q) = (rotation' d) . q. With U = 2^-53, the rounding error of rotation' d is below 4 U
+// of its terms.
 double PosedShape::support_value_up(const Eigen::Vector3d& d) const {
   if (rotation == nullptr) return shape.support_value_up(d);
   double terms = 0;

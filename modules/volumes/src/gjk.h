@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lower bounds of the distance of two convex bodies: the algorithm of Gilbert, Johnson and Keerthi proposes
-// directions, and upper bounds of the bodies' supports along them prove the result.
+// Lower bounds of the distance of two convex bodies. The algorithm of Gilbert, Johnson and Keerthi proposes
+// directions. Upper bounds of the bodies' support values along these directions prove the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,31 +12,32 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A shape at its current pose: all points within `radius` of a point origin + rotation q, for the q of its
-/// core.
+/// A shape at its current pose. It consists of all points within `radius` of a point origin + rotation q,
+/// where q is any point of the shape's core.
 struct PosedShape {
   explicit PosedShape(const ConvexBody& body);
   PosedShape(const SupportShape& point, const Eigen::Vector3d& at);
 
-  /// As the functions of SupportShape, for the rotated points rotation q.
+  /// Same as the functions of SupportShape, for the rotated core, that is, its points rotation q.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
   double support_value_up(const Eigen::Vector3d& direction) const;
 
   const SupportShape& shape;
   const Eigen::Matrix3d* rotation;  ///< Null for the identity.
   Eigen::Vector3d origin;
-  double size, radius;  ///< `size` is an upper bound of |rotation q|.
+  double size, radius;  ///< `size` is an upper bound of |rotation q| over the core.
 };
 
-/// The purpose of a search.
+/// What a search computes.
 enum class Goal {
   distance,       ///< The distance.
-  exceeds_bound,  ///< Whether the distance exceeds a bound: the search ends as soon as that is known.
+  exceeds_bound,  ///< Whether the distance exceeds a bound. The search ends when this is known.
 };
 
-/// Returns a lower bound of the distance, by exact arithmetic. 0 means that no positive bound was found; then
-/// the bodies overlap or are only rounding errors apart. With Goal::exceeds_bound, the result exceeds `bound`
-/// if the distance exceeds it by more than rounding errors. The order of a and b does not change the result.
+/// Returns a lower bound of the distance, by exact arithmetic. If the result is 0, no positive bound was
+/// found, because the bodies overlap or their distance is within rounding errors. With Goal::exceeds_bound,
+/// the result exceeds `bound` if the distance exceeds `bound` by more than rounding errors. The order of a
+/// and b does not change the result.
 double lower_bound(const PosedShape& a, const PosedShape& b, Goal goal, double bound);
 
 }  // namespace pcl_bv::volumes_internal

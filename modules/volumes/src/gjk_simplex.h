@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sub-algorithm of Gilbert, Johnson and Keerthi: the point of a simplex that is nearest to the origin.
+// The sub-algorithm of Gilbert, Johnson and Keerthi. It finds the point of a simplex that is nearest to the
+// origin.
 #pragma once
 
 #include <array>
@@ -34,17 +35,19 @@ Real inner(const Vector<Real>& a, const Vector<Real>& b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/// One to four points with coordinates of magnitude about 1.
+/// A simplex of one to four points whose coordinates have a magnitude of about 1.
 ///
 /// A part of the simplex (vertex, edge or triangle) is a candidate if it contains the newest point and the
-/// foot of the perpendicular from the origin is inside the part. The candidate with the nearest foot wins, so
-/// no order of cases is needed; a wrong foot on a thin part is farther away and loses (van den Bergen 1999
-/// uses the same as a fallback). The foot on a triangle is computed along its normal, whose accuracy depends
-/// on the shape of the triangle, but not on the distance of the origin.
+/// foot of the perpendicular from the origin is inside the part. reduce() selects the candidate whose foot is
+/// nearest to the origin, so the order of the tests does not matter. An inaccurate foot on a thin part is
+/// farther away and is not selected (van den Bergen 1999 has this selection as a fallback). The foot on a
+/// triangle is computed along the normal of the triangle. The accuracy of the normal depends on the shape of
+/// the triangle, but not on its distance from the origin.
 template <typename Real>
 class Simplex {
  public:
-  /// Adds a point. There must be fewer than four, as after reduce() has returned a foot.
+  /// Adds a point. The simplex must have fewer than four points, which is true after reduce() has returned a
+  /// foot.
   void add(const Vector<Real>& point) { points_[size_++] = point; }
 
   int size() const { return size_; }
@@ -57,8 +60,9 @@ class Simplex {
     return false;
   }
 
-  /// Keeps the part that is nearest to the origin and returns its foot. Returns nothing if four points
-  /// enclose the origin and the determinant of each three of them exceeds `margin` in magnitude.
+  /// Reduces the simplex to the part that is nearest to the origin, and returns the foot on it. Returns
+  /// nothing if the simplex has four points that enclose the origin, and the determinants of any three of
+  /// them exceed `margin` in magnitude.
   std::optional<Vector<Real>> reduce(double margin) {
     const int newest = size_ - 1;
     try_point(newest);

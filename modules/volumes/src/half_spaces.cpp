@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality proves the bounds: weights w >= 0 with sum w_i n_i = d - r prove d.q <= sum w_i offset_i + r.q
-// for every q of the body. The weights are computed in plain double; the proof holds for any weights >= 0, so
-// their rounding errors cannot make it wrong.
+// Weak duality proves the bounds. Weights w_i >= 0 with sum w_i n_i = d - r prove d . q <= sum w_i offset_i +
+// r . q for every q of the body. The proof holds for any weights >= 0, so the weights are computed in plain
+// double.
 #include "half_spaces.h"
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 namespace pcl_bv::volumes_internal {
 
 /// The dual simplex method (Lemke 1954). Each step replaces one of the three half-spaces of the basis by the
-/// half-space that the corner violates most, such that the weights stay >= 0. So the proven bound only
-/// improves.
+/// half-space that the corner violates most, such that the weights stay >= 0. Up to rounding, no step makes
+/// the proven bound larger.
 class HalfSpaces::DualSimplex {
  public:
   /// `near` is a point near the sought corner. Offsets relative to it lose no digits.
@@ -30,7 +30,7 @@ class HalfSpaces::DualSimplex {
       slack_[i] = all.offset_[i] - ((all.x_[i] * near[0] + all.y_[i] * near[1]) + all.z_[i] * near[2]);
   }
 
-  /// Returns the half-spaces whose boundary is at most `tolerance` from `near`, and those of the box.
+  /// Returns the half-spaces with a slack of at most `tolerance` at `near`, and the half-spaces of the box.
   std::vector<std::size_t> tight(double tolerance) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < slack_.size(); ++i) {
@@ -40,7 +40,8 @@ class HalfSpaces::DualSimplex {
   }
 
   /// Improves the basis until its corner violates none of the candidates by more than the tolerance. The
-  /// limit of 60 steps is against cycling; a basis that is not final costs only tightness.
+  /// limit of 60 steps prevents an infinite loop by cycling. If the limit is reached, the bound is valid but
+  /// less tight.
   template <typename Candidates>
   Basis solve(Basis basis, double tolerance, const Candidates& candidates) const {
     for (int step = 0; step < 60; ++step) {
@@ -54,7 +55,7 @@ class HalfSpaces::DualSimplex {
   }
 
  private:
-  // The three normals of a basis and their cross products: crosses[k] / determinant is column k of the
+  // The three normals of a basis and their cross products. crosses[k] / determinant is column k of the
   // inverse of the matrix whose rows are the normals.
   struct Frame {
     Frame(const HalfSpaces& all, const Basis& basis) {
@@ -71,13 +72,14 @@ class HalfSpaces::DualSimplex {
              (s[2] / determinant) * crosses[2];
     }
 
-    // Returns the coefficients of d as a sum of multiples of the normals.
+    // Returns the coefficients c with d = sum of c[k] * normals[k].
     Eigen::Vector3d components(const Eigen::Vector3d& d) const {
       return {dot3(crosses[0], d) / determinant, dot3(crosses[1], d) / determinant,
               dot3(crosses[2], d) / determinant};
     }
 
-    // Lets the half-space `entering` replace one of the three. Returns false if none of them can leave.
+    // Replaces one of the three half-spaces of the basis by the half-space `entering`. Returns false if none
+    // can be replaced.
     bool exchange(const Eigen::Vector3d& normal, std::size_t entering, Basis& basis) const {
       const Eigen::Vector3d component = components(normal);
       const double negligible =
@@ -118,9 +120,9 @@ class HalfSpaces::DualSimplex {
     return found;
   }
 
-  // Corrects the weights by their residual. Rounding errors of the steps add up, and normals of neighbouring
-  // faces are nearly parallel: on bodies of 200 half-spaces and directions of length 1, the residual was up
-  // to 3e-14 before and is 2e-15 after the correction.
+  // Corrects the weights by their residual, because rounding errors of the steps add up and normals of
+  // neighbouring faces are nearly parallel. For bodies of 200 half-spaces and directions of length 1, the
+  // residual is at most 3e-14 before and 2e-15 after the correction.
   Basis refined(Basis basis) const {
     const Frame frame(all_, basis);
     for (int round = 0; round < 2; ++round) {
@@ -158,10 +160,10 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
   offset_.push_back(local);
 }
 
-// Each side of the box is proven without the box, with a residual r. If |r|_1 < 1 for all six directions
-// +-e_k, the body is bounded: a v in its recession cone with the largest component v_k = +-1 would satisfy
-// +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a contradiction. So there is a largest |q|_inf, R, with
-// R <= largest_bound + |r|_1 R.
+// The bound of each side of the box is proven without the half-spaces of the box, with a residual r. If |r|_1
+// < 1 for all six directions +-e_k, the body is bounded. Proof: a vector v in the body's recession cone whose
+// largest component is v_k = +-1 would satisfy 1 = +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a
+// contradiction. Therefore, |q|_inf has a maximum R over the body, and R <= largest_bound + |r|_1 R.
 bool HalfSpaces::add_box(double guess) {
   const std::size_t usable = size();
   for (int side = 0; side < 6; ++side) {
@@ -209,8 +211,8 @@ HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
   return basis;
 }
 
-// Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U (U = 2^-53) of their
-// terms; 8 U also cover adding the error bound.
+// Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U of their terms,
+// where U = 2^-53. The error bound of 8 U also covers the rounding of its own addition.
 HalfSpaces::DualBound HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
                                         std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
@@ -234,7 +236,8 @@ double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) c
   return dual_bound + rest + 0x1p-51 * (std::abs(dual_bound) + rest);
 }
 
-// First tries only the half-spaces at the vertex, which suffice unless rounding hides a short edge.
+// First uses only the half-spaces at the vertex, which suffice unless rounding hides a short edge. Otherwise
+// uses all.
 double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
   const double extent = std::max({max_abs_[0], max_abs_[1], max_abs_[2]});
   const double tolerance = 0x1p-51 * extent;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upper bounds of the support of a body that is given by half-spaces: a linear program in three variables,
-// whose dual proves the bound.
+// Upper bounds of the support value of a body that is given by half-spaces. A linear program in three
+// variables is solved; its dual solution proves the bound.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,27 +12,27 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A body given by half-spaces n . q <= offset, where q is relative to a nearby origin. The last six
-/// half-spaces are an axis-aligned box around the body: q_k <= offset for k = 0, 1, 2, then -q_k <= offset.
-/// Normals are multiplied by powers of two, so that their length is about 1.
+/// A body given by half-spaces n . q <= offset, where q is relative to a nearby origin. After add_box(), the
+/// last six half-spaces are an axis-aligned box around the body, in the order q_k <= offset for k = 0, 1, 2,
+/// then -q_k <= offset. Normals are multiplied by powers of two, so that their length is about 1.
 class HalfSpaces {
  public:
   static constexpr std::size_t box_sides = 6;
 
   void reserve(std::size_t count);
 
-  /// Adds the half-space normal . (origin + q) <= offset. Leaves out half-spaces with a zero normal or an
-  /// offset that overflows; that never makes the body smaller.
+  /// Adds the half-space normal . (origin + q) <= offset. Ignores half-spaces with a zero normal or an offset
+  /// that overflows, which never makes the body smaller.
   void add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin);
 
-  /// Adds a box that encloses the body by exact arithmetic; to be called once, after the last add(). `guess`
-  /// must exceed half the width of the body. Returns false if no box can be proven: the body may be
-  /// unbounded.
+  /// Adds a box that encloses the body by exact arithmetic. Must be called once, after the last add().
+  /// `guess` must exceed half the width of the body. Returns false if no box can be proven, because the body
+  /// may be unbounded.
   bool add_box(double guess);
 
-  /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Needs the box of add_box().
-  /// `vertex` should be a point of the body whose projection on `direction` is about the largest; any other
-  /// point makes the bound slower and less tight, but not wrong.
+  /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Requires that add_box() has
+  /// returned true. `vertex` should be a point of the body whose projection on `direction` is about the
+  /// largest; any other point makes the function slower and the bound less tight, but not wrong.
   double support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
 
   /// Returns an upper bound of |q| over the box.
@@ -43,13 +43,14 @@ class HalfSpaces {
   double offset(std::size_t i) const { return offset_[i]; }
 
  private:
-  /// Up to rounding, direction = sum of weights[k] * normal(sides[k]), with weights >= 0.
+  /// Three half-spaces. Up to rounding, direction = sum of weights[k] * normal(sides[k]), with weights >= 0.
   struct Basis {
     std::array<std::size_t, 3> sides;
     Eigen::Vector3d weights;
   };
 
-  /// The bound that a basis proves: direction . q <= bound + residual . |q|, where |q| is by component.
+  /// The bound that a basis proves: direction . q <= bound + residual . |q|, where |q| is the vector of the
+  /// magnitudes of q's components.
   struct DualBound {
     double bound;
     Eigen::Vector3d residual;

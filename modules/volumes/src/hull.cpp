@@ -43,8 +43,8 @@ std::vector<Face> faces_of(const Hull& hull) {
   return faces;
 }
 
-// The hull relative to its first vertex, divided by `unit` so that its size is about 1: products of five
-// lengths must not overflow.
+// The hull relative to its first vertex, divided by `unit`. Its size is then about 1, so that products of
+// five lengths do not overflow.
 struct Body {
   Polytope polytope;
   double unit = 1;  // power of two
@@ -67,9 +67,10 @@ Body body_of(const Hull& hull) {
 }
 
 // Returns an upper bound of normal . (matrix p + shift) over all p of the hull, where `normal` is
-// plane.normal rotated by the matrix. With the tiny d = matrix' normal - plane.normal, the value is
-// plane.normal . p + d . p + normal . shift. The first term is at most plane.offset, the second at most
-// d . middle + |d| . half_extents, where `middle` and `half_extents` describe a box around the hull.
+// plane.normal rotated by the matrix, and `transform` consists of matrix and shift. With the tiny d = matrix'
+// normal - plane.normal, the value is plane.normal . p + d . p + normal . shift. The first term is at most
+// plane.offset. The second term is at most d . middle + |d| . half_extents, where `middle` and `half_extents`
+// describe a box around the hull.
 double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
                     const Eigen::Vector3d& middle, const Eigen::Vector3d& half_extents) {
   Expansion sum;
@@ -86,8 +87,8 @@ double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const
   return sum.add(spread).up();
 }
 
-// Returns upper bounds of the projections of the hull on x, y, z, -x, -y, -z, from its planes perpendicular
-// to these axes; infinity where there is no such plane.
+// Returns upper bounds of the projections of the hull on x, y, z, -x, -y, -z, from the planes perpendicular
+// to these axes. A bound is infinite if there is no such plane.
 std::array<double, 6> axis_bounds(const std::vector<HullPlane>& planes) {
   std::array<double, 6> bounds;
   bounds.fill(kInfinity);

@@ -102,8 +102,8 @@ Kdop Kdop::tightened() const {
     lower[i] = std::max(min(i), -support_up(*this, slabs, identity, -n));
     upper[i] = std::min(max(i), support_up(*this, slabs, identity, n));
   }
-  // Both bounds are proven. If they cross, the polytope has no point, and the constructor makes the empty
-  // k-DOP.
+  // Both bounds of a slab are proven. If lower[i] > upper[i], the polytope has no point, and the constructor
+  // makes the empty k-DOP.
   return {set_, lower, upper};
 }
 

@@ -41,7 +41,8 @@ void check(const Directions& directions) {
   }
 }
 
-// Returns the index of the direction with the largest score(direction) / |direction|^2, the first of several.
+// Returns the index of the direction with the largest score(direction) / |direction|^2. If several are equal,
+// returns the first.
 template <typename Score>
 std::size_t best(const Directions& directions, const Score& score) {
   const auto value = [&](const Eigen::Vector3d& n) { return score(n) / n.squaredNorm(); };

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality proves the bounds: weights w >= 0 with sum w_i N_i = m prove m.p <= sum w_i b_i for every p of
-// the polytope. The weights are computed in plain double; their bound is then summed exactly.
+// Weak duality proves the bounds. The polytope is N_i . p <= b_i for all i. Weights w_i >= 0 with sum w_i N_i
+// = m prove m . p <= sum w_i b_i for every p of the polytope. The weights are computed in plain double. The
+// sum of w_i b_i is computed exactly.
 #include "kdop_support.h"
 
 #include <Eigen/LU>
@@ -23,7 +24,8 @@ double offset(const LocalSlabs& slabs, const SlabSide& side) {
   return side.sign > 0 ? slabs.max[side.slab] : -slabs.min[side.slab];
 }
 
-// Finds the side that the point violates most. Returns false if it violates none by more than rounding.
+// Stores in `side` the slab side that the point violates most. Returns false if the point violates no side by
+// more than rounding errors.
 bool most_violated(const LocalSlabs& slabs, const Eigen::Vector3d& point, SlabSide& side) {
   constexpr double rounding = 0x1p-44;
   const double extent = point.cwiseAbs().sum();
@@ -42,8 +44,8 @@ bool most_violated(const LocalSlabs& slabs, const Eigen::Vector3d& point, SlabSi
   return worst > 0;
 }
 
-// Lets `side` replace one of the three sides such that the weights stay >= 0. Returns false if none can
-// leave.
+// Replaces one of the three sides by `side` such that the weights stay >= 0. Returns false if no side can be
+// replaced.
 bool pivot(FarthestCorner& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vector3d& normal,
            const SlabSide& side) {
   const Eigen::Vector3d share = normals_inverse.transpose() * normal;
@@ -72,9 +74,9 @@ FarthestCorner start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) 
   return f;
 }
 
-// Returns an upper bound of |p| per coordinate over the basis slabs. An entry of the inverse that nearly
-// cancels may have no correct digit, but its error is below 1e-9 / |direction|, since the determinant of the
-// normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
+// Returns an upper bound of each |p_k| over the intersection of the basis slabs. An entry of the inverse that
+// nearly cancels may have no correct digit, but its error is below 1e-9 / |direction|, since the determinant
+// of the normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
 Eigen::Vector3d coordinate_bound(const Kdop& kdop, const LocalSlabs& slabs) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -110,8 +112,8 @@ LocalSlabs local_slabs(const Kdop& kdop) {
 
 FarthestCorner farthest_corner(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
   FarthestCorner f = start(slabs, direction);
-  // 360,000 random cases took at most 6 steps. The limit is against cycling; reaching it costs only
-  // tightness.
+  // 360,000 random cases took at most 6 steps. The limit prevents an infinite loop by cycling. If the limit
+  // is reached, the bound is valid but less tight.
   const std::size_t limit = 8 * slabs.set.size();
   for (std::size_t step = 0; step <= limit; ++step) {
     Eigen::Matrix3d normals;

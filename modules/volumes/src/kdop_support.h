@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upper bounds of the support of a k-DOP along any direction: a linear program in three variables with a
-// proven result.
+// Upper bounds of the support value of a k-DOP along any direction, by a linear program in three variables
+// with a proven result.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// The slabs relative to a nearby origin, so that large coordinates, such as UTM, cost no digits.
+/// The slabs of a k-DOP relative to a nearby origin, so that large coordinates, such as UTM, cost no digits.
 struct LocalSlabs {
   const KdopSet& set;
   Eigen::Vector3d origin;
   Eigen::Matrix3d basis_inverse;  ///< p = basis_inverse * s, with s the projections on the basis directions.
-  std::vector<double> min, max;   ///< Relative to the origin, correctly rounded.
+  std::vector<double> min, max;   ///< Bounds relative to the origin, correctly rounded.
 };
 
 /// The k-DOP must not be empty.
@@ -30,8 +30,8 @@ struct SlabSide {
   double sign;  ///< +1: the max side, -1: the min side.
 };
 
-/// The farthest corner along a direction, and the proof: direction = sum of weights[i] * (outward normal of
-/// sides[i]), with weights >= 0.
+/// The farthest corner along a direction, and the proof that it is the farthest: direction is the sum of
+/// weights[i] * (outward normal of sides[i]), with weights >= 0.
 struct FarthestCorner {
   std::array<SlabSide, 3> sides;
   Eigen::Vector3d weights;
@@ -39,12 +39,12 @@ struct FarthestCorner {
 };
 
 /// Finds the farthest corner by the dual simplex method, which starts at the farthest corner of the basis
-/// slabs. Each step keeps the weights >= 0, so the bound that they prove holds in spite of rounding errors of
-/// the corner.
+/// slabs. After each step, all weights are >= 0, so the bound that they prove holds in spite of rounding
+/// errors of the corner.
 FarthestCorner farthest_corner(const LocalSlabs& slabs, const Eigen::Vector3d& direction);
 
-/// Returns an upper bound, by exact arithmetic, of direction . (matrix * p) over all p of a k-DOP that is not
-/// empty. Tight to a few units in the last place of the coordinates.
+/// Returns an upper bound, by exact arithmetic, of direction . (matrix * p) over all points p of the k-DOP,
+/// which must not be empty. The bound is tight to a few units in the last place of the coordinates.
 double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix3d& matrix,
                   const Eigen::Vector3d& direction);
 

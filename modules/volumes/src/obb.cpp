@@ -24,13 +24,15 @@ using namespace volumes_internal;
 
 namespace {
 
-// Returns axis . q in double. q is itself a rounded difference: with it, three products and two sums, the
-// value is off by at most 4.01 * 2^-53 |q|_1. The error bound is twice that, which also covers adding it.
+// Returns axis . q in double, with an error bound. q is itself a rounded difference. Together, the rounding
+// errors of q, of three products and of two sums are at most 4.01 * 2^-53 |q|_1. The error bound is 8 * 2^-53
+// |q|_1, which also covers the rounding when a caller adds it.
 Projection component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
 }
 
-// Sorts sizes, so that their products and sums have the same bits for every order of the axes.
+// Returns the sizes in descending order, so that their products and sums have the same bits for every order
+// of the axes.
 Eigen::Vector3d descending(Eigen::Vector3d sizes) {
   std::sort(sizes.begin(), sizes.end(), std::greater<>());
   return sizes;

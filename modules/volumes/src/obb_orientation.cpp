@@ -14,8 +14,8 @@ namespace pcl_bv {
 
 namespace {
 
-// Components of axes that differ by at most this are treated as equal: more than rounding errors, and much
-// less than any rotation that matters.
+// Components of axes that differ by at most `same_component` are treated as equal. The value is larger than
+// rounding errors and much smaller than any rotation that matters.
 constexpr double same_component = 1e-9;
 
 Eigen::Vector3d pointing_positive(const Eigen::Vector3d& axis) {
@@ -26,8 +26,9 @@ Eigen::Vector3d pointing_positive(const Eigen::Vector3d& axis) {
   return axis;
 }
 
-// Order of axes from pointing_positive(): first by the magnitude of the components along x, then y, then z,
-// largest first; then by their signs.
+// Returns whether axis a precedes axis b. Both must be results of pointing_positive(). Axes are ordered by
+// the magnitude of their x components, largest first, then y, then z. If all magnitudes are equal, they are
+// ordered by the signs, positive first.
 bool comes_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   for (int k = 0; k < 3; ++k) {
     const double difference = std::abs(a[k]) - std::abs(b[k]);
@@ -44,7 +45,8 @@ int yaw_reference(const Eigen::Vector3d& up) {
   return std::abs(up.x()) > 0.7071067811865476 ? 1 : 0;
 }
 
-// Components of axis 0 of a right-handed box, along the reference axis and a quarter turn further.
+// Components of axis 0 of a box: `ahead` along the reference axis of yaw(), `left` a quarter turn
+// counter-clockwise from it.
 struct Heading {
   double ahead, left;
 };

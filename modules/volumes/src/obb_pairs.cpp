@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Overlap test of two boxes, and a box around both. The smallest box around both is expensive to find, so
-// merged() takes the best of three orientations.
+// Obb::overlaps() and Obb::merged(). The smallest box around two boxes is expensive to find, so merged()
+// takes the best of three orientations.
 #include <algorithm>
 #include <cmath>
 
@@ -37,8 +37,8 @@ double projection_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, con
   return Expansion().add_dot(axis, to).add_dot(-axis, from).up();
 }
 
-// Returns the third orientation for merged(): the coordinate axes; for boxes with the same third axis, such
-// as upright boxes, axes with that third axis.
+// Returns the third orientation for merged(). If both boxes have the same third axis, as upright boxes have,
+// the result has that third axis. Otherwise the result is the coordinate axes.
 Eigen::Matrix3d third_orientation(const Eigen::Vector3d& third, const Eigen::Vector3d& other_third) {
   if (third != other_third) return Eigen::Matrix3d::Identity();
   Eigen::Index smallest = 0;

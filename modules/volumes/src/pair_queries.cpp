@@ -20,7 +20,8 @@ using namespace volumes_internal;
 
 namespace {
 
-// The rounded product a b, and an upper bound of |(matrix - a b) v| for |v| = 1.
+// The rounded product `matrix` of two matrices a and b, and an upper bound `error` of |(matrix - a b) v| for
+// |v| = 1.
 struct Product {
   Eigen::Matrix3d matrix;
   double error;
@@ -57,9 +58,9 @@ ConvexBody::ConvexBody(const AnyVolume& volume) : ConvexBody() {
   size_ = shape_->size;
 }
 
-// A point origin + rotation q + e, with |e| <= radius, moves to M (origin + rotation q + e) + t. That is the
-// new origin plus (M rotation) q, up to the rounding errors of both, plus M e, which is at most stretch *
-// radius long.
+// A point origin + rotation q + e, with |e| <= radius, moves to M (origin + rotation q + e) + t. This is the
+// new origin plus (M rotation) q plus M e, up to the rounding errors of the new origin and of M rotation. The
+// length of M e is at most stretch * radius.
 ConvexBody ConvexBody::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return *this;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The three basis slabs span a parallelepiped. It is mapped to the unit cube, where the other slabs clip it:
-// there everything is well scaled, however long, thin or far from the origin the volume is.
+// The intersection of the three basis slabs is a parallelepiped. It is mapped to the unit cube, which is then
+// clipped by the other slabs. In the unit cube, all numbers are well scaled, however long, thin or far from
+// the origin the k-DOP is.
 #include "polytope.h"
 
 #include <Eigen/Geometry>
@@ -17,7 +18,7 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-// p = corner + edges * y maps the unit cube to the parallelepiped of the basis slabs.
+// The map p = corner + edges * y of the unit cube to the parallelepiped of the basis slabs.
 struct CubeMap {
   Eigen::Vector3d corner;
   Eigen::Matrix3d edges;
@@ -36,13 +37,13 @@ CubeMap cube_map(const LocalSlabs& slabs) {
 struct MappedSlab {
   Eigen::Vector3d normal;
   double min, max;
-  double rounding;  // error bound of both; large if an extent is near a unit in the last place of coordinates
+  double rounding;  // error bound of min and max; large if an extent is near a last-place unit of coordinates
 
   double width() const { return (max - min) / normal.cwiseAbs().maxCoeff(); }
 };
 
-// Returns the slabs that clip the cube: neither the basis slabs, which define it, nor slabs along which it
-// has no extent.
+// Returns the slabs that clip the cube, mapped into it. Excludes the basis slabs, which define the cube, and
+// slabs along which the parallelepiped has no extent.
 std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map) {
   std::vector<MappedSlab> result;
   for (std::size_t i = 0; i < slabs.set.size(); ++i) {
@@ -56,7 +57,8 @@ std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map
     if (normal.isZero(0)) continue;
     result.push_back({normal, slabs.min[i] - shift, slabs.max[i] - shift, 0x1p-48 * magnitude});
   }
-  // Thin slabs first: if the polytope collapses onto the cap of such a slab, the cap is still one whole face.
+  // Thin slabs clip first. If the polytope collapses onto the cap of a thin slab, the cap is then still one
+  // whole face.
   std::stable_sort(result.begin(), result.end(),
                    [](const MappedSlab& a, const MappedSlab& b) { return a.width() < b.width(); });
   return result;
@@ -98,7 +100,7 @@ double distance_to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, cons
   return (p - a - along * unit).stableNorm();
 }
 
-// Returns the outward normal of a face, with twice the area as its length.
+// Returns the outward normal of a face. Its length is twice the area of the face.
 Eigen::Vector3d twice_area(const Polytope& polytope, const Face& face) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& a = polytope.vertices[face[0]];
@@ -157,7 +159,8 @@ Polytope intersect_slabs(const Kdop& kdop) {
   compact(cube, result.vertices, result.faces);
   if (result.vertices.empty()) return result;
 
-  // Affine maps preserve centroids, so it is computed in the cube, where the scale is good.
+  // Affine maps preserve centroids, so the centroid is computed in the cube, where all numbers are well
+  // scaled.
   const Measure m = measure(result.vertices, result.faces, cube.rank());
   result.centroid = map.corner + map.edges * m.centroid(result.vertices);
   if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * std::abs(map.edges.determinant());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bodies that are given by half-spaces, k-DOPs and hulls: the corners propose support points, the half-spaces
-// prove bounds.
+// Shapes of k-DOPs and hulls, which are given by half-spaces. The corners propose support points, and the
+// half-spaces prove bounds.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -56,8 +56,8 @@ class PolytopeShape : public SupportShape {
       y_.push_back(v[1] + shift[1]);
       z_.push_back(v[2] + shift[2]);
     }
-    // Half-spaces can extend beyond the corners by the rounding of coordinates, even if all corners are one
-    // point.
+    // The body can extend beyond the corners by the rounding errors of coordinates, even if all corners are
+    // the same point.
     const Eigen::Vector3d at = origin.cwiseAbs();
     guess_ = 2 * (high - low).maxCoeff() + 0x1p-40 * at.maxCoeff() + kSmallestNormal;
   }
@@ -122,8 +122,8 @@ std::shared_ptr<SupportShape> make_polytope(const Hull& hull) {
   return std::make_shared<HullShape>(hull);
 }
 
-// Slabs that miss each other only by rounding have no corners but may have a point in common. Then the
-// corners of their box are used.
+// Slabs that miss each other only by rounding errors may have a point in common, although intersect_slabs()
+// returns no corners. In this case, the corners of the k-DOP's axis-aligned box are used.
 std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop) {
   Polytope polytope = intersect_slabs(kdop);
   if (polytope.vertices.empty()) {

@@ -12,11 +12,12 @@
 namespace pcl_bv::volumes_internal {
 
 /// A projection computed in plain double, and its error bound. Three products and two sums are off by at most
-/// 3.01 * 2^-53 of the sum of magnitudes; the smallest normal covers products that underflow.
+/// 3.01 * 2^-53 of the sum of the products' magnitudes. The smallest normal number covers products that
+/// underflow.
 struct Projection {
   double value, error;
 
-  /// Bounds of the exact projection. Twice the error covers the rounding of these bounds, too.
+  /// Bounds of the exact projection. The factor 2 also covers the rounding errors of low() and high().
   double low() const { return value - 2 * error; }
   double high() const { return value + 2 * error; }
 };

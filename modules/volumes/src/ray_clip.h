@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Conservative clipping of a ray: the slab method (Kay, Kajiya 1986) with rounding outward.
+// Conservative clipping of a ray by the slab method (Kay, Kajiya 1986) with rounding outward.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,9 +18,9 @@ namespace pcl_bv::volumes_internal {
 
 class RayClip {
  public:
-  /// Keeps the t with t * slope <= bound. A NaN clips nothing. `slope` must not exceed the exact slope, and
-  /// `bound` must not be below the exact bound by more than one rounding. interval() allows for that rounding
-  /// and for the rounding of the quotient.
+  /// Restricts the interval to the t with t * slope <= bound. If an argument is NaN, the interval does not
+  /// change. `slope` must not exceed the exact slope, and `bound` must not be below the exact bound by more
+  /// than one rounding. interval() allows for that rounding and for the rounding of the quotient.
   void keep(double slope, double bound) {
     if (slope > 0) {
       exit_ = std::min(exit_, bound / slope);
@@ -31,14 +31,14 @@ class RayClip {
     }
   }
 
-  /// Keeps the t from `enter` to `exit`. interval() allows for one rounding of each.
+  /// Restricts the interval to the t from `enter` to `exit`. interval() allows for one rounding of each.
   void keep_between(double enter, double exit) {
     enter_ = std::max(enter_, enter);
     exit_ = std::min(exit_, exit);
   }
 
-  /// Keeps the t where the ray is within `radius` of a point or a line. With s = t 2^exponent, the squared
-  /// distance of the ray is min_distance^2 + (speed (s - nearest))^2.
+  /// Restricts the interval to the t where the ray is within `radius` of a point or a line. With s = t
+  /// 2^exponent, the squared distance of the ray is min_distance^2 + (speed (s - nearest))^2.
   void keep_within_radius(double nearest, double min_distance, double radius, double speed, int exponent) {
     if (min_distance > radius) return keep(0, -1);
     const double half =
@@ -46,9 +46,9 @@ class RayClip {
     keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
   }
 
-  /// Returns the remaining interval, or nothing if no t >= 0 is left. Both ends are moved outward by 2^-51 of
-  /// their magnitude, for two roundings and the rounding of this move, plus the smallest normal, for
-  /// underflow.
+  /// Returns the remaining interval, or nothing if it contains no t >= 0. Both ends are moved outward by
+  /// 2^-51 of their magnitude, which covers two roundings and the rounding of the move, plus the smallest
+  /// normal number, which covers underflow.
   std::optional<RayInterval> interval() const {
     using Limits = std::numeric_limits<double>;
     const double finite_enter = std::min(enter_, Limits::max());
@@ -63,8 +63,8 @@ class RayClip {
   double exit_ = kInfinity;
 };
 
-/// A direction of any length as u 2^exponent. The largest component of u has a magnitude in [1, 2), so that
-/// |u|^2 is in the range of double.
+/// A direction of any length, stored as u * 2^exponent. The largest component of u has a magnitude in [1, 2),
+/// so that |u|^2 is in the range of double.
 struct ScaledDirection {
   explicit ScaledDirection(const Eigen::Vector3d& direction)
       : exponent(std::ilogb(direction.cwiseAbs().maxCoeff())),
@@ -73,8 +73,9 @@ struct ScaledDirection {
   Eigen::Vector3d u;
 };
 
-/// Implements intersect() of a volume. `clip(ray)` clips a ray of non-zero direction. A zero direction tests
-/// the origin. An empty volume and numbers that are not finite give nothing.
+/// Implements Volume::intersect(). `clip(ray)` clips a ray whose direction is not zero. If the direction is
+/// zero, the function tests whether the volume contains the origin. Returns nothing for an empty volume and
+/// for numbers that are not finite.
 template <typename Volume, typename Clip>
 std::optional<RayInterval> intersect_ray(const Volume& volume, const Eigen::Vector3d& origin,
                                          const Eigen::Vector3d& direction, const Clip& clip) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Meshes made of parallel rings of vertices: cylinders, capsules, ellipsoids.
+// Meshes made of parallel rings of vertices, for cylinders, capsules and ellipsoids.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The shapes of all kinds except k-DOPs and hulls. With U = 2^-53, three products and two sums are off by at
-// most 3.01 U of the sum of their magnitudes; 2^-50 of it also covers adding the error bound. The smallest
-// normal covers underflow.
+// The shapes of all kinds of volumes except k-DOPs and hulls. With U = 2^-53, three products and two sums are
+// off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum,
+// which also covers the rounding when the error bound is added. The smallest normal number covers underflow.
 #include "shape.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class AabbShape final : public SupportShape {
     return ((x + y) + z) + (0x1p-50 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal);
   }
 
-  // The distance itself: gaps along the axes, rounded down.
+  // Returns the exact distance, rounded down, from the gaps along the three axes.
   Gap parallel_gap(const SupportShape& other) const override {
     const Aabb& b = static_cast<const AabbShape&>(other).box_;
     Eigen::Vector3d gap;
@@ -69,9 +69,10 @@ class AabbShape final : public SupportShape {
   Eigen::Vector3d low_, high_;
 };
 
-// Components y of d along axes A (columns, nearly orthonormal): d = A y + r. One step of refinement reduces r
-// to rounding errors. `residual` is an upper bound of |r|: the sum of the magnitudes of its components, each
-// with its error bound, which is at most 4.01 U of the terms.
+// The components y of d along the axes, with d = A y + r. The columns of A are the axes, which are nearly
+// orthonormal. One step of refinement reduces r to rounding errors. `residual` is an upper bound of |r|,
+// namely the sum of the magnitudes of r's components and of their error bounds. The error of a component is
+// at most 4.01 U of its terms.
 struct Components {
   Components(const Eigen::Matrix3d& axes, const Eigen::Vector3d& d) {
     for (int i = 0; i < 3; ++i)
@@ -92,8 +93,9 @@ struct Components {
   double residual = 0;
 };
 
-// Returns the dual basis of the axes: column i satisfies axis i . q_i = 1 and is perpendicular to the other
-// axes. One correction of the axes by their deviation from orthonormal is accurate to 1e-24.
+// Returns the dual basis q_i of the axes as columns: axis i . q_i = 1, and q_i is perpendicular to the other
+// axes. The result is the axes after one correction by their deviation from orthonormal, which is accurate to
+// 1e-24.
 Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +112,8 @@ Eigen::Vector3d linear_combination(const Eigen::Matrix3d& columns, const Eigen::
   return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
 }
 
-// By this factor, |q| can exceed the length computed from components along axes orthonormal to 1e-12.
+// Upper bound of |q| divided by the length that is computed from q's components along axes that are
+// orthonormal to 1e-12.
 constexpr double kSkewFactor = 1 + 0x1p-36;
 
 class ObbShape final : public SupportShape {
@@ -140,8 +143,8 @@ class ObbShape final : public SupportShape {
   Eigen::Vector3d half_;
 };
 
-// With s_i = axis i . q: sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy-Schwarz, since
-// |(s_i / r_i)| <= 1.
+// Bound of the support value: let s_i = axis i . q. Then sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i
+// r_i)| by the Cauchy-Schwarz inequality, since |(s_i / r_i)| <= 1.
 class EllipsoidShape final : public SupportShape {
  public:
   explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), dual_(dual(axes_)), radii_(e.radii()) {
@@ -173,9 +176,9 @@ class EllipsoidShape final : public SupportShape {
   Eigen::Vector3d radii_;
 };
 
-// With the axis u, each point is q = t u + v with |t| <= h / |u|, v perpendicular to u and |v| <= r. So
-// d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50. The error of d . u is below 4 U |d|, the
-// error of d x u below 6 U |d|.
+// Bound of the support value: let u be the axis. Each point is q = t u + v with |t| <= h / |u|, v
+// perpendicular to u and |v| <= r. Therefore d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50.
+// The error of d . u is below 4 U |d|, the error of d x u is below 6 U |d|.
 class CylinderShape final : public SupportShape {
  public:
   explicit CylinderShape(const Cylinder& c)
@@ -186,7 +189,7 @@ class CylinderShape final : public SupportShape {
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     const double along = dot3(axis_, d);
-    const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));  // also if it is tiny
+    const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));  // accurate even if it is tiny
     const double length = length3(perpendicular);
     Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
     if (!(length > 0)) return end;
@@ -205,7 +208,7 @@ class CylinderShape final : public SupportShape {
   double core_radius_, half_height_;
 };
 
-// The shape of capsules, spheres and points. Both ends are rounded once, relative to the origin.
+// The shape of capsules, spheres and points. The ends relative to the origin are rounded once.
 class SegmentShape final : public SupportShape {
  public:
   SegmentShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double around) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Convex bodies for the search for the nearest points of two bodies: support points in plain double, which
-// propose directions, and proven upper bounds of the support, which give the result.
+// Convex bodies for the GJK search for the nearest points of two bodies. Support points in plain double
+// propose directions. Proven upper bounds of the support value give the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,14 +12,15 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A lower bound of a distance. If `is_exact`, it is the distance up to rounding, and 0 only if the distance
-/// is 0.
+/// A lower bound of a distance. If `is_exact`, `bound` is the distance up to rounding, and is 0 only if the
+/// distance is 0.
 struct Gap {
   double bound;
   bool is_exact;
 };
 
-/// A core, relative to a nearby origin, and all points within `radius` of it.
+/// A body that consists of a convex core and all points within `radius` of the core. Points q of the core are
+/// relative to a nearby origin.
 class SupportShape {
  public:
   virtual ~SupportShape() = default;
@@ -31,17 +32,18 @@ class SupportShape {
   /// The length of the direction must be about 1.
   virtual double support_value_up(const Eigen::Vector3d& direction) const = 0;
 
-  /// Returns a lower bound of the distance to another shape of the same kind, from faces that are parallel in
-  /// both. Both shapes must be at their original pose.
+  /// Returns a lower bound of the distance to another shape of the same kind, from pairs of parallel faces.
+  /// Both shapes must be at their original pose.
   virtual Gap parallel_gap(const SupportShape&) const { return {0, false}; }
 
-  /// Returns some numbers that distinguish shapes of one kind; they order the two shapes of a pair.
+  /// Returns numbers that distinguish shapes of the same kind. lower_bound() uses them to order the two
+  /// shapes of a pair.
   virtual Eigen::Vector3d order_key() const = 0;
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double size = 0;    ///< Upper bound of |q|. Infinite if no bound is known.
-  double radius = 0;  ///< The body is all points within this distance of the core.
-  int kind = 0;       ///< AnyVolume::index().
+  double size = 0;    ///< Upper bound of |q| over the core. Infinite if no bound is known.
+  double radius = 0;  ///< Distance from the core to the surface of the body.
+  int kind = 0;       ///< index() of the AnyVolume.
 };
 
 /// Returns null for an empty volume, and for a k-DOP whose slabs are proven to have no point in common.

@@ -29,9 +29,9 @@ bool precedes(const Sphere& a, const Sphere& b) {
                                       b.center().end());
 }
 
-// Returns the smallest sphere around two spheres, neither of which encloses the other. Its radius is measured
-// from the rounded centre to the far side of each sphere, with each step rounded up. So it encloses both in
-// spite of the rounding error of the centre.
+// Returns the smallest sphere around two spheres. Neither may enclose the other. The radius is the distance
+// from the rounded centre to the far side of each sphere, with each step rounded up, so the result encloses
+// both spheres in spite of the rounding error of the centre.
 Sphere around(const Sphere& big, const Sphere& small) {
   const Eigen::Vector3d step = small.center() - big.center();
   const double d = step.stableNorm();
@@ -41,9 +41,10 @@ Sphere around(const Sphere& big, const Sphere& small) {
   return {center, std::max(far_side(big), far_side(small))};
 }
 
-// Returns the limit of the computed squared distance d2 for |a - b| <= r, so large that no pair is rejected
-// because of rounding. In units of 2^-53, the relative errors are 1 for each component of q = a - b, at most
-// 5 for d2, and at most 3 for the limit (5 if r is itself a rounded sum). 16 covers all of them.
+// Returns an upper limit for the computed squared distance d2 of a and b. If |a - b| <= r by exact
+// arithmetic, d2 is at most this limit, in spite of rounding. In units of 2^-53, the relative errors are 1
+// for each component of q = a - b, at most 5 for d2, and at most 3 for the limit (5 if r is itself a rounded
+// sum). The factor of 16 units covers all of them.
 double square_within_rounding(double r) {
   return r * r * (1 + 0x1p-49) + kSmallestNormal;
 }
@@ -53,11 +54,11 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
-// Clips the ray to an interval around the computed point of the line that is nearest to the centre. Let
-// q = origin - center and U = 2^-53. The position of that point is off by at most 4 U |q|, and its distance h
-// from the centre by another 9 U |q|. Along the line, it is at most 8 U |q|_1 from the exact foot of the
-// perpendicular. A radius that is larger by 52 U |q|_1 covers all of that; 64 U |q|_1 also cover the rounding
-// of the radius.
+// Clips the ray to an interval around the point P of the ray's line that is nearest to the centre. P is
+// computed in double. Let q = origin - center and U = 2^-53. The position of P is off by at most 4 U |q|, and
+// the distance h of P from the centre by another 9 U |q|. Along the line, P is at most 8 U |q|_1 from the
+// exact foot of the perpendicular. A radius that is larger by 52 U |q|_1 covers these errors. A radius that
+// is larger by 64 U |q|_1 also covers its own rounding.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);

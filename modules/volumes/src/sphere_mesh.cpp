@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The mesh of a sphere: an icosahedron whose triangles are split into four, twice.
+// The mesh of a sphere is an icosahedron whose triangles are each split into four, twice.
 #include <cmath>
 #include <map>
 #include <utility>

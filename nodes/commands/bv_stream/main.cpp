@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command bv_stream: objects in a stream of clouds.
+// The command bv_stream, which finds objects in a stream of clouds.
 
 #include "commands/shared/interruption.h"
 #include "commands/shared/run_command.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command line of bv_stream. It is checked completely before any frame is read.
+// The command line of bv_stream, which is checked completely before any frame is read.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +33,11 @@ struct StreamOptions {
   Rate rate = Rate::fixed;
   std::vector<SinkDescription> sinks;
   std::optional<std::filesystem::path> stats;
-  double report_seconds = 0;  ///< Seconds between reports; 0: none.
+  double report_seconds = 0;  ///< Seconds between reports. 0: no reports.
 };
 
-/// Parses the command line. Returns the options, or a text to be printed on standard output (--help,
-/// --version, --print-config). Throws UsageError, and IoError for a folder that cannot be listed.
+/// Parses the command line. Returns the options, or for --help, --version and --print-config a text to be
+/// printed on standard output. Throws UsageError, and IoError for a folder that cannot be listed.
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv);
 
 }  // namespace pcl_bv

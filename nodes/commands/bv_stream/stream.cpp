@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The main thread reads frames and waits until each is due; the thread of the runner processes and writes.
+// The main thread reads frames and waits until each is due. The thread of the runner processes frames and
+// writes results.
 
 #include "stream.h"
 
@@ -42,7 +43,7 @@ class Progress {
   }
 
  private:
-  // Not shown if results go to the terminal, too: they would mix.
+  // Progress is not shown if results go to the terminal, too, because both would mix.
   const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
 
@@ -66,7 +67,7 @@ class Reader {
       : options_(options), runner_(runner), sinks_(sinks), interrupted_(interrupted) {}
 
   void read(FrameSource& source) {
-    print_warnings(source);  // also when a signal has come already
+    print_warnings(source);  // also if a signal has already come
     for (bool more = true; more && wanted();) {
       Frame frame;
       try {
@@ -75,7 +76,7 @@ class Reader {
         print_warnings(source);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
-        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it advances the schedule, too
+        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // keeps the schedule
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
         runner_.report_unreadable({}, std::string("the source failed: ") + error.what());
@@ -94,7 +95,7 @@ class Reader {
       report_problem(options_.source + ": " + warning);
   }
 
-  // Returns whether to go on. It is called again and again, so it also prints the periodic reports.
+  // Returns whether to continue. As it is called repeatedly, it also prints the periodic reports.
   bool wanted() {
     if (options_.report_seconds > 0 && Seconds(Clock::now() - reported_).count() >= options_.report_seconds) {
       reported_ = Clock::now();
@@ -118,16 +119,16 @@ class Reader {
 
   bool paced() const { return options_.rate == Rate::fixed || options_.rate == Rate::recorded; }
 
-  // Waits until the frame is processed or the next one is due. Reading the next file would take a core and
-  // caches from the processing, which a live sensor does not do.
+  // Waits until the frame is processed or the next one is due. If the next file were read meanwhile, reading
+  // would take a core and caches from the processing, as a live sensor does not.
   void leave_the_worker_alone(Clock::time_point until) {
     while (wanted() && Clock::now() < until &&
            !runner_.wait_idle(std::min(until, Clock::now() + kPollInterval)))
       ;
   }
 
-  // Returns when a frame is due. Stamps that go back add no time. The sum is limited, since a clock cannot
-  // count beyond some centuries.
+  // Returns when a frame is due. Stamps that go back add no time. The sum of the steps is limited, because a
+  // clock cannot count more than some centuries.
   Clock::time_point due(const Frame& frame) {
     step_ = 1 / options_.replay.rate_hz;
     if (options_.rate == Rate::recorded)
@@ -152,7 +153,7 @@ class Reader {
   double seconds_ = 0, step_ = 0;
 };
 
-// Prints dropped frames and frames without a pose. Errors have been printed before.
+// Prints the number of dropped frames and of frames without a pose. Errors have been printed before.
 void report_dropped_frames(const FrameTotals& frames, std::uint64_t without_pose) {
   const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
   const std::string all = " of " + std::to_string(frames.in) + " frames";
@@ -182,7 +183,8 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     last_note = frame.note;
     for (std::string& warning : warnings.take(frame, result))
       report_problem(named(frame, with_options(std::move(warning))));
-    // Only its presence is compared: its numbers differ from frame to frame.
+    // Warns when the range warning appears. Compares only its presence, because its numbers change from frame
+    // to frame.
     const std::string range = range_warning(result, range_from);
     if (!range.empty() && !out_of_range) report_problem(named(frame, range));
     out_of_range = !range.empty();
@@ -205,7 +207,7 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
 int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   const std::unique_ptr<FrameSource> source = parse_with(
       "--source", options.source, [&](const auto& name) { return open_source(name, options.replay); });
-  FramePipeline pipeline(options.config.pipeline);  // reads its files before outputs are opened
+  FramePipeline pipeline(options.config.pipeline);  // reads region files before outputs are opened
   SinkGroup sinks(report_problem);
   for (const SinkDescription& sink : options.sinks)
     parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });
@@ -215,7 +217,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   config.policy = resolved_policy(config.policy, options.rate != Rate::max);
   FrameResult reserved;
   if (options.rate != Rate::max)
-    pipeline.reserve(points_of_a_sweep, reserved);  // at maximum rate, this would only delay the first frame
+    pipeline.reserve(points_of_a_sweep, reserved);  // useless at maximum rate: it would delay the first frame
   StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config,
                       std::move(reserved));
   Reader reader(options, runner, sinks, interrupted);
@@ -226,7 +228,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   RunnerStats stats = runner.stats();
   stats.sinks = sinks.times();
   report_dropped_frames(stats.frames, reader.without_pose);
-  if (errors_go_to_a_terminal()) report(stats);  // no report in scripts
+  if (errors_go_to_a_terminal()) report(stats);  // scripts get no report
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {

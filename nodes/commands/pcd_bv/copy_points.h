@@ -11,8 +11,8 @@
 
 namespace pcl_bv {
 
-/// Copies the coordinates of points in memory to `to`, without gaps, as `scalar`. float32 is possible for
-/// float32 points only.
+/// Copies the coordinates of points in memory to `to`, without gaps, as `scalar`. Only points of type float32
+/// can be copied as float32.
 inline void copy_points(const PointView& points, ScalarType scalar, std::byte* to) {
   const auto copy = [&](auto example, const auto& load) {
     decltype(example) xyz[3];

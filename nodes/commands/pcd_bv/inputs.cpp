@@ -35,7 +35,8 @@ void report_new_warnings(RecordedClouds& clouds, const std::string& file) {
     report_problem(std::string(file).append(": ").append(warning));
 }
 
-// Reports damage after each cloud, since much of it is only found while clouds are read.
+// Loads a recorded cloud. Reports damage of the file afterwards, because much of it is found only while
+// clouds are read.
 RawCloud load_recorded(const Job& job) {
   const std::string file = job.input.substr(0, job.input.rfind('#'));
   try {
@@ -87,7 +88,7 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   }
 }
 
-// Returns all files of a folder, whatever their names; their order does not matter.
+// Returns all files of a folder, with any names and in any order.
 std::vector<Job> expand_partials(const std::string& argument) {
   if (!is_folder(argument)) return {{argument}};
   std::vector<Job> jobs;
@@ -157,7 +158,7 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
     if (given.has_extension() || is_device(given)) return given;
     reject_value(option, given.string(), std::string("has no suffix such as ") + extension);
   };
-  // The extension of the target selects the format, also for a folder.
+  // The extension of the output selects the format, also if the output is a folder.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
   const char* image_extension = svg ? ".svg" : ".png";
   const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The clouds that the arguments name, and the output files of each cloud.
+// The clouds that the command line names, and the output files of each cloud.
 #pragma once
 
 #include <filesystem>
@@ -22,34 +22,35 @@ class Tiles;
 /// One cloud to be processed.
 struct Job {
   std::string input;                   ///< A file, synth:NAME[:POINTS[:SEED]], or RECORDING#NUMBER.
-  std::optional<std::string> error{};  ///< Why there is nothing to load, such as a folder without clouds.
+  std::optional<std::string> error{};  ///< Why nothing can be loaded: a folder without clouds.
   std::optional<std::filesystem::path> labels{}, mesh{}, image{}, view_html{};
   std::size_t bin_fields = 0;                   ///< Floats per point of .bin files, as in read_cloud().
-  std::shared_ptr<RecordedClouds> recording{};  ///< Holds cloud `number`; `input` is FILE#number.
+  std::shared_ptr<RecordedClouds> recording{};  ///< Recording of cloud `number`; `input` is FILE#number.
   std::size_t number = 0;
-  std::shared_ptr<Tiles> tiles{};       ///< A cloud in several inputs (--together); `input` is its name.
-  std::vector<std::string> partials{};  ///< Files of partial results (--merge); `input` is their name.
+  std::shared_ptr<Tiles> tiles{};       ///< Set for a tiled cloud (--together); `input` is kTiledName.
+  std::vector<std::string> partials{};  ///< Files of partial results (--merge).
 };
 
-/// The name in results of a cloud that is tiled over several inputs or merged from partial results.
+/// The name, in results, of a cloud that is tiled over several inputs or merged from partial results.
 inline constexpr char kTiledName[] = "together";
 
-/// Whether an input is a generated cloud, not a file.
+/// Returns whether an input is a generated cloud, not a file.
 bool is_synth(const std::string& input);
 
 /// Returns all inputs as jobs without output files. Folders are expanded in natural order.
 std::vector<Job> list_inputs(const Options& options);
 
-/// Returns the jobs with their output files: one job for each input, or one job for all inputs (--together,
-/// --merge). A tiled cloud consists of `tiles` or, if that is null, of tiles whose headers are read now.
-/// Throws UsageError if two results would go to the same file or an input would be overwritten.
+/// Returns the jobs with their output files. There is one job for each input, or one job for all inputs
+/// (--together, --merge). A tiled cloud consists of `tiles`. If `tiles` is null, the headers of the inputs
+/// are read to create the tiles. Throws UsageError if two results would go to the same file or an input would
+/// be overwritten.
 std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs,
                            std::shared_ptr<Tiles> tiles = nullptr);
 inline std::vector<Job> plan_jobs(const Options& options) {
   return plan_jobs(options, list_inputs(options));
 }
 
-/// Loads the cloud of a job. Throws IoError with the reason, or std::invalid_argument for an unknown scene.
+/// Loads the cloud of a job. Throws IoError if that fails, and std::invalid_argument for an unknown scene.
 RawCloud load_cloud(const Job& job, const ParallelPolicy& policy);
 
 }  // namespace pcl_bv

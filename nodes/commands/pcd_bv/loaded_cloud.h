@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cloud of a job: in memory, or in its file if nothing needs all points at once.
+// The cloud of a job. It is in memory, or in its file if nothing needs all points at the same time.
 #pragma once
 
 #include <memory>
@@ -13,23 +13,23 @@ namespace pcl_bv {
 
 class LoadedCloud {
  public:
-  /// With `in_memory`, the cloud is read into memory by the threads of the policy. A tiled cloud is read into
+  /// With `in_memory`, the threads of the policy read the cloud into memory. A tiled cloud is read into
   /// memory only if it has at most kChunkPoints points. The origin, if requested, is subtracted from the
   /// points of xyz(). Throws as load_cloud(), and TileError for a tiled cloud.
   LoadedCloud(const Job& job, bool in_memory, const ParallelPolicy& policy, const OriginOption& origin);
 
-  /// Returns fields, size and viewpoint; the points only if the cloud is in memory.
+  /// Returns the cloud with fields, size and viewpoint. It has points only if the cloud is in memory.
   const RawCloud& cloud() const { return file_ ? file_->header() : cloud_; }
 
   PointView xyz() const { return xyz_; }
 
-  /// Returns the origin that was subtracted, if one was requested.
+  /// Returns the origin that was subtracted; nullopt if no origin was requested.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
   /// Throws IoError if the cloud is not in memory and one of its files has been changed.
   void require_unchanged() const;
 
-  /// Gives the cloud away to its last user.
+  /// Moves the cloud in memory to the caller. Must be the last access to the points.
   RawCloud take() { return std::move(cloud_); }
 
  private:
@@ -38,10 +38,10 @@ class LoadedCloud {
   std::unique_ptr<CloudFile> file_;
   std::shared_ptr<const Tiles> tiles_;
   RawCloud cloud_;
-  PointView xyz_;  // refers to one of the members around it
+  PointView xyz_;  // refers to the points in another member
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  std::vector<std::byte> points_before_shift_, points_;  // tiles' points and shifted points, if in memory
+  std::vector<std::byte> points_before_shift_, points_;  // of tiles, and after the shift, if in memory
 };
 
 }  // namespace pcl_bv

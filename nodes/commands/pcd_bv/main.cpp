@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command pcd_bv: bounding volumes of point clouds.
+// The command pcd_bv, which computes bounding volumes of point clouds.
 
 #include "commands/shared/run_command.h"
 #include "inputs.h"

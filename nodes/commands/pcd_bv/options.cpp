@@ -83,13 +83,14 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.flag("--progress", texts.progress, "Show a progress bar if standard error is a terminal");
 }
 
-// An empty name means that the option is absent: the command line rejects empty names.
+// Returns nullopt for an empty name, which means that the option is absent, because the parser rejects empty
+// names.
 std::optional<std::filesystem::path> path_or_none(const std::string& name) {
   if (name.empty()) return std::nullopt;
   return name;
 }
 
-/// Throws UsageError unless the file has one of these extensions. A name without an extension may be a
+/// Throws UsageError if the file has an extension other than these. A name without an extension may be a
 /// folder.
 void require_extension(const char* option, const std::string& name,
                        std::initializer_list<std::string_view> known) {
@@ -162,7 +163,8 @@ void reject_combinations(const CommandLine& line, const char* option,
 }
 
 // Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground
-// and size limits), and for more options if only partial results are made or merged.
+// and size limits). If partial results are made or merged, also rejects the options that cannot work with
+// partial results.
 void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command line of pcd_bv. It is checked completely before any work begins.
+// The command line of pcd_bv, which is checked completely before any work begins.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ namespace pcl_bv {
 
 enum class OutputFormat { text, json, jsonl, csv };
 
-/// The origin that is subtracted from all coordinates first.
+/// The origin that is subtracted from all coordinates before processing.
 struct OriginOption {
   bool requested = false;
-  std::optional<Eigen::Vector3d> at{};  ///< If not given: the centre of each cloud, in whole numbers.
+  std::optional<Eigen::Vector3d> at{};  ///< If not given: rounded_centre() of each cloud.
 };
 
-/// One of `count` shares of a cloud, by its number from 0 on.
+/// One of `count` shares of a cloud; the first share has number 0.
 struct ShareOption {
   std::size_t number = 0;
   std::size_t count = 1;
@@ -41,9 +41,9 @@ struct Options {
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
   ViewFrom view = ViewFrom::iso;
-  bool tiled = false;  ///< All inputs are one cloud; also set by --partial without --merge.
-  bool merge = false;  ///< Inputs are files of partial results.
-  std::optional<std::filesystem::path> partial;  ///< File for partial results; then no volumes are written.
+  bool tiled = false;  ///< Whether all inputs are one cloud (--together, --partial).
+  bool merge = false;  ///< Whether inputs are files of partial results.
+  std::optional<std::filesystem::path> partial;  ///< File for partial results instead of volumes.
   ShareOption share;                             ///< The share of points that the partial results cover.
   bool threads_given = false;                    ///< Whether --threads was given.
   bool check = false;
@@ -54,19 +54,19 @@ struct Options {
   bool clusters() const { return pipeline.cluster.tolerance > 0; }
 };
 
-/// Whether files other than the report are requested.
+/// Returns whether files other than the report are requested.
 inline bool writes_files(const Options& options) {
   return options.labels || options.mesh || options.image || options.view_html;
 }
 
-/// The commands that share these options.
+/// The commands that use parse_options().
 enum class PcdBvCommand {
   serial,
   mpi  ///< pcd_bv_mpi, which has no options for files of partial results.
 };
 
-/// Parses the command line. Returns the options, or a text to be printed on standard output (--help,
-/// --version, --print-config). Throws UsageError.
+/// Parses the command line. Returns the options, or for --help, --version and --print-config a text to be
+/// printed on standard output. Throws UsageError.
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
                                                  PcdBvCommand command = PcdBvCommand::serial);
 

@@ -16,7 +16,7 @@
 namespace pcl_bv {
 
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write) {
-  constexpr std::size_t many = std::size_t{4} << 20;  // bytes; a shorter text may wait in memory for its turn
+  constexpr std::size_t many = std::size_t{4} << 20;  // bytes; shorter texts may wait in memory
   Result result;
   result.status = outcome.status;
   result.points = outcome.report.error ? 0 : outcome.report.points;
@@ -154,7 +154,7 @@ void OrderedResults::write(Result& result) {
   failed_ += result.status == Status::failed ? 1 : 0;
   points_ += result.points;
   progress_.show(written_ + 1, points_);
-  // Without readers, the work goes on only for files and checks.
+  // If nobody can read reports, the work continues only to write files or check volumes.
   if (reports_ != Reports::wanted && !writes_files(options_) && !options_.check) stopped_ = true;
 }
 

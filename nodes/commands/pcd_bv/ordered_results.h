@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes results in the order of the inputs, in whichever order they come.
+// Writes results in the order of the inputs, although jobs finish in any order.
 #pragma once
 
 #include <chrono>
@@ -22,23 +22,25 @@ namespace pcl_bv {
 
 /// The result of a finished job.
 struct Result {
-  std::string text;             ///< The part that is not written yet.
-  bool partly_written = false;  ///< The first part has been written.
+  std::string text;             ///< The part of the report that is not written yet.
+  bool partly_written = false;  ///< Whether the first part has been written.
   std::vector<std::string> messages;
   std::size_t points = 0;
   Status status = Status::done;
 };
 
-/// Writes the beginning of a long text, empties the text and returns true; or leaves it unchanged and returns
-/// false.
+/// Takes the next part of a long report. If it is the report's turn, writes the part, empties `text` and
+/// returns true. Otherwise returns false and leaves `text` unchanged.
 using WriteEarly = std::function<bool(std::string& text)>;
 
-/// Returns the outcome as text. A report that cannot be written, most likely for lack of memory, becomes a
-/// report of this error, unless its beginning is already written. Other inputs are not affected.
+/// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the result
+/// is a report of this error, unless the beginning of the report is already written. Results of other inputs
+/// are not affected.
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
-/// As WriteEarly and result_of(), for a whole job: do_job() processes it and also returns its messages.
+/// As WriteEarly, but also prints the messages of the job.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& messages, std::string& text)>;
+/// Processes the job. Returns its result_of() with its messages.
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
               const WriteJobEarly& write = {});
 
@@ -50,7 +52,7 @@ class Progress {
   void show(std::size_t files_done, std::size_t points) const;
   void erase() const;
 
-  /// Seconds since construction.
+  /// Returns the seconds since construction.
   double seconds() const;
 
  private:
@@ -59,20 +61,20 @@ class Progress {
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Hands out jobs, takes their results in any order and writes them in the order of the jobs.
+/// Distributes jobs to threads, takes their results in any order and writes them in the order of the jobs.
 class OrderedResults {
  public:
   OrderedResults(const Options& options, std::size_t jobs, std::size_t workers);
 
-  /// Returns the next job, or nullopt if there is none or the work was stopped. Waits while too many results
-  /// wait for an earlier, slow job.
+  /// Returns the number of the next job, or nullopt if there is none or stop() was called. Waits while too
+  /// many results cannot be written because an earlier job is not finished.
   std::optional<std::size_t> next();
 
-  /// Takes the result of a job and writes all results whose turn it is.
+  /// Takes the result of a job. Writes all results whose earlier jobs are all written.
   void add_result(std::size_t job, Result result);
 
-  /// If it is the job's turn, prints the messages, writes the text, clears both and returns true; otherwise
-  /// returns false. Therefore a report of a million clusters is never whole in memory.
+  /// If all earlier jobs are written, prints the messages, writes the text, clears both and returns true.
+  /// Otherwise returns false. With early writing, a report of a million clusters is never whole in memory.
   bool write_early(std::size_t job, std::vector<std::string>& messages, std::string& text);
 
   /// Makes all workers stop after their current job.
@@ -81,7 +83,7 @@ class OrderedResults {
   /// Completes the output after the last result. Returns the status of all jobs.
   Status finish();
 
-  /// Stops after the report that is being written and completes the output: the file or the JSON array.
+  /// Stops after the report that is being written, then completes the output file or the JSON array.
   void interrupt();
 
  private:

@@ -62,7 +62,7 @@ bool ReportWriter::finish() {
 
 bool ReportWriter::write(std::string&& text) {
   if (!file_) return write_standard_output(text);
-  constexpr std::size_t worth_a_piece = 1 << 16;  // bytes; shorter texts are appended to the last piece
+  constexpr std::size_t worth_a_piece = 1 << 16;  // bytes; the last piece is filled up to this size
   if (!pending_.empty() && pending_.back().size() + text.size() < worth_a_piece) {
     pending_.back() += text;
   } else if (!text.empty()) {

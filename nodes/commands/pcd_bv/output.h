@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes reports: to standard output as they come, or to one file at the end.
+// Writes reports, either to standard output when each is ready, or to one file at the end.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,21 @@
 
 namespace pcl_bv {
 
-/// Renders one report without the separators between reports, so that several can be rendered at a time.
-/// `take` gets the text in pieces, none of them empty. It gets no piece for a failed input if the format does
-/// not show failed inputs.
+/// Renders one report without the separators between reports, so that several threads can render reports at
+/// the same time. `take` gets the text in pieces that are not empty. It gets no piece for a failed input if
+/// the format does not show failed inputs.
 void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
 
-/// Writes rendered reports. The member functions return false if standard output has no reader any more. They
-/// throw IoError.
+/// Writes rendered reports. Member functions return false if standard output has no reader any more, and
+/// throw IoError for any other failure.
 class ReportWriter {
  public:
   ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file);
 
-  /// Adds a piece of a report; `goes_on` is false for its first piece.
+  /// Adds a piece of a report. `goes_on` is false for the first piece of each report.
   bool add(std::string&& piece, bool goes_on);
 
-  /// Completes the output after the last report; creates the file.
+  /// Completes the output after the last report. If there is a file, creates it.
   bool finish();
 
  private:
@@ -36,7 +36,7 @@ class ReportWriter {
 
   OutputFormat format_;
   std::optional<std::filesystem::path> file_;
-  std::vector<std::string> pending_;  ///< Content of the file so far.
+  std::vector<std::string> pending_;  ///< Content of the file so far, in pieces.
   bool first_ = true;
 };
 

@@ -31,13 +31,13 @@ namespace {
 
 class Stopwatch {
  public:
-  /// Seconds since the last call, or since construction.
+  /// Returns the seconds since the last lap(), or since construction.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   }
 
-  /// Seconds since then, without a restart.
+  /// Returns the seconds since the last lap(), or since construction, without a new lap.
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
   }
@@ -165,8 +165,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   return worse(checked, write_files(job, options, frame, outcome, loaded));
 }
 
-/// Processes a cloud that is tiled over several inputs. If an input fails, it is excluded and the cloud is
-/// processed again without it.
+/// Processes a cloud that is tiled over several inputs. If an input fails, excludes it and processes the
+/// cloud again without it.
 Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   const Stopwatch watch;
   if (options.progress && errors_go_to_a_terminal()) {
@@ -283,7 +283,8 @@ Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
 std::string coarse_warning(const Aabb& box, ScalarType scalar) {
   const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
   const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
-  // Steps of a centimetre or more that the distance from the origin causes, not the size of the cloud.
+  // Checks for steps of 1 cm or more that result from the distance to the origin, not from the size of the
+  // cloud.
   const bool coarse =
       scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
   if (!coarse) return {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Processes inputs from the file to the report: one input, or all of them on all cores.
+// Processes one input, or all inputs on all cores, from the file to the report.
 #pragma once
 
 #include <memory>
@@ -18,20 +18,21 @@ namespace pcl_bv {
 
 /// The outcome of a job.
 struct Outcome {
-  Report report;  ///< Without clusters if `result` is set: clusters() makes them one by one.
+  Report report;  ///< Without clusters if `result` is set; see clusters().
   Status status = Status::done;
   std::shared_ptr<const FrameResult> result;
-  /// For each volume of the result, if requested: the number of points outside.
+  /// For each volume of `result`, the number of points outside, if --check was given.
   std::vector<std::size_t> outside;
 
-  /// Return what is reported. The source refers to this object.
+  /// Return the entries of the reported clusters, one by one or as a list. The ClusterSource refers to this
+  /// object.
   ClusterSource clusters() const;
   std::vector<ClusterEntry> entries() const;
 };
 
-/// Processes a job: loads, segments, fits, verifies, and writes the labels, the mesh, the picture and the
-/// page. Does not throw for problems with inputs or files. These go to standard error and into the status,
-/// and for a failed input also into `report.error`.
+/// Processes a job. Loads, segments, fits, verifies, and writes the labels, the mesh, the picture and the
+/// page. Problems with inputs or files are not thrown. They are reported on standard error and change the
+/// status. For a failed input, `report.error` is set, too.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
 /// Reports failed fits and points outside of volumes on standard error. Returns the resulting status.
@@ -41,19 +42,18 @@ Status report_failures(const std::string& file, const ClusterSource& clusters);
 /// Writes the mesh of the job, if it is requested.
 Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters);
 
-/// Returns a warning if float32 coordinates are too coarse for a box at this distance from the origin,
-/// otherwise an empty text.
+/// Returns a warning if float32 coordinates are too coarse for a box at this distance from the origin.
+/// Otherwise returns an empty text.
 std::string coarse_warning(const Aabb& box, ScalarType scalar);
 
-/// Returns the options of the methods.
 MethodOptions method_options(const Options& options);
 
 /// Processes all jobs. Writes reports and messages in the order of the jobs, for any number of threads.
 ///
-/// If there are at least as many jobs as threads, each job runs in one thread; otherwise the jobs run one
-/// after another, each with all threads. A failed job does not stop the others. If nobody reads the reports
-/// any more, the work ends without an error, unless it also writes files or checks volumes. With several
-/// jobs, a summary on standard error comes last.
+/// If there are at least as many jobs as threads, each job runs in one thread. Otherwise the jobs run one
+/// after another, each with all threads. A failed job does not stop the others. If the reports have no reader
+/// any more, the work ends without an error, unless the command also writes files or checks volumes. For
+/// several jobs, a summary on standard error comes last.
 Status process_all(const std::vector<Job>& jobs, const Options& options);
 
 }  // namespace pcl_bv

@@ -24,8 +24,8 @@ std::uint64_t hash_of_file(const std::filesystem::path& path) {
   return hash.inputs_hash;
 }
 
-// Returns a text that is equal for shares that drop the same points. The names of region files do not matter,
-// only their content.
+// Returns a text of the filter settings, which is equal for shares that drop the same points. It has the
+// content of region files, but not their names.
 std::string filter_text(const FilterConfig& filter) {
   std::string text = to_text(filter.range_min) + ':' + to_text(filter.range_max);
   if (filter.own_box_min)
@@ -153,7 +153,7 @@ Status make_partial_file(const Job& job, const Options& options) {
     const std::optional<PartialFile> merged = merge_files(job.partials);
     return merged ? write_or_report(*options.partial, *merged) : Status::failed;
   }
-  // A share without one of the inputs would belong to another cloud.
+  // If an input is missing, the share would belong to another cloud than the other shares.
   if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
   const Execution execution = execution_of(options);
   PartialFile file = describe_cloud(*job.tiles, options.origin.at, options);

@@ -21,17 +21,18 @@ namespace pcl_bv {
 
 Execution execution_of(const Options& options);
 
-/// The points of a share relative to an origin and filtered: a view and its sources. Cannot be copied or
-/// moved.
+/// The points of a share, relative to an origin and filtered, with the sources that load them. Cannot be
+/// copied or moved.
 class SharePoints {
  public:
-  /// `range` holds the numbers of the points. The filter counts the dropped points in a separate pass.
+  /// `range` holds the numbers of the points. The filter makes an additional pass over them to count dropped
+  /// points.
   SharePoints(const Tiles& tiles, const PointRange& range, const std::optional<Eigen::Vector3d>& origin,
               const Options& options);
   SharePoints(const SharePoints&) = delete;
   SharePoints& operator=(const SharePoints&) = delete;
 
-  const PointView& view() const { return filtered_.points; }  ///< Points have the numbers of the whole cloud.
+  const PointView& view() const { return filtered_.points; }  ///< Points keep their numbers.
   const Counts& counts() const { return filtered_.counts; }
 
  private:
@@ -39,31 +40,32 @@ class SharePoints {
   FilteredView filtered_;
 };
 
-/// Returns what all shares of a cloud have in common; it contains no share yet.
+/// Returns the data that all shares of a cloud have in common, without any share.
 PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
                            const Options& options);
 
-/// Adds the points of a share; `range` holds their numbers.
+/// Adds the points of a share to `file`. `range` holds the numbers of the points.
 void add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
                PartialFile& file);
 
-/// Merges the results of the files. Reports each file that cannot be read or does not belong to the others;
-/// then returns nullopt.
+/// Merges the partial results of the files. Reports each file that cannot be read or does not belong to the
+/// other files. If there is such a file, returns nullopt.
 std::optional<PartialFile> merge_files(const std::vector<std::string>& files);
 
 /// Returns a report of the whole cloud with an empty entry for the volume of each method.
 Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods);
 
-/// Sets entry `index` of the report to the result of a fit. The counts are equal for all methods.
+/// Sets volume entry `index` of the report to the result of a fit. Also sets the counts, which are equal for
+/// all methods.
 void set_volume(std::size_t index, const EstimationResult& result, AnyVolume volume, Report& report);
 
-/// Writes the file of --partial, from inputs or from files of partial results.
+/// Writes the file of --partial from the inputs, which are clouds or files of partial results.
 Status make_partial_file(const Job& job, const Options& options);
 
 /// Reports every excluded input. Returns Status::failed if there is one.
 Status report_excluded_inputs(const Tiles& tiles);
 
-/// Reports the notes of the other inputs.
+/// Reports the notes of all inputs that are not excluded.
 void report_notes(const Tiles& tiles);
 
 }  // namespace pcl_bv

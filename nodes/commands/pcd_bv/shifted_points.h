@@ -25,7 +25,8 @@ class ShiftedPoints final : public PointSource {
   Eigen::Vector3d origin_;
 };
 
-/// Returns the centre of the points' box, rounded to whole numbers; 0 without a valid point.
+/// Returns the centre of the points' axis-aligned box, rounded to whole numbers. Without a valid point,
+/// returns 0.
 Eigen::Vector3d rounded_centre(const PointView& points, const ParallelPolicy& policy);
 
 /// Returns a copy of all points of a view without gaps, in the scalar type of the view.

@@ -16,14 +16,14 @@
 namespace pcl_bv {
 namespace {
 
-// Points between two calls of on_loaded.
+// Number of points between two calls of Tiles::on_loaded.
 constexpr std::size_t kPointsPerReport = std::size_t{1} << 22;
 
 bool is_file(const Job& job) {
   return !job.recording && !is_synth(job.input);
 }
 
-// Returns the result of `work`. Its exceptions become a TileError, except for a lack of memory.
+// Returns the result of work(). Its exceptions, except std::bad_alloc, become a TileError.
 template <typename Work>
 auto of_tile(std::size_t tile, const Work& work) {
   try {

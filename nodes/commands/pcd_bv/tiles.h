@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud tiled over several inputs. Its points are numbered through all inputs and loaded when needed.
+// A cloud tiled over several inputs. Points are numbered through all inputs and loaded when they are needed.
 #pragma once
 
 #include <atomic>
@@ -25,13 +25,13 @@ namespace pcl_bv {
 struct TileHeader {
   std::size_t points = 0;
   ScalarType scalar = ScalarType::float32;
-  bool random_access = false;          ///< Parts can be read by position (CloudHeader); not if small.
-  std::optional<std::string> error{};  ///< Why it is excluded; then it has no points.
-  std::string note{};                  ///< As in RawCloud, as far as the header tells.
+  bool random_access = false;          ///< Whether parts are read by position (CloudHeader).
+  std::optional<std::string> error{};  ///< Why the input is excluded. It then has no points.
+  std::string note{};                  ///< As RawCloud::note, but from the header only.
 };
 
 /// Describes an input without reading the points of a file. Clouds that are generated or recorded are loaded,
-/// counted and dropped.
+/// counted and freed.
 TileHeader describe_tile(const Job& job);
 
 /// An error while reading one of the inputs.
@@ -44,18 +44,19 @@ class TileError : public IoError {
   std::size_t tile_;
 };
 
-/// A range of point numbers: .first is included, .second is not.
+/// A range of point numbers. It includes .first and does not include .second.
 using PointRange = std::pair<std::size_t, std::size_t>;
 
 /// The points of all inputs. Files that can be read by position are read in parts. All other inputs (ascii,
-/// compressed, .ply, .las, and small ones) are read completely in each pass, and few of them are held at a
-/// time. If one input has float64 coordinates, all are read as float64.
+/// compressed, .ply, .las, and small ones) are read completely in each pass, and only a small number of them
+/// is in memory at the same time. If one input has float64 coordinates, all inputs are read as float64.
 class Tiles final : public PointSource {
  public:
-  /// `threads` is the number of threads that load at the same time; it determines how many tiles stay open.
+  /// `threads` is the number of threads that call load() at the same time. It determines how many tiles stay
+  /// open.
   Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t threads);
 
-  /// Returns a view of all points. It is valid until exclude() and while this object lives.
+  /// Returns a view of all points, which is valid until exclude() is called or this object is destroyed.
   PointView xyz() const { return view_of(*this, offsets_.back(), scalar_); }
 
   const std::vector<Job>& jobs() const { return jobs_; }
@@ -64,23 +65,24 @@ class Tiles final : public PointSource {
   /// Returns the number of inputs that are not excluded.
   std::size_t included_count() const;
 
-  /// Returns the warnings about an input so far, as in RawCloud::note.
+  /// Returns the warnings about an input that are known so far, as in RawCloud::note.
   std::string note(std::size_t tile) const;
 
   /// Excludes an input from the cloud. The points after it are renumbered.
   void exclude(std::size_t tile, const std::string& reason);
 
-  /// Returns one of `shares` shares, which cover the cloud and have about as many points each. A share begins
-  /// at a chunk of a file that can be read by position, or at the beginning of another input.
+  /// Returns share `number` of `shares` shares. The shares cover the cloud and have about the same number of
+  /// points. In a file that can be read by position, a share begins at a chunk. In another input, a share
+  /// begins only at the beginning of the input.
   PointRange share(std::size_t number, std::size_t shares) const;
 
-  /// Throws TileError if an input cannot be read or has changed since it was first opened.
+  /// Loads points. Throws TileError if an input cannot be read or has changed since it was first opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
-  /// Throws TileError if a file that was read has been changed since.
+  /// Throws TileError if a file has changed since it was first opened.
   void require_unchanged() const;
 
-  /// Called from time to time, by any thread, with the number of points loaded so far.
+  /// If set, called after every few million points, by any thread, with the number of points loaded so far.
   std::function<void(std::size_t points)> on_loaded;
 
  private:

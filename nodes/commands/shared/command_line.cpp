@@ -22,9 +22,9 @@ std::string version_text(const std::string& command) {
   return text + '\n';
 }
 
-// Returns the arguments in the order that CLI11 expects: the last one first. An option with an empty value
-// ("--output= scan.pcd") gets an empty argument; otherwise CLI11 would take the next argument, an input, as
-// its value.
+// Returns the arguments in the order that CLI11 expects, the last one first. If the value of an option is
+// empty ("--output= scan.pcd"), inserts an empty argument. Otherwise CLI11 would take the next argument, an
+// input, as the value.
 std::vector<std::string> last_first(const CLI::App& app, int argc, const char* const* argv) {
   const auto inputs = std::find(argv, argv + argc, std::string_view("--")) - argv;
   std::vector<std::string> arguments;
@@ -42,7 +42,8 @@ std::vector<std::string> last_first(const CLI::App& app, int argc, const char* c
   return arguments;
 }
 
-// Rejects "--loop --track": the value is missing, and CLI11 would take the next option as the value.
+// Rejects texts such as "--loop --track", where a value is missing and CLI11 would take the next option as
+// the value.
 void reject_options_as_values(const CLI::App& app, int argc, const char* const* argv) {
   const auto option_of = [&](std::string_view argument) -> const CLI::Option* {
     return argument.starts_with("--") && argument.size() > 2 ? app.get_option_no_throw(std::string(argument))
@@ -93,7 +94,7 @@ void CommandLine::option(const char* name, std::string& value, const char* type,
 void CommandLine::option(const char* name, std::vector<std::string>& values, const char* type,
                          const std::string& help) {
   CLI::Option* const option = app_->add_option(name, values, help)->type_name(type);
-  // One value per option: the next argument may be an input.
+  // An option takes only one value, because the next argument may be an input.
   if (name[0] == '-') option->allow_extra_args(false);
 }
 

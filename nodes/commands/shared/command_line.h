@@ -11,18 +11,18 @@
 
 namespace pcl_bv {
 
-/// The options of a command. The parser is built on CLI11, which only command_line.cpp includes: each file
-/// that includes it takes 8 s to compile. Values are stored as texts and parsed later, so that all errors
-/// have the same form.
+/// The options of a command. The parser is built on CLI11. Only command_line.cpp includes CLI11, because each
+/// file that includes it takes 8 s to compile. Values are stored as texts and parsed later, so that all
+/// errors have the same form.
 class CommandLine {
  public:
-  /// Adds --help and --version. `footer` ends the help.
+  /// Adds --help and --version. `footer` is the last part of the help text.
   CommandLine(const std::string& command, const std::string& description, const std::string& footer);
   ~CommandLine();
 
-  /// Declares an option with a value. `type` is the placeholder of the value in the help. A name without
-  /// dashes is a positional argument. A list takes all positional arguments, or the values of all repetitions
-  /// of an option.
+  /// Declare an option with a value. `type` is the placeholder of the value in the help text. A name without
+  /// dashes is a positional argument. `values` get all positional arguments, or the values of all repetitions
+  /// of the option.
   void option(const char* name, std::string& value, const char* type, const std::string& help);
   void option(const char* name, std::vector<std::string>& values, const char* type, const std::string& help);
   void flag(const char* name, bool& value, const std::string& help);
@@ -30,7 +30,7 @@ class CommandLine {
   /// Parses the command line. Returns the text of --help or --version if it was requested. Throws UsageError.
   std::optional<std::string> parse(int argc, const char* const* argv);
 
-  /// Whether a declared option was on the command line.
+  /// Returns whether a declared option was on the command line.
   bool given(const char* name) const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Uses a waiting thread instead of a signal handler: a handler must not lock, remove files by name or write
-// JSON.
+// A thread waits for SIGINT, SIGTERM and SIGHUP. A signal handler could not do the work, because it must not
+// lock a mutex, remove files by name or write JSON.
 
 #include "interruption.h"
 
@@ -59,7 +59,7 @@ void Interruption::watch() const {
   do {
     sigwait(&handled_signals_, &signal);
     if (signal == stop_signal() && stop_flag_ != nullptr) return;
-  } while (signal == stop_signal());  // start_finishing() ends the process
+  } while (signal == stop_signal());  // the thread of start_finishing() ends the process
   end_with(signal);
 }
 
@@ -74,7 +74,7 @@ void Interruption::start_finishing(int signal) const {
   try {
     std::thread(finish).detach();
   } catch (const std::system_error&) {
-    finish();  // no more threads: a second signal has no effect
+    finish();  // no thread can be started, so a second signal has no effect
   }
 }
 

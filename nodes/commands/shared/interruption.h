@@ -12,20 +12,21 @@
 
 namespace pcl_bv {
 
-/// Handles SIGINT, SIGTERM and SIGHUP while this object lives: they are blocked, and a thread waits for them.
+/// Handles SIGINT, SIGTERM and SIGHUP while this object lives. It blocks these signals and waits for them in
+/// a thread.
 ///
 /// On the first signal, the thread calls `finish`, removes temporary files and ends the process with status
-/// 128 + signal. With `stop_flag`, it sets that flag instead, and the work must end by itself. A second
-/// signal removes temporary files and ends the process at once, with status 128 + signal. Signals that the
-/// caller has ignored (nohup) stay ignored.
+/// 128 + signal. With `stop_flag`, it sets that flag instead, and the work must end by itself. On a second
+/// signal, the thread does not wait: it removes temporary files and ends the process with status 128 +
+/// signal. Signals that the caller of the program has ignored (nohup) stay ignored.
 ///
-/// Create it in the main thread before any other thread, since threads inherit the blocked signals.
+/// Create the object in the main thread before any other thread, because threads inherit the blocked signals.
 class Interruption {
  public:
   explicit Interruption(std::function<void()> finish) : finish_(std::move(finish)) { start(); }
   explicit Interruption(std::atomic<bool>& stop_flag) : stop_flag_(&stop_flag) { start(); }
 
-  /// Does not return if a signal has started `finish`: the process ends while it waits.
+  /// If a signal has started `finish`, the destructor does not return: it waits until the process ends.
   ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each line is one system call: lines of several threads never mix.
+// Writes each line by one system call, so that lines of several threads never mix.
 
 #include "messages.h"
 
@@ -17,10 +17,10 @@ namespace {
 
 std::mutex mutex;
 std::string command;
-std::string status_line;  // empty: none is shown
+std::string status_line;  // empty if none is shown
 thread_local DeferredMessages* holder = nullptr;
 
-// Errors are ignored, since they cannot be reported elsewhere.
+// Ignores errors, because they cannot be reported elsewhere.
 void write_error(std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size());
@@ -29,7 +29,7 @@ void write_error(std::string_view text) {
   }
 }
 
-// Overwrites the line with spaces, which works on terminals of every kind.
+// Returns a text that overwrites the status line with spaces, which works on all kinds of terminals.
 std::string erasure() {
   return status_line.empty() ? "" : '\r' + std::string(status_line.size(), ' ') + '\r';
 }

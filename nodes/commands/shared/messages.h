@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages on standard error, for all threads of a process: whole lines, and one status line.
+// Messages of all threads on standard error, which are whole lines and one status line.
 #pragma once
 
 #include <string>
@@ -13,14 +13,15 @@ namespace pcl_bv {
 /// Sets the name with which every line begins. Must be called before the first message.
 void name_command(std::string_view command);
 
-/// Prints one line on standard error: "<command>: text". Lines of several threads do not mix. Control
+/// Prints one line, "<command>: text", on standard error. Lines of several threads do not mix. Control
 /// characters become question marks, so that a file name can neither break the line nor control a terminal.
 void print_message(std::string_view text);
 
-/// Prints a problem as print_message() does, or stores it while the thread has a DeferredMessages.
+/// Prints a problem as print_message() does. While its thread has a DeferredMessages, stores the problem
+/// instead.
 void report_problem(std::string_view problem);
 
-/// Warns that subfolders of a folder are not read, if there are any.
+/// If `subfolders` is not 0, warns that the subfolders of a folder are not read.
 void warn_of_subfolders(const std::string& folder, std::size_t subfolders);
 
 /// While this object lives, the problems that its thread reports are stored in `messages`, to be printed
@@ -35,11 +36,11 @@ class DeferredMessages {
   std::vector<std::string> messages;
 };
 
-/// Whether standard error is a terminal.
+/// Returns whether standard error is a terminal.
 bool errors_go_to_a_terminal();
 
 /// Shows `line` in the last line of the terminal, cut to the terminal's width. Replaces the previous status
-/// line; messages appear above it. Only for terminals.
+/// line. Messages appear above the status line. Must be called only if standard error is a terminal.
 void show_status_line(std::string_view line);
 
 /// Erases the status line, if there is one.

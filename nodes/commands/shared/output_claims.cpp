@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compares files by their canonical paths.
-
 #include "output_claims.h"
 
 #include <system_error>

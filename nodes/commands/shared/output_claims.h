@@ -9,7 +9,8 @@
 
 namespace pcl_bv {
 
-/// Returns whether this is a terminal, a pipe, /dev/null or similar: several results may go there.
+/// Returns whether the file is a terminal, a pipe, /dev/null or similar, to which several results may be
+/// written.
 bool is_device(const std::filesystem::path& file);
 
 /// The inputs and outputs of a command. Files are compared by canonical path, so links do not matter.
@@ -20,7 +21,8 @@ class OutputClaims {
   /// Throws UsageError if the file or folder is an input.
   void reject_input(const std::filesystem::path& output) const;
 
-  /// Registers an output. Throws UsageError if it is an input, or if it is already registered and no device.
+  /// Registers an output. Throws UsageError if it is an input, or if it is already registered and not a
+  /// device.
   void claim(const std::filesystem::path& output);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The common part of all main functions: standard streams, errors and exit status.
+// The common part of all main functions, which handles standard streams, errors and the exit status.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@ namespace pcl_bv {
 /// on standard error, "<command>: text", and returns 2 for a UsageError or 1 for any other std::exception.
 int run_command(std::string_view command, const std::function<int()>& work);
 
-/// Prints a text on standard output. Returns 0, also if nobody reads it. Throws IoError, naming standard
-/// output, if it cannot be written.
+/// Prints a text on standard output. Returns 0, also if standard output has no reader. Throws IoError, whose
+/// text begins with "standard output", for any other failure.
 int print_text(std::string_view text);
 
 }  // namespace pcl_bv

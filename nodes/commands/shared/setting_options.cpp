@@ -26,7 +26,7 @@ bool has_option(const Setting& setting, bool stream) {
   return !setting.option.empty() && (stream || (stage != "track" && stage != "runner"));
 }
 
-// Removes repeated methods. The command line may repeat a method; a file may not.
+// Removes repeated methods. The command line may repeat a method, but a configuration file may not.
 void keep_first_mentions(std::vector<std::string>& methods) {
   std::vector<std::string> once;
   for (std::string& name : methods) {

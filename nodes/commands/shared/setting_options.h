@@ -13,20 +13,21 @@
 
 namespace pcl_bv {
 
-/// Returns the text with options in place of the keys of settings.
+/// Returns the text with the keys of settings replaced by their options.
 std::string with_options(std::string text);
 
-/// The options that configure a command: --preset, --config, --range, --print-config and those of the
-/// settings (nodes/settings.h). Options override the file, the file overrides the preset, and the preset
-/// overrides the defaults.
+/// The options that configure a command, namely --preset, --config, --range, --print-config and those of the
+/// settings (nodes/pipeline/config/settings.h). Options override the file, the file overrides the preset, and
+/// the preset overrides the defaults.
 class SettingOptions {
  public:
-  /// Declares the options; with `stream`, also those of tracks and queues. Stores a reference to `line`.
+  /// Declares the options. With `stream`, also declares those of tracks and queues. Stores a reference to
+  /// `line`.
   SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream);
 
-  /// Returns the configuration of the parsed line. `range_from`, if not null, is set to where the range of
-  /// distances comes from: "--range", "--config FILE", "--preset NAME" or "the default; see --range". Throws
-  /// UsageError.
+  /// Returns the configuration of the parsed command line. If `range_from` is not null, it is set to the
+  /// origin of the range of distances, which is "--range", "--config FILE", "--preset NAME" or "the default;
+  /// see --range". Throws UsageError.
   StreamConfig config(std::string* range_from = nullptr) const;
 
   bool print_config() const { return print_config_; }
@@ -38,7 +39,7 @@ class SettingOptions {
 
   CommandLine& line_;
   const StreamConfig defaults_;
-  /// Values by option. The command line refers to them; map nodes do not move.
+  /// Values by option. The command line refers to these values, which a map never moves.
   std::map<std::string_view, std::string> texts_;
   std::map<std::string_view, bool> flags_;
   std::string preset_, file_, range_, padding_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parses values of the command line. Every error names the option, the text and what is allowed.
+// Parses values of the command line. Every error names the option, the text and the allowed values.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace pcl_bv {
 
-/// Wrong use of a command: what() is the line for standard error, and the exit status is 2.
+/// Wrong use of a command. what() is the line for standard error. The command exits with status 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws a UsageError such as "--rate: 'fast' is not a rate"; `what` is the part after the text.
+/// Throws a UsageError such as "--rate: 'fast' is not a rate", where `what` is "is not a rate".
 [[noreturn]] void reject_value(std::string_view option, std::string_view text, const std::string& what);
 
 /// Returns parse(text). A std::invalid_argument becomes a UsageError that names the option.
@@ -32,12 +32,13 @@ auto parse_with(std::string_view option, const Text& text, Parse parse) {
   }
 }
 
-/// Parse a whole number, or the MIN:MAX of --range. Throw UsageError for any other text.
+/// Parse a whole number, and the MIN:MAX of --range. Throw UsageError for any other text.
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
                                std::size_t max = std::numeric_limits<std::size_t>::max());
 std::pair<double, double> parse_range(std::string_view text);
 
-/// Parses the number of floats per point of .bin files, 3 to 32. Throws UsageError.
+/// Parses the number of floats per point of .bin files, which is 3 to 32. Throws UsageError for any other
+/// text.
 std::size_t parse_bin_fields(std::string_view text);
 
 }  // namespace pcl_bv

@@ -54,7 +54,7 @@ std::string frame_name(std::size_t frame) {
   return std::string(10 - digits.size(), '0') + digits + ".pcd";
 }
 
-/// Runs write(), which writes to `path`, and adds the path to the messages of its exceptions.
+/// Runs write(), which writes to `path`. If write() throws, adds the path to the message of the exception.
 template <typename Write>
 void naming(const std::filesystem::path& path, Write write) {
   try {

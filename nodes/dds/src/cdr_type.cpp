@@ -25,7 +25,7 @@ std::uint32_t size_of(const ddsi_serdata* sample) {
   return static_cast<std::uint32_t>(cdr(sample).size);
 }
 
-// Joins the fragments of a message. They are in order and may overlap.
+// Joins the fragments of a message. The fragments are in order and may overlap.
 ddsi_serdata* from_fragments(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* fragment,
                              std::size_t size) {
   CdrSample* const sample = make_sample(type, kind, size);
@@ -58,7 +58,7 @@ ddsi_serdata* from_keyhash(const ddsi_sertype* type, const ddsi_keyhash*) {
   return make_sample(type, SDK_KEY, 0);
 }
 
-// Not supported: samples are written only as serialized bytes.
+// Not supported, because samples are written only as serialized bytes.
 ddsi_serdata* from_sample(const ddsi_sertype*, ddsi_serdata_kind, const void*) {
   return nullptr;
 }
@@ -179,14 +179,14 @@ dds_entity_t create_cdr_topic(dds_entity_t participant, const std::string& name,
   auto made = std::make_unique<ddsi_sertype>();
   ddsi_sertype_init(made.get(), type.c_str(), &type_operations(), &sample_operations(), true);
   made->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
-  ddsi_sertype* known = made.get();  // Cyclone DDS may replace it by an equal type that is registered already
+  ddsi_sertype* known = made.get();  // Cyclone DDS may replace it by an equal registered type
   const dds_entity_t topic =
       dds_create_topic_sertype(participant, name.c_str(), &known, nullptr, nullptr, nullptr);
   if (topic < 0) {
     ddsi_sertype_fini(made.get());
     return topic;
   }
-  made.release();  // Cyclone DDS owns it now
+  made.release();  // Cyclone DDS owns the type now
   if (registered != nullptr) *registered = known;
   return topic;
 }

@@ -16,12 +16,12 @@ namespace pcl_bv::dds {
 
 /// A serialized sample, reference-counted by Cyclone DDS.
 struct CdrSample : ddsi_serdata {
-  std::unique_ptr<std::byte[]> bytes;  // padded to a multiple of 4: the protocol reads 4-byte units
-  std::size_t size = 0;                // includes the 4 bytes of the encapsulation header, not the padding
+  std::unique_ptr<std::byte[]> bytes;  // padded to a multiple of 4, the protocol's unit
+  std::size_t size = 0;                // with the encapsulation header (4 bytes), without the padding
 };
 
 /// Allocates a sample of `size` uninitialised bytes and zeroed padding, with one reference. Returns null if
-/// memory runs out.
+/// there is not enough memory.
 CdrSample* make_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size);
 
 /// Creates a topic without keys. Returns a negative DDS error code on failure. `registered`, if not null,

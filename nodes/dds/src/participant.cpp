@@ -15,9 +15,10 @@
 namespace pcl_bv::dds {
 namespace {
 
-// Socket buffer: with the default of 212 kB, hundreds of clouds of some megabytes are lost. Watermark: a
-// stuck reader must not block its writer. With 256 MB, the writer stores unacknowledged messages (five per
-// topic) and goes on; with the default of 500 kB it would wait for the reader.
+// The size of the socket buffer: with Linux's default of 212 kB, hundreds of clouds of some megabytes are
+// lost. The watermark of unacknowledged bytes in a writer: above it, the writer waits for its readers. A
+// stuck reader must not block the writer. With 256 MB, the writer stores the unacknowledged messages (five
+// per topic) and continues. With the default of 500 kB, it would wait.
 constexpr const char* kBufferConfig =
     "<Internal><SocketReceiveBufferSize "
     "max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
@@ -50,9 +51,9 @@ std::string peers_of(const std::string& text) {
   return peers;
 }
 
-// Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. Discovery of
-// given peers probes the ports of the first 32 participants, because the loopback interface usually has no
-// multicast.
+// Returns Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. If peers
+// are given, discovery probes the ports of 32 participants of each peer, because the loopback interface
+// usually has no multicast.
 std::string cyclone_config() {
   const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
@@ -112,7 +113,7 @@ void Participant::Log::note(void* log, const dds_log_data_t* data) {
   std::string_view text(data->message, data->size);
   while (text.ends_with('\n'))
     text.remove_suffix(1);
-  // Not worth a warning: true on nearly every machine, and discovery works without multicast on loopback.
+  // Skip this message. It appears on nearly every machine, and discovery works without multicast on loopback.
   if (text.find("\"lo\" is not multicast-capable") != std::string_view::npos) return;
   const std::lock_guard lock(self.mutex_);
   if (self.lines_.size() < 100) self.lines_.emplace_back(text);
@@ -133,7 +134,7 @@ Participant::Participant() {
   const std::string what = "DDS domain " + std::to_string(id);
   if (environment("CYCLONEDDS_URI").empty()) {
     const dds_entity_t domain = dds_create_domain(id, cyclone_config().c_str());
-    // If this process has created the domain before, its configuration stays in force.
+    // If this process has already created the domain, the domain keeps its first configuration.
     if (domain != DDS_RETCODE_PRECONDITION_NOT_MET) {
       if (domain < 0) throw IoError(what + ": " + dds_strretcode(domain) + log_.last());
       domain_ = Entity(domain, what);
@@ -150,7 +151,7 @@ Participant::Participant() {
 std::shared_ptr<Participant> Participant::shared() {
   static std::mutex mutex;
   static std::weak_ptr<Participant> existing;
-  const auto remove = [](const Participant* last) {  // never while another one is created
+  const auto remove = [](const Participant* last) {  // not while another thread creates one
     const std::lock_guard lock(mutex);
     delete last;
   };

@@ -34,13 +34,13 @@ class Entity {
 /// The DDS participant of the process and the log of Cyclone DDS.
 class Participant {
  public:
-  /// Returns the participant of the process. The first caller creates it, the last owner deletes it. Throws
-  /// IoError if DDS cannot start (no network), std::invalid_argument for invalid environment variables.
+  /// Returns the participant of the process. Creates it if there is none. The last owner deletes it. Throws
+  /// IoError if DDS cannot start (no network), and std::invalid_argument for invalid environment variables.
   static std::shared_ptr<Participant> shared();
 
   dds_entity_t get() const { return participant_.get(); }
 
-  /// Returns the lines that Cyclone DDS has logged since the last call, at most 100.
+  /// Returns the lines that Cyclone DDS has logged since the last call of take_log(), at most the first 100.
   std::vector<std::string> take_log();
 
  private:
@@ -70,7 +70,7 @@ std::string dds_topic(const std::string& topic);
 /// Converts a ROS type name to the DDS name: "sensor_msgs/msg/PointCloud2" to
 /// "sensor_msgs::msg::dds_::PointCloud2_".
 std::string dds_type(const std::string& type);
-/// Converts a DDS type name to the ROS name, for messages to the user. The inverse of dds_type().
+/// Converts a DDS type name to the ROS name, for messages to the user. Inverse of dds_type().
 std::string ros_type(std::string type);
 
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;

@@ -21,7 +21,7 @@ struct Unref {
   void operator()(ddsi_serdata* sample) const { ddsi_serdata_unref(sample); }
 };
 
-// Compatible with the QoS of every driver: a best-effort reader also matches reliable writers.
+// Returns a QoS that matches the writers of all drivers. A best-effort reader also matches reliable writers.
 Qos reader_qos() {
   Qos qos = make_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
@@ -85,7 +85,7 @@ class Receiver final : public MessageReceiver {
       dds_sample_info_t info;
       if (dds_takecdr(reader_.get(), &sample, 1, &info, DDS_ANY_STATE) <= 0) return false;
       std::shared_ptr<ddsi_serdata> owner(sample, Unref());
-      if (!info.valid_data) continue;  // a writer has left
+      if (!info.valid_data) continue;  // no message: a writer has left
       const CdrSample& cdr = *static_cast<const CdrSample*>(sample);
       message = {cdr.bytes.get(), cdr.size, std::move(owner), info.source_timestamp};
       return true;

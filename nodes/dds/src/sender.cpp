@@ -18,8 +18,9 @@ namespace {
 
 constexpr dds_duration_t kMaxBlockingTime = DDS_MSECS(10);
 
-// RIHS01 hash of a type's definition (REP 2011), by which rosbag2 and `ros2 topic info` of Iron and later
-// identify the type. Hashes of the definitions of Humble and later. Empty for other types.
+// Returns the RIHS01 hash (REP 2011) of a type's definition, or "" for types that are not in the table.
+// rosbag2 and `ros2 topic info` of Iron and later identify a type by this hash. The hashes are those of the
+// definitions of Humble and later.
 std::string_view hash_of(const std::string& type) {
   static const std::map<std::string_view, std::string_view> hashes{
       {"sensor_msgs/msg/PointCloud2", "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"},
@@ -72,7 +73,7 @@ class Sender final : public MessageSender {
     if (sample == nullptr) throw std::bad_alloc();
     std::memcpy(sample->bytes.get(), cdr.data(), cdr.size());
     std::memset(sample->bytes.get() + cdr.size(), 0, padding);
-    sample->bytes[3] |= static_cast<std::byte>(padding);  // padding's size (DDSI-RTPS 2.3)
+    sample->bytes[3] |= static_cast<std::byte>(padding);  // number of padding bytes (DDSI-RTPS 2.3)
     sample->timestamp.v = dds_time();
     const dds_return_t status = dds_writecdr(to.writer.get(), sample);
     if (status == DDS_RETCODE_TIMEOUT) {
@@ -105,7 +106,7 @@ class Sender final : public MessageSender {
     std::string name;
     const ddsi_sertype* type;
     Entity topic, writer;         // the writer is destroyed before its topic
-    std::uint64_t timed_out = 0;  // writes since the last call of take_warnings()
+    std::uint64_t timed_out = 0;  // writes that timed out since the last take_warnings()
   };
 
   std::shared_ptr<Participant> participant_ = Participant::shared();

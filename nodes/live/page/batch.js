@@ -3,10 +3,11 @@
 
 // Collects the lines and triangles of a frame in buffers, so that WebGL draws each kind in one call.
 //
-// A line is drawn as a rectangle. Its 28 bytes (6 float32 for both end points, rgba) are stored four times,
-// and the shader computes one corner from each copy. Instancing would need one copy only, but software
-// rendering takes about 15 us for each instance. A vertex of a triangle has 20 bytes: 3 float32, a normal of
-// 4 int8, rgba.
+// A line is drawn as a rectangle. A line has 28 bytes: 6 float32 for the two end points, and rgba. These
+// bytes are stored four times, and the shader computes one corner of the rectangle from each copy. Instancing
+// would need only one copy. It is not used, because software rendering takes about 15 us for each instance.
+//
+// A vertex of a triangle has 20 bytes: 3 float32, a normal of 4 int8, rgba.
 
 export const LINE_BYTES = 28;
 export const LINE_CORNERS = 4;
@@ -34,7 +35,7 @@ export class Batch {
     this.vertexWords = new Uint32Array(this.vertexBytes);
   }
 
-  // `colour`: packed by packColour().
+  // Adds a line. `colour` is a result of packColour().
   line(a, b, colour) {
     if ((this.lines + 1) * LINE_CORNERS * LINE_BYTES > this.lineBytes.byteLength) {
       this.lineBytes = enlarged(this.lineBytes);
@@ -48,7 +49,7 @@ export class Batch {
     for (let corner = 1; corner < LINE_CORNERS; ++corner) this.lineColours.copyWithin(at + corner * words, at, at + words);
   }
 
-  // Returns the index of the vertex, for triangle().
+  // Adds a vertex. Returns its index, for triangle().
   vertex(p, normal, colour) {
     if ((this.vertices + 1) * VERTEX_BYTES > this.vertexBytes.byteLength) {
       this.vertexBytes = enlarged(this.vertexBytes);
@@ -91,7 +92,8 @@ function packNormal(n) {
   return (byte(n[0]) | (byte(n[1]) << 8) | (byte(n[2]) << 16)) >>> 0;
 }
 
-// Packs red, green, blue and alpha (0..1) into a word whose bytes are in this order.
+// Packs red, green, blue and alpha (0..1) into a 32-bit word. Its bytes are in this
+// order, the lowest byte first.
 export function packColour(rgb, alpha) {
   const byte = (part) => Math.round(255 * Math.min(1, Math.max(0, part)));
   return (byte(rgb[0]) | (byte(rgb[1]) << 8) | (byte(rgb[2]) << 16) | (byte(alpha) << 24)) >>> 0;

@@ -1,14 +1,15 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# cmake -DOUT=page.html -P bundle.cmake: the page in one file. Its modules stand one after the other in one script,
-# without imports and the word `export`, so their top-level names differ; in the order below, each imports only from those
-# above it. Lines of comments and indentation stay behind, too: they are a fifth of 110 kB that nobody reads in a browser.
+# cmake -DOUT=page.html -P bundle.cmake: writes the page as one file. The JavaScript modules are joined to one
+# script without their imports and the word `export`. All top-level names of the modules must therefore
+# differ. A module may import only from modules that precede it in the list below. Comment lines and
+# indentation are removed, because they are a fifth of 110 kB and nobody reads them in a browser.
 cmake_minimum_required(VERSION 3.22)
 set(modules vectors palette convex batch round shapes messages connection history camera shaders renderer scene picking
             elements notices overlay objects plots settings view controls page main)
 
-# Texts are always quoted: unquoted, CMake would take `;`, `[` and `]` for a list's.
+# Texts are always quoted, because CMake treats `;`, `[` and `]` in unquoted texts as list syntax.
 set(script "")
 set(above "")
 foreach(module ${modules})
@@ -45,7 +46,7 @@ endforeach()
 string(REPLACE "${style_link}" "<style>\n${style}</style>" page "${page}")
 string(REPLACE "${script_link}" "<script type=\"module\">${script}</script>" page "${page}")
 
-# Only when it differs, so that what is made of it is not made again.
+# Write the file only if its content changes, so that files that depend on it are not built again.
 if(EXISTS "${OUT}")
   file(READ "${OUT}" before)
 endif()

@@ -28,7 +28,7 @@ export class Camera {
     [this.yaw, this.pitch] = VIEWS[view].map((degrees) => (degrees * Math.PI) / 180);
   }
 
-  // Unit vectors to the right in the picture, up in the picture, and from the target to the eye.
+  // Returns unit vectors to the right in the picture, up in the picture, and from the target to the eye.
   axes() {
     const [e1, e2] = this.level;
     const [cosine, sine] = [Math.cos(this.yaw), Math.sin(this.yaw)];
@@ -43,7 +43,7 @@ export class Camera {
     return pointAlong(this.target, this.axes().back, this.distance);
   }
 
-  // The matrix from scene coordinates to clip coordinates.
+  // Returns the matrix from scene coordinates to clip coordinates.
   matrix() {
     const { right, upward, back } = this.axes();
     const eye = this.eye();
@@ -57,8 +57,8 @@ export class Camera {
     return multiply(lens, view);
   }
 
-  // Returns a point's position in the canvas, pixels from the upper left corner, or null if it is behind the
-  // eye.
+  // Returns a point's position in the canvas, in pixels from the upper left corner. If the point is behind
+  // the eye, returns null.
   project(p, matrix = this.matrix()) {
     const [x, y, , w] = transform(matrix, p);
     return w > 0 ? [((x / w + 1) * this.width) / 2, ((1 - y / w) * this.height) / 2] : null;
@@ -90,7 +90,8 @@ export class Camera {
     this.target = add(this.target, add(scale(right, -dx * step), scale(upward, dy * step)));
   }
 
-  // Zooms about the pixel: the point under it at the target's depth stays under it.
+  // Zooms about the pixel (px, py). The point that this pixel shows at the target's depth does not move in
+  // the picture.
   zoom(factor, px, py) {
     const next = Math.min(1e7, Math.max(0.01, this.distance * factor));
     const { right, upward } = this.axes();
@@ -113,7 +114,8 @@ export class Camera {
     this.distance = this.distanceFor(corners);
   }
 
-  // Returns the smallest distance at which all corners are in the picture, with a margin of 5 %.
+  // Returns the smallest distance from the eye to the target at which all corners are in the picture, with a
+  // margin of 5 %.
   distanceFor(corners) {
     const { right, upward, back } = this.axes();
     const half = Math.tan(FIELD_OF_VIEW / 2) * 0.95;

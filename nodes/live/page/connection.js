@@ -8,7 +8,7 @@ import { readFrame, readPointCloud2 } from "./messages.js";
 
 const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 const MESSAGE_DATA = 1;
-const FRAMES = 1; // ids of our two subscriptions
+const FRAMES = 1; // FRAMES and POINTS are the ids of our two subscriptions
 const POINTS = 2;
 const FIRST_PAUSE_MS = 500;
 const LONGEST_PAUSE_MS = 5000;
@@ -91,8 +91,8 @@ export class Connection {
     this.channels.delete(id);
   }
 
-  // The points of a frame arrive before the frame, with the same time. If they were lost, the frame is shown
-  // without points.
+  // The points of a frame arrive before the frame, with the same stamp. If the points were lost, the frame is
+  // shown without points.
   receiveBytes(buffer) {
     const header = new DataView(buffer);
     if (header.getUint8(0) !== MESSAGE_DATA) return;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Controls the camera with the mouse or one finger: drag, wheel and click.
+// Controls the camera with the mouse (drag, wheel, click) or one finger.
 
-const CLICK_PIXELS = 4; // a press that moves less is a click
+const CLICK_PIXELS = 4; // a press that moves fewer pixels is a click
 const LINE_PIXELS = 16; // pixels per line, for wheels that report lines
 
-// `on`: callbacks moved(), click(px, py) in pixels of the canvas, and grabbed() at each step of a pan.
+// `on` has the callbacks moved(), click(px, py) with a position in pixels of the canvas, and grabbed(), which
+// is called at each step of a pan.
 export function controlCamera(canvas, camera, on) {
   let press = null;
   const positionOf = (event) => {

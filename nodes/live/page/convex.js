@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Computes the faces of the polytope of half-spaces n.p <= d: a large square in each plane, clipped by all
-// other half-spaces. O(planes^2 * corners); 26 planes take about 0.1 ms. Points within `tolerance` of a plane
-// are treated as inside, so that flat polytopes (two coincident opposite planes) keep both faces.
+// Computes the faces of the polytope of half-spaces n.p <= d. The face of a plane is a large square in this
+// plane, clipped by all other half-spaces. O(planes^2 * corners). 26 planes take about 0.1 ms. Points within
+// `tolerance` of a plane are treated as inside, so that flat polytopes (two coincident opposite planes) keep
+// both faces.
 import { add, dot, norm, orthogonalTo, pointAlong, scale, sub } from "./vectors.js";
 
 // The clipping tolerance as a fraction of the radius.
 const RELATIVE_TOLERANCE = 1e-9;
 
-// `planes`: [{n, d}] with n of any length. `center` and `radius`: a ball that contains the polytope. Returns
-// [{n, corners}], one polygon for each plane with a face. Faces of flat polytopes can be single points.
+// `planes` is [{n, d}] with n of any length. `center` and `radius` are those of a ball that contains the
+// polytope. Returns [{n, corners}] with one polygon for each plane that has a face. Faces of flat polytopes
+// can be single points.
 export function polytope(planes, center, radius) {
   const unitPlanes = planes.map(({ n, d }) => ({ n: scale(n, 1 / norm(n)), d: d / norm(n) }));
   const tolerance = RELATIVE_TOLERANCE * radius;

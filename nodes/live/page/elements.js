@@ -5,7 +5,8 @@
 
 export const byId = (id) => document.getElementById(id);
 
-// Creates an element: element("td", {className: "number"}, "1.5"). Children are texts or elements.
+// Creates an element, for example element("td", {className: "number"}, "1.5"). Children are texts or
+// elements.
 export function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);

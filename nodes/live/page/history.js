@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The last frames for stepping back, as many as fit into 64 MB. While paused, arriving frames are not stored,
-// so that no stored frame has to be removed. A step forward from the newest frame stores the next one that
-// arrives.
+// Stores the last frames for stepping back, as many as fit into 64 MB. While paused, arriving frames are not
+// stored, because old frames would have to be removed for them. After a step forward from the newest frame,
+// the next frame that arrives is stored and shown.
 
 const MAX_BYTES = 64e6;
 
@@ -19,7 +19,7 @@ export class History {
     this.showNext = false;
   }
 
-  // Stores a frame. Returns the frame to show, or null while paused.
+  // Stores a frame and returns it to be shown. While paused, returns null.
   arrive(frame) {
     if (this.paused && !this.showNext) return null;
     this.showNext = false;
@@ -35,7 +35,7 @@ export class History {
     this.showNext = false;
   }
 
-  // Pauses and steps forward (1) or back (-1). Returns the frame to show, or null if there is none (yet).
+  // Pauses and steps forward (1) or back (-1). Returns the frame to show, or null if there is none.
   step(by) {
     this.paused = true;
     if (by > 0 && this.shownIndex === this.frames.length - 1) {

@@ -7,9 +7,14 @@ import { say } from "./notices.js";
 import { Page } from "./page.js";
 import { sub } from "./vectors.js";
 
-// Defines window.pclBv for tests: `frames` (number of frames drawn), `connected`, `picked` (key of the picked
-// object, "track 17" or "cluster 3"), project(x, y, z) (position of an absolute point in pixels of the page),
-// pick(px, py) (key of the object at a position in pixels of the page), and `state` (what is shown and how).
+// Defines window.pclBv for tests, with the members
+//
+// - `frames`: number of frames drawn;
+// - `connected`;
+// - `picked`: key of the picked object, "track 17" or "cluster 3";
+// - project(x, y, z): position of an absolute point, in pixels of the page;
+// - pick(px, py): key of the object at a position in pixels of the page;
+// - `state`: the state of the page.
 function exposeForTests(page) {
   const corner = () => byId("scene").getBoundingClientRect();
   window.pclBv = {

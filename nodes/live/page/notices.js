@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Texts of the page: the line about the frame, and above the scene the "banner" (state of the connection),
-// the "error" and a notice that fades.
+// The texts of the page. The line at the top describes the frame. Above the scene are "banner" (state of the
+// connection), "error", and "notice", which fades.
 import { byId, countText } from "./elements.js";
 
 const NOTICE_MS = 4000;

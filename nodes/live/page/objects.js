@@ -23,7 +23,7 @@ export class ObjectPanel {
     byId("copy").addEventListener("click", () => copyText(JSON.stringify(this.cluster)));
   }
 
-  // `objects`: the result of buildVolumes(); `picked`: a key or null.
+  // `objects` is the result of buildVolumes(). `picked` is a key or null.
   show(clusters, objects, picked) {
     this.cluster = clusters.find((candidate) => keyOf(candidate) === picked);
     this.showPicked(picked);
@@ -62,7 +62,7 @@ export class ObjectPanel {
   }
 }
 
-// Orders by track id. Clusters without a track follow, by cluster id.
+// Orders clusters by track id. Clusters without a track follow, ordered by cluster id.
 function byTrack(a, b) {
   const order = ({ track, id }) => (typeof track === "number" ? track : 1e10 + id);
   return order(a) - order(b);
@@ -86,7 +86,7 @@ function fillRow(row, cluster, colour, isPicked) {
   speed.firstChild.data = cluster.moving ? fixed(speedOf(cluster), 1) : "";
 }
 
-// Pages loaded by http or from a file may not use navigator.clipboard.
+// Does not use navigator.clipboard, which is not allowed in pages loaded by http or from a file.
 function copyText(text) {
   const area = element("textarea", { value: text });
   document.body.append(area);

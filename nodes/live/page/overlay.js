@@ -17,8 +17,8 @@ export class Overlay {
     this.context = canvas.getContext("2d");
   }
 
-  // `objects`: the result of buildVolumes(); `range`: range of the colour ramp, undefined in modes without a
-  // ramp.
+  // `objects` is the result of buildVolumes(). `range` is the range of the colour ramp, or undefined in modes
+  // without a ramp.
   draw(camera, objects, view, range, pixelRatio) {
     const context = this.context;
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
@@ -45,8 +45,9 @@ export class Overlay {
     this.write(`${Number(high.toPrecision(3))}${unit}`, x + wide, y - 5, dim, theme, "right");
   }
 
-  // Omits a label that would overlap an earlier label. The picked object comes first, then moving objects,
-  // then the others; within each group the object with more points comes first.
+  // Draws the labels of the objects. Omits a label that would overlap an earlier label. The label of the
+  // picked object is drawn first, then those of moving objects, then all others. Within each group, labels of
+  // objects with more points are drawn first.
   drawLabels(camera, objects, view) {
     const matrix = camera.matrix();
     const rank = ({ cluster }) => (keyOf(cluster) === view.picked ? 1e12 : cluster.moving ? 1e9 : 0) + cluster.points;
@@ -75,7 +76,7 @@ export class Overlay {
     context.fillText(text, x, y);
   }
 
-  // The bar's length is that at the depth of the camera's target.
+  // Draws the scale bar. Its length is correct at the depth of the camera's target.
   drawScaleBar(camera, theme) {
     const length = niceStep(camera.pixelSize() * 90);
     const wide = length / camera.pixelSize();

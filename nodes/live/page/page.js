@@ -23,18 +23,18 @@ import { centerOf, isDrawable } from "./shapes.js";
 import { add, dot, quantile, sub } from "./vectors.js";
 import { View } from "./view.js";
 
-const SAMPLE = 4096; // points from which the view and the colour ranges are computed
+const SAMPLE = 4096; // maximum number of points for computing the view and the colour ranges
 const PICK_PIXELS = 3;
 const PLOT_MS = 200; // plots are drawn five times a second
 const MAX_OBJECTS = 1 << 20; // maximum number of objects with a colour for their points
-const NARROW = 900; // page width in pixels up to which the side panel starts closed
+const NARROW = 900; // the side panel starts closed if the page has at most this width in pixels
 
 export class Page {
   constructor() {
     document.documentElement.dataset.kind = byId("data") ? "static" : "live";
     this.camera = new Camera();
     this.showPanel(innerWidth > NARROW);
-    this.resize(); // before the WebGL context exists, so that its buffers are created only once
+    this.resize(); // before the WebGL context, so that its buffers are created only once
     this.renderer = new Renderer(byId("scene"));
     this.overlay = new Overlay(byId("overlay"));
     this.batch = new Batch();
@@ -65,7 +65,7 @@ export class Page {
     this.drawn = 0;
     this.notDrawn = 0;
     this.connection = null;
-    // Draw at once, because a resized canvas is blank.
+    // Draw without waiting for the next animation frame, because a resized canvas is blank.
     new ResizeObserver(() => this.resize() && this.drawAndSay()).observe(byId("view"));
     this.watchContext();
   }
@@ -202,7 +202,7 @@ export class Page {
     this.renewGrid();
   }
 
-  // The first frame determines the origin, the view and the colour ranges.
+  // Sets the origin, the view and the colour ranges from the first frame.
   takeFirst() {
     const { points, report, origin } = this.frame;
     const positions = points

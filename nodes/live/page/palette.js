@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Colours of objects (the same ten as in the topics for RViz and Foxglove) and of the two themes.
+// Colours of objects and of the two themes. The ten colours of objects are the same as in the topics for RViz
+// and Foxglove.
 
 const OBJECT_COLOURS = [
   [0.12, 0.56, 1.0],
@@ -46,8 +47,8 @@ function lifted(colour, theme) {
   return colour.map((part) => part + (1 - part) * THEMES[theme].lift);
 }
 
-// Returns the colour of an object: by track id or, in mode "cluster" and for objects without a track, by
-// cluster id. In mode "track" objects without a track have the plain colour.
+// Returns the colour of an object. It depends on the track id or, in mode "cluster" and for objects without a
+// track, on the cluster id. In mode "track", objects without a track have the plain colour.
 export function objectColour(cluster, mode, theme) {
   const tracked = typeof cluster.track === "number";
   if (mode === "track" && !tracked) return lifted(THEMES[theme].plain, theme);

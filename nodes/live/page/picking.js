@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Finds the volume that a ray hits. Each test returns [entry, exit] along the ray or null. Volumes are
-// inflated by `pad`, a few pixels, so that flat and small volumes can be hit.
+// inflated by `pad`, the length of a few pixels, so that flat and small volumes can be hit.
 import { isDrawable, SHAPES } from "./shapes.js";
 import { add, cross, dot, norm, scale, sub, unit } from "./vectors.js";
 
-// Intersects a ray with half-spaces n.p <= d; n is a unit vector, p is relative to the ray's start.
+// Intersects a ray with half-spaces n.p <= d. n is a unit vector, and p is relative to the ray's start.
 function throughPlanes(planes, direction, pad) {
   let [entry, exit] = [-Infinity, Infinity];
   for (const { n, d } of planes) {
@@ -68,7 +68,8 @@ function throughCylinder(center, axis, radius, half, direction, pad) {
     throughPlanes(slab(axis, middle - half, middle + half), direction, pad));
 }
 
-// Tests by shape. Arguments: volume, start of the ray in absolute coordinates, direction of the ray, pad.
+// The test of each shape. The arguments are: volume, start of the ray in absolute coordinates, direction of
+// the ray, pad.
 const TESTS = {
   aabb: (v, from, direction, pad) =>
     throughPlanes([0, 1, 2].flatMap((k) => {
@@ -108,7 +109,7 @@ const TESTS = {
 
 // Returns the cluster whose volume the ray hits first. If the ray enters other volumes before it leaves the
 // first one, the smallest of all these volumes is chosen. Returns null if the ray hits no volume. `from` is
-// in absolute coordinates, padAt(distance) is the pad at a distance from the eye.
+// in absolute coordinates. padAt(distance) returns the pad at a distance from the eye.
 export function pickCluster(clusters, hidden, from, direction, padAt) {
   const met = [];
   for (const cluster of clusters) {

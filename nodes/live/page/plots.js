@@ -7,7 +7,7 @@ import { THEMES } from "./palette.js";
 import { quantile } from "./vectors.js";
 
 const MAX_FRAMES = 200;
-// The stages that `total` consists of, in order. Decoding is not included.
+// The stages whose times add up to `total`, in order. `total` does not include decoding.
 const STAGES = [
   ["filter", "#3fa7d6"], ["ground", "#b08a3e"], ["cluster", "#4cae6a"], ["fit", "#e0894a"], ["track", "#a77bd8"],
 ];
@@ -24,7 +24,7 @@ export class Plots {
     }));
   }
 
-  // A gap in `seq` counts as dropped frames.
+  // Adds a frame. A gap in `seq` is treated as dropped frames.
   add(report, now) {
     const gap = this.lastSeq !== null && report.seq > this.lastSeq + 1 ? report.seq - this.lastSeq - 1 : 0;
     const dropped = gap + (report.error ? 1 : 0);
@@ -34,7 +34,7 @@ export class Plots {
     if (this.frames.length > MAX_FRAMES) this.frames.shift();
   }
 
-  // A new connection may begin with any `seq`.
+  // Must be called for a new connection, because it may begin with any `seq`.
   restart() {
     this.lastSeq = null;
   }

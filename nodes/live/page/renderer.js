@@ -42,7 +42,7 @@ export class Renderer {
     this.setUp();
   }
 
-  // Creates all WebGL objects: at the start, and again after the browser has restored a lost context.
+  // Creates all WebGL objects. Called at the start, and again when the browser has restored a lost context.
   setUp() {
     const gl = this.gl;
     this.pointProgram = new Program(gl, POINT_VERTEX, POINT_FRAGMENT);
@@ -90,7 +90,7 @@ export class Renderer {
     this.gl.vertexAttribPointer(index, size, type, normalised, stride, offset);
   }
 
-  // Enlarges the index buffer that all layers share: two triangles for each line.
+  // Enlarges the index buffer of the lines, which all layers share. It has two triangles for each line.
   reserveLines(lines) {
     if (lines <= this.reserved) return;
     this.reserved = 2 ** Math.ceil(Math.log2(lines));
@@ -103,7 +103,7 @@ export class Renderer {
     this.gl.bufferData(this.gl.ELEMENT_ARRAY_BUFFER, indices, this.gl.STATIC_DRAW);
   }
 
-  // `points`: as described in messages.js, or null.
+  // `points` are as described in messages.js, or null.
   setPoints(points) {
     this.points = points;
     if (!points) return;
@@ -147,7 +147,7 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  // `look`: {theme, mode, range, pointSize, lineWidth, origin, faces, grid}; sizes in device pixels.
+  // `look` is {theme, mode, range, pointSize, lineWidth, origin, faces, grid}. Sizes are in device pixels.
   draw(camera, look) {
     const gl = this.gl;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);

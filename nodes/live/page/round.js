@@ -16,8 +16,8 @@ function angles(count) {
 const FINE = angles(CIRCLE_LINES);
 const COARSE = angles(SLICES);
 
-// Draws an arc of the ellipse center + cos*u + sin*v, which has 48 points, from point `first` to point
-// `last`.
+// Draws an arc of the ellipse center + cos*u + sin*v from point `first` to point `last`. The whole ellipse
+// has points 0 to 48.
 function arc(batch, center, u, v, colour, first = 0, last = CIRCLE_LINES) {
   let before = null;
   for (let k = first; k <= last; ++k) {
@@ -28,8 +28,8 @@ function arc(batch, center, u, v, colour, first = 0, last = CIRCLE_LINES) {
   }
 }
 
-// Joins each ring of vertices with the next ring. `rings`: [{center, u, v, normal}] with u and v the half
-// axes and normal(cos, sin) the normal of a vertex.
+// Joins each ring of vertices with the next ring. `rings` is [{center, u, v, normal}]: u and v are the half
+// axes of a ring, normal(cos, sin) returns the normal of a vertex.
 function skin(batch, rings, colour) {
   const first = batch.vertices;
   for (const { center, u, v, normal } of rings) {
@@ -47,8 +47,8 @@ function skin(batch, rings, colour) {
   }
 }
 
-// Returns rings of an ellipsoid of half axes u, v, w, from the latitude `from` to the latitude `to`: 0 is the
-// pole -w, 1 the pole +w.
+// Returns rings of an ellipsoid with half axes u, v, w, from the latitude `from` to the latitude `to`.
+// Latitude 0 is the pole -w, latitude 1 is the pole +w.
 function ellipsoidRings(center, u, v, w, from, to, count) {
   const inverse = [u, v, w].map((axis) => scale(axis, 1 / Math.max(1e-300, axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)));
   return Array.from({ length: count + 1 }, (_, k) => {
@@ -64,8 +64,8 @@ function ellipsoidRings(center, u, v, w, from, to, count) {
   });
 }
 
-// `u`, `v`, `w`: half axes; their lengths are the radii and may be zero. The lines are the three principal
-// ellipses.
+// Draws an ellipsoid with the half axes u, v, w. Their lengths are the radii and may be zero. The lines are
+// the three principal ellipses.
 export function drawEllipsoid(batch, center, [u, v, w], paint) {
   arc(batch, center, u, v, paint.line);
   arc(batch, center, v, w, paint.line);

@@ -10,11 +10,11 @@ import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.j
 
 const FACE_ALPHA = 0.13;
 const GRID_LINES = 20; // on each side of the centre
-const GRID_PIECE = 4; // length of a piece of one opacity, in grid steps
+const GRID_PIECE = 4; // length of the pieces of a line, in grid steps; each piece has one opacity
 const LINE_WORDS = (LINE_CORNERS * LINE_BYTES) / 4;
 
-// Returns an origin near the point. Coordinates over 4096 m are rounded to a multiple of 1024 m, which
-// float32 holds exactly up to 1.7e10 m; others are 0.
+// Returns an origin near the point. Coordinates over 4096 m are rounded to a multiple of 1024 m, because
+// float32 represents these multiples exactly up to 1.7e10 m. Smaller coordinates become 0.
 export function originNear(point) {
   return point.map((x) => (Math.abs(x) > 4096 ? 1024 * Math.round(x / 1024) : 0));
 }
@@ -24,8 +24,8 @@ export function speedOf(cluster) {
 }
 
 // Fills the batch with the volumes of a frame. Returns {cluster, colour, low, high, center, top} for each
-// cluster with a visible volume: the corners and the centre of the axis-aligned box of the drawn lines, and
-// the point above the centre at the height of the highest line.
+// cluster with a visible volume. `low`, `high` and `center` are the corners and the centre of the
+// axis-aligned box of the drawn lines. `top` is the point above the centre at the height of the highest line.
 export function buildVolumes(batch, report, view, origin, up) {
   batch.clear();
   const objects = [];
@@ -116,7 +116,8 @@ export function niceStep(length) {
   return power * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
 }
 
-// Returns the centre of an object's first drawable volume in scene coordinates, or null if it has none.
+// Returns the centre of a cluster's first drawable volume in scene coordinates. If there is none, returns
+// null.
 export function middleOfCluster(cluster, origin) {
   const volume = cluster.volumes.find(isDrawable);
   return volume ? sub(centerOf(volume), origin) : null;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The panel of the pipeline's settings. Their descriptions come from GET /settings, their values from
-// Foxglove's parameters. The server checks each value. When it refuses a value, its reason is shown beside
-// the field, and the field shows the value in force.
+// The panel of the pipeline's settings. The descriptions of the settings come from GET /settings, their
+// values from Foxglove's parameters. The server checks each value. When the server refuses a value, the
+// reason is shown beside the field, and the field shows the value in force.
 import { byId, element } from "./elements.js";
 
 const UNSET = "null";
-const ANSWER_MS = 2000; // within this time a refusal belongs to the last change
+const ANSWER_MS = 2000; // a refusal within this time after the last change is treated as its answer
 
 export class Settings {
   // send(message) sends a message to the server.
@@ -19,7 +19,7 @@ export class Settings {
     this.requests = 0;
   }
 
-  // Called after each connection, because another server may have other settings.
+  // Loads the settings. Called after each connect, because another server may have other settings.
   async load() {
     const answer = await fetch("settings");
     if (!answer.ok) throw new Error(`settings: ${answer.status} ${answer.statusText}`);
@@ -67,8 +67,8 @@ export class Settings {
     this.send({ op: "setParameters", parameters: [{ name: key, value: valueOf(setting, input) }], id });
   }
 
-  // Shows the values in force that the server sends, either as the answer to a request or after a change by
-  // any client. Only an answer overwrites a field that has the focus.
+  // Shows the values in force. The server sends them as the answer to a request (with an `id`) and after a
+  // change by any client. A field that has the focus is overwritten only by an answer.
   receive(parameters, id) {
     this.pendingKeys.delete(id);
     for (const { name, value } of parameters) {
@@ -77,8 +77,8 @@ export class Settings {
     }
   }
 
-  // Shows the reason of a refusal at the field of the pending or the last change. Returns false if there is
-  // none.
+  // Shows the reason of a refusal at the field of the oldest pending change or else of a recent change.
+  // Returns false if there is no such change.
   refuse(reason) {
     const isRecent = performance.now() - this.lastChange.at < ANSWER_MS;
     const key = [...this.pendingKeys.values()][0] ?? (isRecent ? this.lastChange.key : null);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Shaders. Lines are rectangles with a width in pixels; their sides fade over one pixel. Faces are more
-// opaque at grazing view angles, so that round volumes have an outline.
+// Shaders. Lines are rectangles with a width in pixels. The sides of a line fade over one pixel. Faces are
+// more opaque at grazing view angles, so that round volumes have an outline.
 
 export const POINT_VERTEX = `#version 300 es
 precision highp float;
@@ -11,7 +11,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in uint label;
 layout(location = 2) in float intensity;
 uniform mat4 matrix;
-uniform vec3 shift;           // from the points' origin to the scene's
+uniform vec3 shift;           // from the points' origin to the scene's origin
 uniform vec3 up;
 uniform vec2 range;           // minimum and maximum of the height or the intensity
 uniform vec3 ramp[5];
@@ -67,13 +67,14 @@ out float side;
 void main() {
   vec4 from = matrix * vec4(a, 1.0);
   vec4 to = matrix * vec4(b, 1.0);
-  // Clip the line at the eye: move an end point behind the eye along the line.
+  // If an end point is behind the eye, move it along the line to just before the eye.
   float nearest = 1e-4;
   if (from.w < nearest && to.w > nearest) from = mix(from, to, (nearest - from.w) / (to.w - from.w));
   if (to.w < nearest && from.w > nearest) to = mix(to, from, (nearest - to.w) / (from.w - to.w));
   vec2 direction = (to.xy / to.w - from.xy / from.w) * viewport;
   float length2 = dot(direction, direction);
-  // Draw a short line as a square of the line width, a single point (a == b) of twice the width.
+  // Draw a short line as a square of the line width, and a single point (a == b) as a square of twice the
+  // width.
   bool isDot = length2 < 1e-3;
   direction = isDot ? vec2(1.0, 0.0) : direction * inversesqrt(length2);
   float half_ = (width + 1.0) * (a == b ? 2.0 : 1.0) / 2.0;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Draws the volumes of a JSON report as lines and faces. SHAPES has an entry for each shape: draw() adds the
-// volume to a batch, center() returns its centre and size() a text with its dimensions. `o` is the origin of
-// the scene. It is subtracted in double precision before the conversion to float32, so that large coordinates
-// (UTM) lose no precision.
+// volume to a batch, center() returns its centre, and size() returns a text with its dimensions. `o` is the
+// origin of the scene. It is subtracted in double precision before the conversion to float32, so that large
+// coordinates (UTM) lose no precision.
 import { boundOfSlabs, polytope } from "./convex.js";
 import { drawCapsule, drawCylinder, drawEllipsoid } from "./round.js";
 import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.js";
@@ -20,7 +20,7 @@ function drawBox(batch, center, halfAxes, paint) {
     }
   }
   if (!paint.face) return;
-  // In a flat box one half axis is zero: its direction is the cross product of the others.
+  // In a flat box one half axis is zero. Its direction is then the cross product of the other two half axes.
   const normals = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(([k, i, j]) =>
     unit(norm(halfAxes[k]) > 0 ? halfAxes[k] : cross(halfAxes[i], halfAxes[j])));
   CUBE_FACES.forEach((face, k) => batch.polygon(face.map((bits) => corners[bits]), normals[k >> 1], paint.face));

@@ -23,7 +23,7 @@ std::string_view without_port(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-// Parses a numeric address. Rejects texts with a zero byte: Asio would ignore the part after the zero byte.
+// Parses a numeric address. Rejects texts with a zero byte, because Asio would ignore the part after it.
 std::optional<boost::asio::ip::address> address_of(std::string_view host) {
   boost::system::error_code error;
   const auto address = boost::asio::ip::make_address(std::string(host), error);
@@ -60,7 +60,7 @@ bool is_server_host(std::string_view header, const Address& server) {
 bool may_connect(std::string_view origin, std::string_view host_header) {
   if (origin.empty() || origin == "file://" || origin == "https://app.foxglove.dev") return true;
   const std::size_t scheme = origin.find("://");
-  if (scheme == std::string_view::npos) return false;  // "null": opaque origin, such as a sandboxed page
+  if (scheme == std::string_view::npos) return false;  // "null", as of a sandboxed page
   const std::string_view from = origin.substr(scheme + 3);
   return from == host_header || is_loopback_host(without_port(from));
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Access control by the HTTP headers Host and Origin. Any page in a browser can open a WebSocket to any
-// address, including this machine, but it cannot forge these headers.
+// address, including addresses of this machine. The page cannot forge these two headers.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,15 @@ struct Address {
 /// free port. Throws std::invalid_argument for any other text.
 Address parse_address(const std::string& text);
 
-/// Returns whether a request's header Host ("localhost:8765") can mean this server: a numeric address,
-/// localhost, this machine's name (also with ".local") or the host that the server was started with. Other
-/// names are refused because of DNS rebinding: a foreign name that resolves to this machine makes a browser
-/// treat the foreign page and this server as one site.
+/// Returns whether a request's header Host ("localhost:8765") can mean this server. The host must be a
+/// numeric address, localhost, this machine's name (also with ".local") or the host that the server was
+/// started with. Other names are refused to prevent DNS rebinding. In this attack a foreign name resolves to
+/// this machine, so that a browser treats the foreign page and this server as one site.
 bool is_server_host(std::string_view header, const Address& server);
 
-/// Returns whether a page of this origin may connect: the server's own page, a page of this machine, a local
-/// file or Foxglove's page. An empty origin may connect: programs that are not browsers send none.
+/// Returns whether a page of this origin may connect. These are the server's own page, pages from localhost
+/// or a loopback address, local files and Foxglove's page. An empty origin may also connect, because programs
+/// that are not browsers send no origin.
 bool may_connect(std::string_view origin, std::string_view host_header);
 
 }  // namespace pcl_bv::live

@@ -16,7 +16,7 @@ using Error = boost::system::error_code;
 
 constexpr std::chrono::seconds kHttpTimeout{10};  // for reading the request, and for writing the reply
 
-// Content security policy: the page loads no other resources and connects only to its own server.
+// The page may load no other resources and connect only to its own server.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src 'self'; "
@@ -99,7 +99,7 @@ void Connection::reply(Response response) {
   response.set(http::field::server, "pcl_bv");
   response.keep_alive(false);
   response.prepare_payload();
-  if (parser_.get().method() == http::verb::head) response.body().clear();  // the header Content-Length stays
+  if (parser_.get().method() == http::verb::head) response.body().clear();  // Content-Length is set already
   response_ = std::make_shared<Response>(std::move(response));
   stream_.expires_after(kHttpTimeout);
   http::async_write(stream_, *response_, [self = shared_from_this()](Error error, std::size_t) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A TCP connection that answers one HTTP request: it serves the page or becomes a WebSocket (Viewer).
+// A TCP connection that answers one HTTP request or becomes a WebSocket (Viewer).
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace pcl_bv::live {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  static constexpr int kMaxConnections = 64;  ///< Viewers not included.
+  static constexpr int kMaxConnections = 64;  ///< Maximum number, without viewers.
 
   Connection(boost::asio::ip::tcp::socket&& socket, Hub& hub, const Address& server, int& open);
   ~Connection();

@@ -47,26 +47,27 @@ class RateLimit {
   std::chrono::steady_clock::time_point second_{};
 };
 
-/// Used only by the server's thread, except where a member function says otherwise.
+/// The shared state of all viewers. Only the server's thread uses it, except where noted.
 class Hub {
  public:
-  /// Changes of settings by all viewers together. A change takes up to 1 ms.
+  /// Limit on the changes of settings by all viewers together. A change takes up to 1 ms, so changes take at
+  /// most 5 % of the time of the server's thread.
   static constexpr std::size_t kMaxChangesPerSecond = 50;
-  static constexpr std::size_t kMaxStoredWarnings = 10;  ///< Stored for take_warnings().
+  static constexpr std::size_t kMaxStoredWarnings = 10;  ///< Limit for take_warnings().
 
   explicit Hub(std::string session) : session_(std::move(session)) {}
 
   void add(std::shared_ptr<Channel> channel);
   void publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
 
-  /// Sends a warning to all viewers, at most one per second. The next warning gives the number of warnings
-  /// that were skipped.
+  /// Sends a warning to all viewers, at most one per second. Other warnings are skipped. The next warning
+  /// that is sent gives the number of skipped warnings.
   void notice(const std::string& line);
 
   void offer(std::shared_ptr<RemoteSettings> settings);
 
-  /// Sends the values of the settings to the viewers that watch them, if the values have changed since the
-  /// last time.
+  /// Sends the values of the settings to the viewers that watch them, if the values have changed since they
+  /// were last sent.
   void send_settings();
 
   /// Returns RemoteSettings::description(), or "[]" if there are no settings.
@@ -80,7 +81,8 @@ class Hub {
   /// Closes the connections of all viewers after sending their queued messages.
   void finish();
 
-  /// Stores a warning for take_warnings(), unless it equals the previous one. Any thread may call these two.
+  /// Stores a warning for take_warnings(), unless it equals the previous one. Any thread may call
+  /// add_warning() and take_warnings().
   void add_warning(const std::string& line);
   std::vector<std::string> take_warnings();
 

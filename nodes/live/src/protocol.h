@@ -23,18 +23,19 @@ namespace pcl_bv::live {
 std::optional<std::string> known_subprotocol(std::string_view offered);
 
 std::string server_info(const std::string& session);
-/// Advertises the topics from index `first` on. The index of a topic is the id of its channel.
+/// Returns the message that advertises the topics with index `first` and above. The index of a topic is the
+/// id of its channel.
 std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t first);
 
 enum class Level : std::uint8_t { info, warning, error };
 std::string status(Level level, const std::string& message);
 
-/// Returns the values of the settings in `names`, or of all settings if `names` is empty. `settings` is the
-/// text of RemoteSettings::values(), `id` the id of the request or empty.
+/// Returns the message with the values of the settings in `names`, or of all settings if `names` is empty.
+/// `settings` is the result of RemoteSettings::values(). `id` is the id of the request, or empty.
 std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,
                              const std::string& id);
 
-/// The header before a message's bytes: opcode, subscription id and stamp.
+/// The header of a binary message: opcode, subscription id and stamp.
 using MessageHeader = std::array<unsigned char, 13>;
 MessageHeader message_header(std::uint32_t subscription, std::int64_t stamp_ns);
 
@@ -42,7 +43,7 @@ std::string time_message(std::int64_t stamp_ns);
 
 struct Subscribe {
   std::vector<std::pair<std::uint32_t, std::size_t>>
-      subscriptions;  ///< Subscription id and channel id of each.
+      subscriptions;  ///< Pairs of subscription id and channel id.
 };
 struct Unsubscribe {
   std::vector<std::uint32_t> subscriptions;
@@ -66,13 +67,13 @@ struct InvalidRequest {
 using Request =
     std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, InvalidRequest>;
 
-/// Limits on a request and on its parts that an answer repeats, so that no answer is much longer than the
-/// settings' values.
-inline constexpr std::size_t kMaxNames = 100;     ///< Settings, channels or subscriptions; about 30 exist.
-inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes.
+/// Limits on the parts of a request that an answer repeats. With these limits, no answer is much longer than
+/// the values of all settings.
+inline constexpr std::size_t kMaxNames = 100;     ///< Of settings, channels or subscriptions.
+inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes of a request's id.
 inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status message.
 
-/// Parses any text. Invalid requests and requests over the limits give InvalidRequest.
+/// Parses a request. Returns InvalidRequest for an invalid request and for a request over the limits.
 Request parse_request(const std::string& text);
 
 }  // namespace pcl_bv::live

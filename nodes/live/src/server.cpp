@@ -74,7 +74,8 @@ void Server::accept() {
     if (!error && connections_ < Connection::kMaxConnections)
       std::make_shared<Connection>(std::move(socket), hub_, address_, connections_)->start();
     if (!error) return accept();
-    // Usually out of file descriptors: keep the existing connections and accept again after 100 ms.
+    // The process has usually run out of file descriptors. Keep the connections and accept again after 100
+    // ms.
     const auto pause = std::make_shared<boost::asio::steady_timer>(io_, std::chrono::milliseconds(100));
     pause->async_wait([this, pause](const Error&) {
       if (acceptor_.is_open()) accept();

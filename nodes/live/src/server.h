@@ -18,11 +18,11 @@
 
 namespace pcl_bv::live {
 
-/// Serves all viewers on one port in a thread of its own, so that send() never waits for a viewer.
+/// Serves all viewers on one port. The server has its own thread, so that send() never waits for a viewer.
 class Server final : public MessageSender {
  public:
-  /// Listens at the address, [HOST:]PORT. Throws std::invalid_argument as parse_address() does, IoError if
-  /// the port cannot be opened.
+  /// Listens at the address, [HOST:]PORT. Throws std::invalid_argument as parse_address() does, and IoError
+  /// if the port cannot be opened.
   explicit Server(const std::string& address);
   ~Server() override;
   Server(const Server&) = delete;
@@ -49,7 +49,7 @@ class Server final : public MessageSender {
   boost::asio::ip::tcp::acceptor acceptor_{io_};
   Hub hub_;
   int connections_ = 0;
-  std::atomic<std::size_t> queued_bytes_{0};  // of the messages queued for the server's thread
+  std::atomic<std::size_t> queued_bytes_{0};  // bytes of messages that wait for the server's thread
   std::atomic<std::uint64_t> lost_{0};
   std::vector<std::shared_ptr<Channel>> channels_;
   std::promise<void> ended_;

@@ -143,7 +143,7 @@ void Viewer::close(websocket::close_code code) {
   ws_.async_close(code, [self = shared_from_this()](const Error&) { self->drop_connection(); });
 }
 
-// Pending asynchronous operations end with an error and release their references to the viewer.
+// Cancels pending asynchronous operations. They end with an error and release their references to the viewer.
 void Viewer::drop_connection() {
   if (!std::exchange(open_, false)) return;
   closing_ = true;

@@ -21,9 +21,9 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
   static constexpr std::size_t kMaxViewers = 32;
-  static constexpr std::size_t kMaxQueuedBytes = std::size_t{32} << 20;  ///< 16 clouds of 2 MB.
+  static constexpr std::size_t kMaxQueuedBytes = std::size_t{32} << 20;  ///< Enough for 16 clouds of 2 MB.
   static constexpr std::size_t kMaxQueuedAnswers = 256;
-  /// Limits on a client's requests: parsing the requests of one second delays other clients by some
+  /// Limits on a client's requests. Parsing the requests of one second delays other clients by at most some
   /// milliseconds. A request with 30 settings has 2 kB.
   static constexpr std::size_t kMaxRequestBytes = std::size_t{64} << 10;
   static constexpr std::size_t kMaxRequestBytesPerSecond = 4 * kMaxRequestBytes;
@@ -37,8 +37,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void queue_text(const std::string& text);
 
   /// Queues a message if the client has subscribed to its channel. If the queue would exceed
-  /// kMaxQueuedBytes, the messages in the queue are dropped first, and the client is not counted as a
-  /// reader until it reads again. Messages are therefore not produced for a client that hangs.
+  /// kMaxQueuedBytes, the messages in the queue are dropped first. The client is then not counted as a reader
+  /// until it reads again, so that no messages are produced for a client that hangs.
   void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
   void send_time(std::int64_t stamp_ns);
 
@@ -52,7 +52,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
  private:
   struct Outgoing {
-    std::string text;  // the whole text, or the header of `message`
+    std::string text;  // the whole text, or the header before `message`
     Bytes message;
     bool is_text = false;
     bool is_answer = false;
@@ -72,7 +72,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   boost::beast::websocket::stream<boost::beast::tcp_stream> ws_;
   Hub& hub_;
   boost::beast::flat_buffer buffer_;
-  std::deque<Outgoing> send_queue_;  // the first is being sent if `writing_`
+  std::deque<Outgoing> send_queue_;  // the first element is being sent if `writing_`
   std::size_t queued_bytes_ = 0, queued_answers_ = 0;
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;

@@ -36,7 +36,8 @@ std::vector<std::size_t> assign_ranks(const std::vector<Job>& jobs, std::size_t 
   return owner;
 }
 
-// Returns the ranks that the first rank has computed: other ranks may see other file sizes if a file grows.
+// Returns the rank of each job, computed by the first rank. The other ranks do not compute it, because they
+// may see other file sizes if a file grows.
 std::vector<std::size_t> broadcast_owners(Ranks& ranks, const std::vector<Job>& jobs) {
   std::ostringstream text;
   if (ranks.first()) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Failures of tiles. All ranks learn of a failure before the next step, because they would otherwise wait for
-// the failed rank.
+// Failures of tiles. A failure is sent to all ranks before the next step, because they would otherwise wait
+// for the failed rank.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +31,10 @@ std::optional<TileFailure> run_and_catch(const Work& work) {
   }
 }
 
-/// Collective call: returns the failure of the lowest rank that has one, the same on all ranks.
+/// A collective call. Returns, on all ranks, the failure of the lowest rank that has a failure.
 std::optional<TileFailure> first_failure(Ranks& ranks, const std::optional<TileFailure>& own);
 
-/// Collective call: returns the headers of all tiles. Each rank reads its share of the tiles.
+/// A collective call. Returns the headers of all tiles. Each rank reads its share of the tiles.
 std::vector<TileHeader> describe_tiles(Ranks& ranks, const std::vector<Job>& jobs);
 
 }  // namespace pcl_bv

@@ -20,9 +20,8 @@
 namespace pcl_bv {
 namespace {
 
-/// Collective call: calls work(), which gives the same result on every rank. The first rank prints its
-/// warnings. If work() throws UsageError on any rank, all ranks return false and the first rank prints the
-/// reason.
+/// A collective call. Calls work() on every rank. The first rank prints the warnings of its own work(). If
+/// work() throws UsageError on any rank, all ranks return false and the first rank prints the reason.
 bool run_on_all_ranks(Ranks& ranks, const std::function<void()>& work) {
   std::string problem;
   {

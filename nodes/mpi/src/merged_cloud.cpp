@@ -48,7 +48,7 @@ double processor_seconds() {
 }
 
 /// One attempt to fit the volumes to the tiles that are not left out. All ranks execute the same steps. A
-/// step that may fail returns the failure, the same on all ranks.
+/// step that may fail returns the failure, which is the same on all ranks.
 class Attempt {
  public:
   Attempt(Ranks& ranks, const Tiles& tiles, const Options& options)
@@ -60,7 +60,7 @@ class Attempt {
   }
 
   Failure run();
-  Report report() const;  ///< On the first rank only.
+  Report report() const;  ///< Only on the first rank.
   std::size_t rounds() const { return rounds_; }
   /// CPU time of this rank without waiting for other ranks, seconds.
   double cpu_seconds() const { return cpu_seconds_; }
@@ -97,15 +97,16 @@ class Attempt {
   std::vector<const Method*> methods_;
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
-  PartialFile merged_;  // after merge(): of all points on the first rank and, with --check, on every rank
+  PartialFile merged_;  // this rank's points; after merge(), all points (first rank; with --check, all)
   std::vector<Fitted> fitted_;
   std::vector<std::size_t> outside_;
   std::size_t rounds_ = 0;
   double cpu_seconds_ = 0;
 };
 
-// The origin is the middle of the box of all points, rounded to whole numbers. The box is exact, so the
-// origin does not depend on the number of ranks.
+// If the options request an origin but do not give it, the origin is the middle of the axis-aligned box of
+// all points, rounded to whole numbers. The box is exact, so the origin does not depend on the number of
+// ranks.
 Failure Attempt::find_origin() {
   origin_ = options_.origin.at;
   if (!options_.origin.requested || origin_) return std::nullopt;
@@ -143,7 +144,8 @@ Failure Attempt::read_own_points() {
   return first_failure(ranks_, failure);
 }
 
-// Merges along a binary tree of the ranks, without MPI_Reduce, which needs parts of equal length.
+// Merges the partial results along a binary tree of the ranks. MPI_Reduce is not used, because it needs
+// messages of equal length.
 void Attempt::merge() {
   for (std::size_t step = 1; step < ranks_.size(); step *= 2) {
     if (ranks_.rank() % (2 * step) == step) {
@@ -184,8 +186,8 @@ bool Attempt::run_query(const QueryMessage& query, Failure& failure, OctantPoint
   return !ranks_.merge_farthest(own, now.has_value(), found);
 }
 
-// The solver runs on the first rank and broadcasts its queries. Each rank answers for its own points. An
-// empty message ends the rounds.
+// The first rank runs the solver and broadcasts the solver's queries. Each rank answers a query for its own
+// points. An empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted& fitted) {
   Failure failure;
   OctantPoints found;
@@ -248,8 +250,8 @@ Report Attempt::report() const {
   return report;
 }
 
-/// Prints the cost of the run (--timings): CPU time and messages of all ranks together, and the maximum
-/// memory of a rank.
+/// Prints the cost of the run (--timings): the CPU time and the messages, summed over all ranks, and the
+/// maximum memory of a rank.
 void print_costs(Ranks& ranks, double seconds, double cpu_seconds, std::size_t rounds) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -14,14 +14,14 @@
 
 namespace pcl_bv {
 
-/// Collective call: fits each method to the points of all tiles.
+/// A collective call. Fits each method to the points of all tiles.
 ///
 /// - Methods for which Partial::can_fit() holds are fitted to the merged partial results of all ranks.
-///   Exception: `sphere-exact` of more than Partial::kMaxStored points runs in rounds of queries to all
+///   Exception: `sphere-exact` of more than Partial::kMaxStored points is fitted by rounds of queries to all
 ///   ranks.
 /// - Each method that needs all points is fitted on one rank, which reads all points.
 ///
-/// If an input fails on any rank, all ranks leave it out and start again without it. `report` and the
+/// If an input fails on any rank, all ranks start again without this input. `report` and the
 /// returned status are meaningful on the first rank only. Throws IoError on all ranks if no input can be
 /// read.
 Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);

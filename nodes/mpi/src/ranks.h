@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ranks of a run and their messages, by MPI. MPI handles its own errors: it ends the run and prints the
-// reason.
+// The ranks of a run and their messages, by MPI. In case of an error, MPI prints the reason and ends the run.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ namespace pcl_bv {
 
 class Ranks {
  public:
-  Ranks(int* argc, char*** argv);  ///< Initializes MPI: at most one object per process.
+  Ranks(int* argc, char*** argv);  ///< Initializes MPI. A process may construct only one object.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -26,10 +25,11 @@ class Ranks {
   std::size_t size() const { return size_; }
   bool first() const { return rank_ == 0; }
 
-  /// Ends all ranks, with status 1.
+  /// Ends the processes of all ranks with status 1.
   [[noreturn]] static void abort();
 
-  // Collective calls: all ranks must call them in the same order. Texts have at most 2^31 - 1 bytes.
+  // The following functions are collective calls: all ranks must call them in the same order. A text has at
+  // most 2^31 - 1 bytes.
 
   /// Returns the text of the rank `from`.
   std::string broadcast(const std::string& text, std::size_t from = 0);
@@ -43,10 +43,10 @@ class Ranks {
   /// Returns the element-wise minima over all ranks.
   std::vector<double> min_over_ranks(std::vector<double> numbers);
 
-  /// Sets `of_all` to the farthest points of all ranks. Returns whether any rank has `failed`.
+  /// Sets `of_all` to the farthest points of all ranks. Returns whether `failed` is true on any rank.
   bool merge_farthest(const OctantPoints& own, bool failed, OctantPoints& of_all);
 
-  // Messages from one rank to another.
+  // The following functions send a message from one rank to another.
 
   void send(const std::string& text, std::size_t to);
   std::string receive(std::size_t from);
@@ -55,7 +55,7 @@ class Ranks {
   /// nothing.
   std::optional<std::string> receive_any(bool wait);
 
-  // Sent by send(), broadcast() and merge_farthest().
+  // What this rank has sent by send(), broadcast() and merge_farthest(). Other calls are not counted.
 
   std::size_t bytes_sent() const { return bytes_sent_; }
   std::size_t messages_sent() const { return messages_sent_; }

@@ -17,11 +17,11 @@ struct Fitted {
   AnyVolume volume;
 };
 
-/// Serializes the exact bits of a Sphere or an Obb, the volumes of the methods that need all points and of
-/// `sphere-exact`. Throws std::invalid_argument for other volumes.
+/// Serializes a Sphere or an Obb with its exact bits. The methods that need all points and `sphere-exact`
+/// give these volumes. Throws std::invalid_argument for other volumes.
 std::string bytes_of(const Fitted& fitted);
 
-/// The inverse of bytes_of() on a machine with the same memory layout.
+/// Inverse of bytes_of(), on a machine with the same memory layout.
 Fitted fitted_from(const std::string& bytes);
 
 }  // namespace pcl_bv

@@ -23,14 +23,14 @@ struct ConfigProblem {
   std::string what;  ///< The value and the allowed values.
 };
 
-/// Returns the problems of all settings, alone and in combination.
+/// Returns the problems of single settings and of combinations of settings.
 std::vector<ConfigProblem> problems_of(const StreamConfig& config);
 
-/// Returns the allowed range of a whole number as text: " of at least 1 and at most 1000".
+/// Returns the allowed range of a whole number as text, such as " of at least 1 and at most 1000".
 std::string whole_number_range(const NumberRange& range);
 
-/// As read_text(). Errors of whole numbers also state the allowed range, so that "-1" and "1e300" are
-/// rejected with the same words as a 0 that is too small.
+/// Same as read_text(), but errors of whole numbers also state the allowed range. Thus the errors for "-1" and
+/// "1e300" have the same words as the error for a 0 that is too small.
 template <typename T>
 void read_setting(const Setting& setting, std::string_view text, T& value) {
   constexpr bool count = std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>;

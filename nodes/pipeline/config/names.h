@@ -16,8 +16,8 @@ namespace pcl_bv {
 template <typename Choice, std::size_t n>
 using Names = std::array<std::pair<std::string_view, Choice>, n>;
 
-/// Returns the value of the name that equals the text. Throws std::invalid_argument, which lists the names,
-/// if there is none.
+/// Returns the value of the name that equals the text. If there is none, throws std::invalid_argument with a
+/// list of the names.
 template <typename Choice, std::size_t n>
 Choice read_name(const Names<Choice, n>& names, std::string_view text) {
   std::string known;

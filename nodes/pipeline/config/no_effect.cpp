@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds settings that have no effect in combination with the others; otherwise a user would search for their
+// Finds settings that have no effect in combination with the others, so that users do not search for the
 // effect in the results.
 
 #include <algorithm>

@@ -47,7 +47,7 @@ constexpr const char* kind_of() {
   return "text";
 }
 
-// Settings with choices list them as their unit: "drop, keep, split".
+// Returns the choices of a setting, which are listed in its unit: "drop, keep, split".
 Json choices_in(const std::string& unit) {
   Json choices = Json::array();
   std::istringstream words(unit);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The list of all settings: key, description, unit and allowed values. Configuration files, command-line
-// options and the parameters of other systems are made by visiting this list.
+// The list of all settings with their keys, descriptions, units and allowed values. Configuration files,
+// command-line options and the parameters of other systems are made by visiting this list.
 #pragma once
 
 #include <cstddef>
@@ -19,28 +19,30 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr double kFinite = std::numeric_limits<double>::max();
 
-/// Allowed numbers: from `min` (excluded unless `closed`) to `max`, which may be kNoLimit.
+/// A range of allowed numbers from `min` (excluded unless `closed`) to `max` (may be kNoLimit).
 struct NumberRange {
   double min = 0;
   double max = kFinite;
   bool closed = true;
-  bool as_float = false;  ///< Positive numbers that become 0 as float32, the type of points, are not allowed.
+  /// Positive numbers that become 0 as float32, the type of points, are not allowed.
+  bool as_float = false;
 };
 
 /// The description of a setting.
 struct Setting {
-  std::string_view key;                      ///< With its stage: "filter.range_min".
+  std::string_view key;                      ///< Key with its stage: "filter.range_min".
   std::string_view unit;                     ///< "m", the choices, or the meaning of a special value.
   std::string_view help;                     ///< Help text.
   NumberRange range{};                       ///< Allowed numbers.
   std::string_view unset{};                  ///< Meaning of null or of an empty list.
-  std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M"; empty without an option.
+  std::string_view option{}, placeholder{};  ///< Such as "--sensor-height" and "M", or empty.
 };
 
-/// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the setting's field, const
-/// if the configuration is. Its type is one of: bool, double, std::size_t, std::string (the instruction set),
-/// Eigen::Vector3d (a direction), std::optional of a double, std::size_t, point or FieldName, a std::vector
-/// of std::string (methods), RegionConfig or ClassConfig, or an enum.
+/// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the field of `c`, const if
+/// `c` is const. Its type is one of:
+/// - bool, double, std::size_t, std::string (the instruction set), Eigen::Vector3d (a direction) or an enum;
+/// - std::optional of a double, a std::size_t, a point or a FieldName;
+/// - std::vector of a std::string (methods), a RegionConfig or a ClassConfig.
 // clang-format off: a table
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
@@ -81,7 +83,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.ground.sensor);
   visit(S{"ground.sensor_height",
           "m",
-          "Height of the origin above the ground",
+          "Height of the sensor (the origin with plane) above the ground",
           {},
           "estimated",
           "--sensor-height",
@@ -164,7 +166,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.volumes);
   visit(S{"growth",
           "sequential, stationary, deferred",
-          "Growth of EPOS spheres: sequential, stationary, deferred",
+          "Sphere growth (Ritter, EPOS): sequential, stationary, deferred",
           {},
           {},
           "--growth",
@@ -191,7 +193,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
 }
 
-/// The same for all settings of a stream: those of its pipeline and of its runner.
+/// Same as visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
 template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   using S = Setting;
@@ -211,15 +213,15 @@ void visit_stream(Stream& c, Visit&& visit) {
 }
 // clang-format on
 
-/// Return a value as text: numbers with the fewest digits that read back exactly, "null" for a missing value,
-/// "unlimited" for a missing limit.
+/// Return a value as text. Numbers have the fewest digits that read back exactly. A missing value is "null",
+/// and a missing limit is "unlimited".
 std::string to_text(bool value);
 std::string to_text(double value);
 std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
 std::string to_text(const std::vector<std::string>& names);  ///< Joined by ", ".
-/// Rows in the syntax of the setting's unit, without [] and without unset fields.
+/// Return rows in the syntax of the setting's unit, without [] and without unset fields.
 std::string to_text(const std::vector<RegionConfig>& regions);
 std::string to_text(const std::vector<ClassConfig>& classes);
 std::string to_text(GroundMethod method);
@@ -233,8 +235,8 @@ std::string to_text(const std::optional<T>& value) {
   return value ? to_text(*value) : "null";
 }
 
-/// Parse a value; the inverse of to_text(). Throw std::invalid_argument for any other text: "'far' is not a
-/// number". Ranges are checked by problem_of(), not here.
+/// Parse a value in the format of to_text(). Throw std::invalid_argument for any other text, such as "'far'
+/// is not a number". Ranges are checked by problem_of(), not here.
 void read_text(std::string_view text, bool& value);
 void read_text(std::string_view text, double& value);
 void read_text(std::string_view text, std::size_t& value);
@@ -242,8 +244,8 @@ void read_text(std::string_view text, Eigen::Vector3d& direction);
 void read_text(std::string_view text, std::string& name);
 void read_text(std::string_view text,
                std::vector<std::string>& names);                            ///< `all` means methods_of_all().
-void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One with this file name.
-void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One with this value.
+void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One region with this file.
+void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One class with this value.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, FieldName& field);
@@ -256,7 +258,7 @@ void read_text(std::string_view text, std::optional<T>& value) {
   if (text != "null") read_text(text, value.emplace());
 }
 
-/// Return why a value is not allowed, such as "-1 is not at least 0"; empty if it is allowed.
+/// Return why a value is not allowed, such as "-1 is not at least 0", or an empty text if it is allowed.
 std::string problem_of(const Setting& setting, double value);
 std::string problem_of(const Setting& setting, std::size_t value);
 std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction);

@@ -37,7 +37,7 @@ std::string find_name(const Names<Choice, n>& names, Choice choice) {
   return {};
 }
 
-// The parts between commas, without the spaces around them.
+// Returns the parts between commas, without the spaces around the parts.
 std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -51,7 +51,7 @@ std::vector<std::string_view> parts_of(std::string_view text) {
   return parts;
 }
 
-// Quotes a name as YAML does; it may contain any characters.
+// Quotes a name as YAML does. The name may contain any characters.
 std::string in_quotes(const std::string& name) {
   constexpr char digits[] = "0123456789abcdef";
   std::string text = "\"";
@@ -65,7 +65,7 @@ std::string in_quotes(const std::string& name) {
   return text + '"';
 }
 
-// The text of a field of a row; empty if the field is unset.
+// Returns the text of a field of a row, which is empty if the field is unset.
 template <typename T>
 std::string text_of_field(const T& value) {
   return to_text(value);

@@ -18,14 +18,15 @@
 namespace pcl_bv {
 namespace {
 
-// Line numbers of keys in the file, from 1; 0 means nowhere.
+// Line numbers of keys in the file, from 1. 0 means that the key is not in the file.
 using Lines = std::map<std::string, int>;
 
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
   throw ConfigError(name + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + what);
 }
 
-// Returns the unit of a number for errors. Errors of other types list the allowed names themselves.
+// Returns the unit of a number, to be appended to errors. For other types, returns an empty text, because
+// their errors list the allowed names.
 template <typename T>
 std::string in_unit(const Setting& setting) {
   constexpr bool number = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>> ||
@@ -63,7 +64,7 @@ class Reader {
     }
   }
 
-  // Called after all settings have been visited: rejects keys that no setting has taken.
+  // Rejects keys that no setting has taken. Called after all settings have been visited.
   void finish() const {
     for (const auto& [key, line_number] : maps_) {
       if (sections_.count(key) == 0)

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Reserves more than needed: the second pass over a sequence has more rows than the first, and must not
-// allocate.
+// Reserves more than needed, because the second pass over a sequence has more rows than the first and must
+// not allocate.
 template <typename T>
 void refill(std::vector<T>& values, std::size_t count, T value) {
   if (values.capacity() < count) values.reserve(4 * count);
@@ -60,8 +60,8 @@ void SparseAssignment::relax(std::size_t row, std::size_t column, double cost) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-// Dijkstra's search from a row to the nearest free column. The potentials keep all later distances
-// non-negative.
+// Dijkstra's search from a row to the nearest free column. The potentials keep the distances of all later
+// searches non-negative.
 void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair>& pairs) {
   heap_.clear();
   touched_.clear();

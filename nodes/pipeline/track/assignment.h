@@ -16,16 +16,17 @@ struct AssignmentPair {
   double cost = 0;
 };
 
-/// Solves the sparse assignment problem exactly (Kuhn 1955): each row gets a column or pays
+/// Solves the sparse assignment problem exactly (Kuhn 1955). Each row gets a column or pays
 /// `unassigned_cost`, and the sum of costs is minimal. Uses shortest augmenting paths (Jonker and Volgenant
-/// 1987). A path stays within one connected group of pairs, so separate groups do not slow each other down.
-/// Reuse keeps the capacity.
+/// 1987). A path stays within one connected group of pairs, so the time for one group does not depend on the
+/// other groups. A reused object keeps its capacity.
 class SparseAssignment {
  public:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   /// Computes the assignment. `pairs` must be sorted by row and hold each pair once. The result is
-  /// deterministic, also for ties. At worst O(rows * group * log(group)) for groups of `group` pairs.
+  /// deterministic, also for ties. Takes at most O(rows * group * log(group)), where `group` is the number of
+  /// pairs in a connected group.
   void solve(std::size_t rows, std::size_t columns, const std::vector<AssignmentPair>& pairs,
              double unassigned_cost);
 
@@ -37,7 +38,8 @@ class SparseAssignment {
   void relax(std::size_t row, std::size_t column, double cost);
 
   using HeapEntry = std::pair<double, std::size_t>;  // distance, column
-  std::size_t columns_ = 0;                          // real ones; column columns_ + r: row r is unassigned
+  // Number of columns. The search also uses column columns_ + r, which means that row r is unassigned.
+  std::size_t columns_ = 0;
   double unassigned_cost_ = 0;
   std::vector<std::size_t> first_, column_of_, row_of_, from_, touched_;
   std::vector<double> matched_cost_, potential_, distance_, cost_from_;

@@ -14,13 +14,13 @@ namespace pcl_bv {
 namespace {
 
 constexpr double kVoteDecay = 0.9;          // decay of the votes for the front, per frame
-constexpr double kVoteLead = 2;             // votes by which another front must lead
+constexpr double kVoteLead = 2;             // lead in votes that makes another axis the front
 constexpr double kMovingDecay = 0.5;        // decay of the mean yaw per frame, if the object moves
 constexpr double kStaticDecay = 0.97;       // decay of the mean yaw per frame, if it is static
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
-constexpr std::size_t kFreeDetections = 5;  // first detections, whose sizes may grow by any step
+constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 
-// Rotates axes 0 and 1 about axis 2 by quarters of a turn: axis 1 becomes axis 0, and so on.
+// Rotates axes 0 and 1 about axis 2 by quarters of a turn. In one quarter, axis 1 becomes axis 0.
 Eigen::Matrix3d rotated_by_quarters(const Eigen::Matrix3d& axes, int quarters) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < quarters; ++i) {
@@ -31,7 +31,7 @@ Eigen::Matrix3d rotated_by_quarters(const Eigen::Matrix3d& axes, int quarters) {
   return result;
 }
 
-// Rotates the axes about axis 2 by an angle. Axis 2 keeps its bits.
+// Rotates the axes about axis 2 by an angle. The bits of axis 2 do not change.
 Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
   Eigen::Matrix3d from_third;
   from_third << axes.col(2), std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1), axes.col(1);
@@ -41,7 +41,7 @@ Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
   return result;
 }
 
-// Finds the slabs that contain all valid points, widened by slightly more than the rounding error of the
+// Finds the slabs that contain all valid points. Widens them by slightly more than the rounding error of the
 // comparisons.
 void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
               Eigen::Vector3d& low, Eigen::Vector3d& high) {
@@ -109,7 +109,7 @@ double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& state) {
     sine_ = decay * sine_ + weight * std::sin(4 * yaw);
   }
   if (cosine_ == 0 && sine_ == 0) return 0;
-  // The rotation to apply, radians.
+  // This is the rotation from the box to the mean yaw, radians.
   return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));
 }
 
@@ -133,7 +133,7 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
   Eigen::Matrix3d axes = box.axes();
   if (smooth) {
     axes = about_third(axes, smoothed_yaw(box, state));
-    axes_ = state.sensor.linear() * axes;  // align_axes() then follows the smoothed axes
+    axes_ = state.sensor.linear() * axes;  // the next align_axes() compares with the smoothed axes
   }
   Eigen::Vector3d low, high;
   slabs_of(points, axes, box.center(), low, high);
@@ -142,7 +142,7 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
     const double more =
         grown_size(static_cast<std::size_t>(i), high[i] - low[i], state.merged) - (high[i] - low[i]);
     const double sensor = -axes.col(i).dot(box.center());
-    // A sensor inside the box: grow on both sides.
+    // If the sensor is inside the box, the box grows on both sides.
     const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;
     high[i] += above * more;
     low[i] -= (1 - above) * more;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Filters the boxes of a track: the front axis stays the same; on request, yaw and sizes are smoothed.
+// Filters the boxes of a track. The front axis stays the same. On request, yaw and sizes are smoothed.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,25 +26,27 @@ struct BoxState {
 /// the order and directions of the axes are kept consistent.
 class BoxFilter {
  public:
-  /// `upright`: whether axis 2 of every box points up, as Obb::upright() makes it.
+  /// `upright` tells whether axis 2 of every box points up, as in boxes of Obb::upright().
   explicit BoxFilter(bool upright = true) : upright_(upright) {}
 
   /// Returns the same box with its axes in the order and directions of the last box, compared in the fixed
-  /// frame. Axis 0 of a moving object comes to point in the direction of motion: each frame votes for the
-  /// axis nearest to the velocity, older votes decay, and an axis with a lead of two votes becomes axis 0.
-  /// Empty boxes are returned unchanged.
+  /// frame. Empty boxes are returned unchanged.
+  ///
+  /// Axis 0 of a moving object turns to the direction of motion. Each frame votes for the axis nearest to the
+  /// velocity, and older votes decay. An axis with a lead of two votes becomes axis 0.
   Obb align_axes(const Obb& box, const BoxState& state);
 
   /// Returns a smoothed box around all points; `box` must come from align_axes().
   ///
   /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
-  /// so it does not matter which side was taken as the longer one. With `grow`, length and width approach the
-  /// largest ones seen. They do so slowly, since a cluster that contains two objects for one frame is larger,
-  /// too. The added part lies on the side away from the sensor. A merged cluster changes neither the mean yaw
-  /// nor the sizes; a separated one restarts the sizes.
+  /// so it does not matter which side of the object was measured as the longer one.
   ///
-  /// The third axis is unchanged. Every valid point is inside (Obb::contains()). Boxes that are empty or not
-  /// upright are returned unchanged. O(points).
+  /// With `grow`, length and width approach the largest ones seen. After five detections they grow slowly,
+  /// because a cluster that contains two objects for one frame is also larger. The box is extended on the
+  /// side away from the sensor. A merged cluster changes neither the mean yaw nor the sizes. A separated
+  /// cluster restarts the sizes.
+  /// The third axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
+  /// are empty or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
 
  private:
@@ -53,7 +55,7 @@ class BoxFilter {
 
   bool upright_;
   bool known_ = false;
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // of the last box, in the fixed frame
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // axes of the last box, in the fixed frame
   std::array<double, 4> votes_{};                       // votes for axis 0, 1, -0, -1 as the front
   double cosine_ = 0, sine_ = 0;                        // weighted sums over time for four times the yaw
   std::array<double, 2> sizes_{};

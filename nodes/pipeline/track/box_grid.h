@@ -14,7 +14,7 @@
 
 namespace pcl_bv {
 
-/// A grid in x and y that finds boxes by their centres. Reuse keeps the capacity.
+/// A grid in x and y that finds boxes by their centres. A reused object keeps its capacity.
 class BoxGrid {
  public:
   /// Replaces the content by these boxes, in square cells of `side` metres. O(n log n).
@@ -28,12 +28,12 @@ class BoxGrid {
     std::sort(cells_.begin(), cells_.end());
   }
 
-  /// Calls visit(index) for boxes near a position: for all whose centres are within one side length of it in
-  /// x and y, and for some that are up to two side lengths away.
+  /// Calls visit(index) for all boxes whose centres are within one side length of a position in x and y. Also
+  /// calls it for some boxes whose centres are at most two side lengths away.
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& position, const Visit& visit) const {
     const double x = square(position.x()), y = square(position.y());
-    // A counted loop: beyond 2^53, adding 1 does not change a double.
+    // The loop counts offsets, because adding 1 does not change a double above 2^53.
     for (const double offset : {-1.0, 0.0, 1.0}) {
       const double column = x + offset;
       if (offset != 0 && column == x) continue;

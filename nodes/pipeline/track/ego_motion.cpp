@@ -9,9 +9,9 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kMaxShift = 4;      // metres per frame: 40 m/s at 10 Hz
+constexpr double kMaxShift = 4;      // metres per frame; 40 m/s at 10 Hz
 constexpr double kAgreement = 0.35;  // metres; centres of partial views jump by decimetres
-constexpr double kMaxSize = 6;       // metres; the centre of a longer wall depends on where its view ends
+constexpr double kMaxSize = 6;       // metres; of longer boxes, such as walls, a varying part is visible
 constexpr std::size_t kMinPairs = 6;
 constexpr double kBin = 0.5;
 constexpr int kBins = 17;  // 2 kMaxShift / kBin + 1
@@ -76,7 +76,7 @@ std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vect
   return pairs_.size();
 }
 
-// Finds the shift that most pairs vote for, for a given motion.yaw.
+// Sets motion.shift to the shift that most pairs vote for, for the given motion.yaw.
 void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion) {
   const auto bin = [](int x, int y) {
     return std::size_t{kBins} * static_cast<std::size_t>(y) + static_cast<std::size_t>(x);

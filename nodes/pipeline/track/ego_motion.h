@@ -13,7 +13,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A rotation about z and a shift in the plane: p becomes rotation(yaw) p + shift. Radians and metres.
+/// A rotation about z and a shift in the plane, which map p to rotation(yaw) p + shift. Radians and metres.
 struct PlanarMotion {
   double yaw = 0;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
@@ -29,15 +29,18 @@ struct PlanarMotion {
   }
 };
 
-/// Finds the motion that maps most of the expected boxes to measured boxes. Reuse keeps the capacity.
+/// Finds the motion that maps most of the expected boxes to measured boxes. A reused object keeps its
+/// capacity.
 class EgoMotion {
  public:
-  /// Finds the motion that maps the `expected` boxes to the `seen` ones, both in the sensor's frame.
+  /// Finds the motion that maps the `expected` boxes to the measured boxes `seen`. All boxes are in the
+  /// sensor's frame.
   ///
   /// Starts from `guess` and alternates between nearest neighbours and least squares in ever smaller radii.
-  /// Only boxes shorter than 6 m take part. If less than 40 % of the expected ones find a partner, the search
-  /// also starts from the shifts that most pairs vote for, at five yaw angles. Returns false and leaves
-  /// `motion` unchanged unless at least six pairs and 30 % of the expected boxes agree to 0.35 m.
+  /// Only boxes shorter than 6 m are used and counted. If fewer than 40 % of the expected boxes find a
+  /// partner, the search also starts from the shifts that most pairs vote for, at five yaw angles. Returns
+  /// true and sets `motion` if at least six pairs and 30 % of the expected boxes agree to 0.35 m. Otherwise
+  /// returns false.
   bool estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& guess,
                 PlanarMotion& motion);
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Decides whether an object moves, by the displacement of its box within the last half second.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +9,17 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Decides whether an object moves.
+/// Decides whether an object moves, by the displacement of its box within the last half second.
 ///
-/// The velocity of one frame is too noisy for this: a box of which another part becomes visible jumps by
-/// decimetres, in 0.1 s faster than a pedestrian walks. Within half a second, the whole box of a pedestrian
-/// moves, in the same direction in both halves. Of a static object one face stays in place, or the box jumps
-/// back and forth.
+/// The velocity of one frame is too noisy for this decision. If another part of an object becomes visible,
+/// its box jumps by decimetres within 0.1 s, which is faster than a pedestrian walks. Within half a second,
+/// the whole box of a pedestrian moves, in the same direction in both halves of this time. If the object is
+/// static, one face of its box stays in place, or the box jumps back and forth.
 class MotionClassifier {
  public:
-  /// Adds a measurement, `seconds` after the last one: the centre of the box in the fixed frame, half its
-  /// size along the sensor's axes, and the `rotation` from the sensor's axes to the fixed frame. Metres.
+  /// Adds a measurement, `seconds` after the last one. The parameters are the centre of the box in the fixed
+  /// frame, half its size along the sensor's axes, and the `rotation` from the sensor's axes to the fixed
+  /// frame. Metres.
   void add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& rotation,
            double seconds);
 

@@ -15,8 +15,8 @@ struct AxisFilter {
   double position = 0, velocity = 0;
   double position_variance = 1, covariance = 0, velocity_variance = 1;
 
-  /// Constant velocity with a white-noise acceleration of spectral density `density` (m^2/s^3). Many small
-  /// steps equal one large step, so stamps a millisecond apart do no harm.
+  /// Predicts with a constant velocity and a white-noise acceleration of spectral density `density`
+  /// (m^2/s^3). Many small steps give the same as one large step, so stamps a millisecond apart do no harm.
   void predict(double seconds, double density) {
     position += seconds * velocity;
     position_variance += seconds * (2 * covariance + seconds * (velocity_variance + seconds * density / 3));
@@ -24,8 +24,8 @@ struct AxisFilter {
     velocity_variance += seconds * density;
   }
 
-  /// Update by a measurement; `variance` is that of the measurement. The position variance uses the Joseph
-  /// form, a sum of squares, which rounding cannot make negative.
+  /// Updates the state by a measurement with this variance. The position variance uses the Joseph form, a sum
+  /// of squares, which rounding cannot make negative.
   void correct(double innovation, double variance) {
     const double all = position_variance + variance;
     const double position_gain = position_variance / all, velocity_gain = covariance / all,
@@ -42,8 +42,8 @@ struct AxisFilter {
         std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / position_variance + 1e-12);
   }
 
-  /// Initialisation by the second of two measurements, both of this variance and `seconds` apart. No prior is
-  /// used.
+  /// Initialises the state by the second of two measurements. Both have this variance and are `seconds`
+  /// apart. No prior is used.
   void start(double innovation, double variance, double seconds) {
     position += innovation;
     velocity += innovation / seconds;

@@ -11,18 +11,18 @@ namespace {
 
 constexpr double kFaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
 constexpr double kFirstSpeed = 8;            // m/s; standard deviation of an unknown velocity
-constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise of the acceleration: 1.7 m/s^2 for 0.1 s
-constexpr double kTurnNoise = 0.1;           // 1/s; the same per squared speed: 57 degrees/s for 0.1 s
+constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise density: 1.7 m/s^2 for 0.1 s
+constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed: 57 degrees/s for 0.1 s
 constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
 constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
 
-// Returns the variances along the axes after a rotation: the diagonal of R diag(v) R^T.
+// Returns the variances along the axes after a rotation R, which are the diagonal of R diag(v) R^T.
 Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& variances) {
   return rotation.cwiseAbs2() * variances;
 }
 
-// Returns the innovation: the shift of the centre if the size is unchanged, the smallest shift of the faces
-// if the size changes by 0.25 m or more, and a blend between.
+// Returns the innovation. It is the shift of the centre if the size changes by at most 0.05 m, and the
+// smallest shift of the faces if it changes by 0.25 m or more. In between, it is a blend of both shifts.
 double innovation_of(const BoxDifference& difference, int axis) {
   const double part = std::clamp((std::abs(difference.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
   return (1 - part) * difference.centre[axis] + part * difference.shift[axis];
@@ -103,7 +103,7 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
     high[i] += part * (seen_box.max()[i] - expected_position[i] - high[i]);
   }
   // Make the centre of the box the tracked position. A position off the centre would rotate with the sensor
-  // and seem to move (1.5 m off: 0.8 m/s at 30 degrees/s).
+  // and seem to move. For 1.5 m off the centre and 30 degrees/s, it would seem to move at 0.8 m/s.
   const Eigen::Vector3d offset = (low + high) / 2, fixed_offset = rotation * offset;
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)].position += fixed_offset[i];
@@ -158,7 +158,7 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
 
 double cost_of(const Track& track, const Aabb& box, double gate) {
   const BoxDifference difference = track.difference_to(box);
-  // Not rotated into the sensor's axes: good enough for a gate.
+  // The variance is not rotated into the sensor's axes, which is accurate enough for a gate.
   const Eigen::Vector3d variance = track.motion.position_variance();
   const double slack = kFaceVariance + gate * gate / 16, max_variance = std::max(variance.x(), variance.y());
   double cost = 0;

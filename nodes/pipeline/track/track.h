@@ -20,8 +20,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct BoxDifference {
   Eigen::Vector3d centre, size;
-  /// The smaller displacement of the two opposite faces; 0 if they move apart or towards each other. A part
-  /// that comes into or goes out of view moves one face only, hence gives 0.
+  /// The smaller displacement of the two opposite faces; 0 if they move apart or towards each other. If a
+  /// part comes into or goes out of view, only one face moves, so the shift is 0.
   Eigen::Vector3d shift;
 };
 
@@ -29,10 +29,10 @@ struct BoxDifference {
 struct Track {
   MotionFilter motion;  // in the fixed frame
   MotionClassifier motion_classifier;
-  // Faces of the box relative to the position, along the sensor's axes.
+  // Lower and upper faces of the box relative to the tracked position, along the sensor's axes.
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
   Eigen::Vector3d expected_position = Eigen::Vector3d::Zero();  // in the sensor's frame
-  Eigen::Vector3d previous_position = Eigen::Vector3d::Zero();  // at the last frame, in the fixed frame
+  Eigen::Vector3d previous_position = Eigen::Vector3d::Zero();  // in the fixed frame, one frame earlier
   double seconds_unseen = 0;                                    // since the last detection
   std::size_t detections = 0, age = 0;                          // age: in frames
   std::size_t missed = 0, occluded = 0;  // missed and occluded frames since the last detection
@@ -40,14 +40,14 @@ struct Track {
   bool active = false, moving = false;
   std::optional<std::uint32_t> id;
   std::optional<std::size_t> split_from;   // slot of the track whose expected box held this track's first box
-  std::size_t detections_since_split = 0;  // since the split or the last occlusion
+  std::size_t detections_since_split = 0;  // detections since the split or the last occlusion
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
   void expect(const Pose& sensor);
   /// Returns the expected box in the sensor's frame. An object that is not known to move is assumed to be
-  /// static. If static tracks were predicted by their velocities, an error of the sensor's velocity would
-  /// pass into these velocities and stay there.
+  /// static. Otherwise an error of the estimated sensor velocity would pass into the velocities of static
+  /// tracks and stay there.
   Aabb static_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
   BoxDifference difference_to(const Aabb& box) const;
@@ -62,7 +62,7 @@ struct Track {
 };
 
 /// Returns how unlikely it is that the box belongs to the track, in squared standard deviations. `gate`, in
-/// metres, is four standard deviations of a track whose state is known exactly.
+/// metres, is four standard deviations for a track whose state is known exactly.
 double cost_of(const Track& track, const Aabb& box, double gate);
 
 }  // namespace pcl_bv

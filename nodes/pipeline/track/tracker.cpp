@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tracking: predict the tracks, select plausible pairs, assign boxes at minimum cost, then update.
+// Tracking predicts the tracks, selects plausible pairs, assigns boxes at minimum cost, then updates the
+// tracks.
 
 #include "tracker.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kGateCost = 16;                   // four standard deviations, squared
 constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
-constexpr std::size_t kSplitDetections = 5;        // detections in a row that prove a split
+constexpr std::size_t kSplitDetections = 5;        // detections of a track that prove a split
 
 bool contains_point(const Aabb& box, const Eigen::Vector3d& position) {
   return (box.min().array() <= position.array()).all() && (position.array() <= box.max().array()).all();
@@ -29,7 +30,7 @@ Pose after_motion(const Pose& sensor, const PlanarMotion& motion) {
   step.linear() = Eigen::AngleAxisd(motion.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   step.translation() << motion.shift, 0;
   Pose next = sensor * step.inverse();
-  // Rounding errors must not add up over days.
+  // Rotations are normalised, so that rounding errors do not add up over days.
   next.linear() = Eigen::Quaterniond(next.linear()).normalized().toRotationMatrix();
   return next;
 }
@@ -51,8 +52,9 @@ struct Tracker::State {
   std::vector<Track> tracks;
   std::vector<std::size_t> free;
   std::vector<char> track_taken, box_taken;
-  std::vector<Aabb> expected;
-  std::vector<Aabb> predicted;  // for each box: the expected box of its track before the update
+  std::vector<Aabb> expected;  // static_box() of the tracks that were not missed, for the ego motion
+  // For each measured box, expected_box() of its assigned track before correct(). Empty without a track.
+  std::vector<Aabb> predicted;
   std::vector<AssignmentPair> pairs;
   BoxGrid grid;
   SparseAssignment assignment;
@@ -60,7 +62,7 @@ struct Tracker::State {
   PlanarMotion step;  // motion of static points in the sensor's frame within step_seconds
   double step_seconds = 0;
   Pose sensor = Pose::Identity();
-  bool has_given_poses = false;  // tracks are in the frame of given poses
+  bool has_given_poses = false;  // whether tracks are in the frame of given poses
   std::int64_t last_stamp_ns = 0;
   bool started = false;
   std::uint32_t next_id = 0;
@@ -86,7 +88,7 @@ void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes)
   PlanarMotion motion = guess;
   const bool found = ego.estimate(expected, boxes, guess, motion);
   sensor = after_motion(sensor, motion);
-  // Within less than 20 ms, the noise of positions exceeds the motion.
+  // In less than 20 ms, the sensor moves less than the noise of positions, so the step is not stored.
   if (!found || seconds < 0.02) return;
   step = motion;
   step_seconds = seconds;
@@ -143,7 +145,7 @@ void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes
 }
 
 // Counts missed frames. A track whose expected centre is inside the box of another track is probably part of
-// that box; it continues when the objects separate.
+// that box. It keeps its id, and continues when the objects separate.
 void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
@@ -219,8 +221,8 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.started = true;
   s.last_stamp_ns = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
-  // Spare capacity for tracks that stay active while new ones start: the second pass over a sequence has more
-  // tracks than the first, and must not allocate.
+  // Reserves capacity for tracks that stay active while new ones start. The second pass over a sequence has
+  // more tracks than the first, and must not allocate.
   if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
   s.track_taken.reserve(s.tracks.capacity());
   s.free.reserve(s.tracks.capacity());

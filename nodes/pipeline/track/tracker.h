@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Multi-object tracking: data association of objects from frame to frame.
+// Multi-object tracking, which associates objects from frame to frame.
 #pragma once
 
 #include <cstddef>
@@ -19,33 +19,33 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Gives objects ids that persist from frame to frame. An id is never reused.
 ///
-/// A track has a position and a velocity with their covariance (Kalman 1960). They are in the fixed frame of
-/// the sensor poses if poses are given. Otherwise the tracker estimates the planar motion of the sensor (x,
-/// y, yaw) between frames from static boxes. If fewer than six boxes agree, it assumes that the sensor
-/// continues its last motion.
+/// A track has a position and a velocity with their covariance (Kalman 1960). If sensor poses are given,
+/// position and velocity are in the fixed frame of these poses. Otherwise the tracker estimates the planar
+/// motion of the sensor (x, y, yaw) between frames from static boxes. If fewer than six boxes agree, it
+/// assumes that the sensor continues its last motion.
 ///
 /// A box may belong to a track if the smallest displacement of its faces and its change of size are
-/// plausible; for a well-known track, the displacement is at most about TrackConfig::gate. All boxes are
-/// assigned jointly at minimum total cost (Kuhn 1955).
+/// plausible. For a track whose position is well known, the displacement is at most about TrackConfig::gate.
+/// All boxes are assigned jointly at minimum total cost (Kuhn 1955).
 ///
-/// A track gets its id with its detection number TrackConfig::birth. It is deleted after TrackConfig::death
-/// frames without a detection. A frame in which the track is occluded (its expected centre is inside the box
-/// of another object) is counted as a quarter of a frame. The id survives such gaps.
+/// A track gets its id at its detection number TrackConfig::birth. It is deleted after TrackConfig::death
+/// frames without a detection, and keeps its id if it is detected again before. A frame in which the track is
+/// occluded (its expected centre is inside the box of another object) is counted as a quarter of a frame.
 class Tracker {
  public:
   /// The track to which a box is assigned.
   struct Assignment {
-    /// Index of the track. Constant while the track is active, reused after its deletion.
+    /// Index of the track. It is constant while the track is active and reused after the track's deletion.
     std::size_t slot = 0;
     bool fresh = false;                                  ///< First detection of the track.
-    std::optional<TrackEntry> track{};                   ///< None until the track has its id.
+    std::optional<TrackEntry> track{};                   ///< Set when the track has its id.
     bool moving = false;                                 ///< As in TrackEntry, also without an id.
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, along the sensor's axes, m/s.
-    /// The box probably contains several objects: the expected centre of a track that has an id but no box is
-    /// inside it.
+    /// The box probably contains several objects, because the expected centre of another track is inside it.
+    /// That track has an id but no box in this frame.
     bool merged = false;
-    /// Set once: a track that split off from this box was detected separately five times in a row, so earlier
-    /// boxes contained two objects.
+    /// Earlier boxes of this track contained two objects. Set in one frame only, when another track that
+    /// split off from this track has had five detections since the split or since its last occlusion.
     bool separated = false;
   };
 
@@ -56,15 +56,16 @@ class Tracker {
 
   /// Assigns a track to each box and replaces `assignments` by one entry per box. `boxes` are in the sensor's
   /// frame, metres, measured at `stamp_ns`. If the time does not advance, or advances by more than a second,
-  /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. O(n log
-  /// n) plus the pairs of track and box within three gates.
+  /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. Computes
+  /// O(n log n) steps, and a cost for each pair of a track and a box near it (BoxGrid with sides of three
+  /// gates).
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
 
-  /// Returns the pose of the sensor at the last update: the given one or the estimated one.
+  /// Returns the pose of the sensor at the last update, which was given or estimated.
   const Pose& sensor() const;
 
-  /// Deletes all tracks. Their ids are still not reused.
+  /// Deletes all tracks. The ids of deleted tracks are not reused.
   void reset();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ROS 1 node: clouds in, objects out.
+// The ROS 1 node, which receives clouds and publishes objects.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -20,13 +20,17 @@
 
 namespace pcl_bv {
 
-/// Subscribes to clouds on `points`. Publishes their objects on `markers` (visualization_msgs/MarkerArray),
-/// the points with the ids of their objects on `labels`, and once a second the node's state on
-/// `/diagnostics`. Subscribes to `points` only while `markers` or `labels` has subscribers. Counts clouds
-/// that cannot be read and logs a warning about them at most every ten seconds.
+/// Subscribes to clouds on `points` while `markers` or `labels` has subscribers. Publishes:
+///
+/// - `markers`: the objects of each cloud (visualization_msgs/MarkerArray);
+/// - `labels`: the points of each cloud with the ids of their objects;
+/// - `/diagnostics`: the node's state, once a second.
+///
+/// Counts the clouds that cannot be read, and logs a warning about them at most every ten seconds.
 class ClusterVolumes {
  public:
-  /// Throws ConfigError for invalid parameters (config_of()), IoError if a file of regions cannot be read.
+  /// Throws ConfigError for invalid parameters (config_of()), and IoError if a file of regions cannot be
+  /// read.
   ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters);
   ~ClusterVolumes();
   ClusterVolumes(const ClusterVolumes&) = delete;

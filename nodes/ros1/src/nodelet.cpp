@@ -13,7 +13,7 @@ namespace pcl_bv {
 
 class ClusterVolumesNodelet : public nodelet::Nodelet {
  private:
-  // Log the reason here: the manager catches the exception and reports only that the nodelet is not loaded.
+  // Logs the reason of an exception, because the manager reports only that the nodelet is not loaded.
   void onInit() override {
     try {
       work_ = std::make_unique<ClusterVolumes>(getNodeHandle(), getPrivateNodeHandle());

@@ -14,10 +14,10 @@
 namespace pcl_bv {
 namespace {
 
-// Converts parameters to YAML. Their whole numbers have only 32 bits; larger ones must be in the file
-// `config`.
+// Converts parameters to YAML. Whole numbers of ROS parameters have only 32 bits. Larger numbers must be in
+// the file that the parameter `config` names.
 YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
-  constexpr int max_depth = 16;  // settings nest 4 deep
+  constexpr int max_depth = 16;  // settings have at most 4 levels
   if (depth > max_depth) throw ConfigError("parameters have more than 16 levels");
   using Value = XmlRpc::XmlRpcValue;
   YAML::Node node;
@@ -46,7 +46,7 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
   }
 }
 
-// Removes the line number from an error message, because it refers to a generated text.
+// Removes the line number from an error message, because the number refers to a generated text.
 std::string without_line_number(std::string problem) {
   const std::size_t at = problem.find(": line ");
   if (at != std::string::npos) problem.erase(at, problem.find(':', at + 2) - at);
@@ -74,7 +74,7 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
     throw ConfigError(name + ": preset: " + error.what());
   }
   if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
-  if (tree["volumes"] && tree["volumes"].IsScalar()) {  // from a command line: _volumes:=aabb,sphere
+  if (tree["volumes"] && tree["volumes"].IsScalar()) {  // on a command line: _volumes:=aabb,sphere
     std::vector<std::string> methods;
     read_text(tree["volumes"].Scalar(), methods);
     tree["volumes"] = methods;

@@ -11,7 +11,7 @@
 namespace pcl_bv {
 
 /// Returns the configuration from the parameters of a namespace. Applies the parameter `preset`, then the
-/// file that the parameter `config` names, then the parameters with the same keys as that file. Throws
+/// file that the parameter `config` names, then the parameters whose names are keys of such a file. Throws
 /// ConfigError for an unknown key or an invalid value.
 StreamConfig config_of(const ros::NodeHandle& parameters);
 

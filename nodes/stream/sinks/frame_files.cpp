@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sinks that write files for each frame: pictures, labelled clouds, and meshes with an index.
+// Sinks that write files for each frame, namely pictures, labelled clouds, or meshes with an index.
 
 #include <algorithm>
 #include <cstring>
@@ -51,7 +51,7 @@ void write_image(const fs::path& file, const Frame& frame, const FrameResult& re
   write_picture(file, picture_of(frame, result, labels));
 }
 
-// Writes x, y and z in their own type, and the label.
+// Writes x, y and z in the scalar type of the points, and the label as a fourth field.
 void write_labels(const fs::path& file, const Frame& frame, const FrameResult& result) {
   const PointView& points = frame.points;
   const std::vector<std::uint32_t> labels = labels_of(frame, result);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Plain POSIX without a buffer in this process: nothing that was written is lost when the process is killed.
+// Uses POSIX calls without a buffer in this process, so that no written text is lost when the process is
+// killed.
 
 #include "line_file.h"
 
@@ -34,7 +35,8 @@ LineFile::~LineFile() {
   if (!created_.empty()) ::unlink(created_.c_str());
 }
 
-// Empties a regular file. Other files, such as pipes, keep their content: ftruncate() fails with EINVAL.
+// Empties a regular file. Other files, such as pipes, keep their content, because ftruncate() fails with
+// EINVAL.
 void LineFile::begin() {
   if (std::exchange(begun_, true) || descriptor_ == STDOUT_FILENO) return;
   if (::ftruncate(descriptor_, 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));

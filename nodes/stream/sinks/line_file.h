@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A text file that others may read while it grows.
+// A text file that other programs may read while it grows.
 #pragma once
 
 #include <sys/types.h>
@@ -14,21 +14,21 @@
 
 namespace pcl_bv {
 
-/// A new file, or standard output for "-". Each write() is one write of the system, if the system takes it
-/// whole. The first write() or close() replaces the previous content; without either, the file is unchanged.
+/// A text file, or standard output for "-". Each write() is one system call if the system takes the whole
+/// text. The first call of write() or close() empties an existing file. Without such a call, it is unchanged.
 class LineFile {
  public:
-  /// Throws IoError if it cannot be opened.
+  /// Throws IoError if the file cannot be opened.
   explicit LineFile(const std::filesystem::path& file);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Appends `text` and `tail`; overwrites the tail of the previous call, which ended the file until now.
-  /// Throws ClosedPipe (if SIGPIPE is ignored) and IoError.
+  /// Appends `text` and `tail`, and overwrites the tail of the previous call of write(). Throws IoError, and
+  /// ClosedPipe if SIGPIPE is ignored.
   void write(std::string text, std::string_view tail = {});
 
-  /// Closes the file. Throws IoError if the system reports only now that something was not written.
+  /// Closes the file. Throws IoError if the system only now reports an error of writing.
   void close();
 
  private:
@@ -36,7 +36,7 @@ class LineFile {
 
   int descriptor_;
   off_t tail_ = 0;
-  std::filesystem::path created_;  // a file that was created here and is still empty; removed at the end
+  std::filesystem::path created_;  // file that this object created, until it is written; removed at the end
   bool begun_ = false;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sinks that write lines, jsonl and csv; their files can be read while they grow.
+// Sinks that write lines (jsonl and csv). Their files can be read while they grow.
 
 #include "line_file.h"
 #include "pcl_bv/report/csv.h"
@@ -15,7 +15,7 @@ std::string first_columns(const FrameReport& report) {
 }
 
 std::string csv_lines(const FrameReport& report, const ClusterSource& clusters) {
-  // A lost frame is one line without numbers; the reason is in the column of the method.
+  // A lost frame is one line without numbers. The column of the method holds the reason.
   if (report.error)
     return first_columns(report) + ",,," + csv_field("error: " + *report.error) +
            std::string(12 + 7 + 4, ',') + '\n';

@@ -13,7 +13,8 @@
 namespace pcl_bv {
 namespace {
 
-// The QoS that rosbag2 stores for a topic: reliable, the last ten messages, nothing for late subscribers.
+// The QoS that rosbag2 stores for a topic. It is reliable, with the last ten messages and none for late
+// subscribers.
 constexpr const char* kQos =
     "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n  deadline:\n    sec: 9223372036\n    "
     "nsec: "

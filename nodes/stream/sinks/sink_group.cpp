@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the outermost folder, or the file itself, that does not exist.
+// Returns the outermost folder of `path` (or `path` itself) that does not exist, or an empty path if all
+// exist.
 fs::path first_missing(const fs::path& path) {
   std::error_code unknown;
   fs::path missing;
@@ -26,8 +27,8 @@ fs::path first_missing(const fs::path& path) {
   return missing;
 }
 
-// Removes empty folders from `path` up to `outermost`. Files are removed by the sink that created them,
-// since several sinks may write into one folder.
+// Removes empty folders from `path` outwards to `outermost`. Sinks remove the files that they created
+// themselves, because several sinks may write into one folder.
 void remove_empty_folders(const fs::path& path, const fs::path& outermost) {
   std::error_code unknown;
   for (fs::path at = path;; at = at.parent_path()) {
@@ -40,7 +41,7 @@ void remove_empty_folders(const fs::path& path, const fs::path& outermost) {
 
 struct SinkGroup::Member {
   std::string name;
-  std::unique_ptr<FrameSink> sink;   // null after it was given up
+  std::unique_ptr<FrameSink> sink;   // null after an IoError or a closed pipe
   std::uint64_t missing_frames = 0;  // number of frames that were not written
   std::string last_problem;
   mutable std::mutex mutex;
@@ -51,7 +52,7 @@ SinkGroup::SinkGroup(std::function<void(const std::string&)> report) : report_(s
   if (!report_) throw std::invalid_argument("SinkGroup: the function `report` is empty");
 }
 
-// If nothing was written, because another sink could not be opened, no file or folder is left behind.
+// Leaves no file or folder behind if nothing was written because another sink could not be opened.
 SinkGroup::~SinkGroup() {
   members_.clear();
   if (used_) return;
@@ -89,7 +90,7 @@ void SinkGroup::report_failure(Member& member, const std::string& problem) {
   if (problem != std::exchange(member.last_problem, problem)) report_(member.name + ": " + problem);
 }
 
-// Returns false if nothing more can be written. A closed pipe is no failure and is not reported.
+// Runs `what`. Returns false if nothing more can be written. A closed pipe is no failure and is not reported.
 template <typename Do>
 bool SinkGroup::attempt(Member& member, const Do& what) {
   try {

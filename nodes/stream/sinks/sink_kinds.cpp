@@ -27,7 +27,8 @@ class FunctionSink : public FrameSink {
 
 }  // namespace
 
-// Labelled clouds are made only while somebody subscribes. Scenes are for Foxglove, which shows markers, too.
+// Labelled clouds are made only while there are subscribers. Scenes are not sent, because Foxglove, the only
+// viewer of scenes, also shows markers.
 std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
   MessageTopics topics;
   topics.prefix = description.target.string();

@@ -18,7 +18,7 @@ std::unique_ptr<FrameSink> open_labels(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description);
 
-/// Returns the rows for recordings, none in a build without the component `recording`.
+/// Returns the sink kinds for recordings, or none in a build without the component `recording`.
 std::vector<SinkKind> recording_sinks();
 
 }  // namespace pcl_bv

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each call of the function has a detached thread of its own, so that nothing has to wait for it.
+// Each call of the function runs in its own detached thread, so that the source never has to wait for its
+// end.
 
 #include <future>
 #include <thread>

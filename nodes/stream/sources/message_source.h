@@ -13,11 +13,13 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Creates a source that turns each received message (sensor_msgs/msg/PointCloud2) into a frame.
 ///
-/// Points are not copied if they can be read in place (view_points()). A header stamp of 0 is replaced by
-/// the time of sending. Latency is measured from the arrival of the message. `name` becomes Frame::file of
-/// every frame. Of `options`, only class_field, frame_id and poses by time (TUM) are used.
-/// FrameSource::next() throws FrameError for a message that is not a PointCloud2. This function throws
-/// IoError if the poses cannot be read or are not by time, and std::invalid_argument if `receiver` is null.
+/// Points are not copied if they can be read in place (view_points()). A header stamp of 0 is replaced by the
+/// time of sending. Latency is measured from the arrival of the message. `name` becomes Frame::file of every
+/// frame. Of `options`, only class_field, frame_id and `poses` with times (TUM) are used.
+///
+/// The source's next() throws FrameError for a message that is not a PointCloud2. make_message_source()
+/// throws IoError if the poses cannot be read or have no times, and std::invalid_argument if `receiver` is
+/// null.
 std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver,
                                                  const std::string& name, const ReplayOptions& options = {});
 

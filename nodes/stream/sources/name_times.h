@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times in file names. Names use many formats; one format must fit all names of a folder.
+// Times in file names. Names use many formats, but one format must fit all names of a folder.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace pcl_bv {
 
-/// The format of a time in a name, the most reliable first.
+/// The format of a time in a name, the most reliable format first.
 enum class TimeKind : std::uint8_t {
   epoch,        ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of s, ms, us or ns.
   date,         ///< 20121214T142259.814212, 2024-03-21T12-59-59.900Z, 2024_03_21_12_59_59
@@ -27,25 +27,26 @@ struct ParsedTime {
   TimeKind kind = TimeKind::epoch;
   std::int64_t seconds = 0;
   std::string fraction{};
-  bool may_be_frame_number = false;  ///< The fraction follows a dash or underscore: it may be a frame number.
+  /// Whether the fraction follows a dash or underscore, so that it may be a frame number instead.
+  bool may_be_frame_number = false;
 };
 
 /// Returns all times in a name without its extension, in order.
 std::vector<ParsedTime> times_in(std::string_view stem);
 
-/// Returns the time in nanoseconds. The fraction is decimal: "25" is a quarter of a second.
+/// Returns the time in nanoseconds. The fraction is decimal, so "25" is a quarter of a second.
 std::int64_t stamp_of(const ParsedTime& time);
 
 /// The stamps of all names of a folder, read in one format.
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
-  bool sort = false;                 ///< The order of the names is not that of their times: sort by time.
+  bool sort = false;                 ///< Whether to sort by time, because names are in another order.
   std::string warning{};             ///< Warning that the times do not ascend; usually empty.
 };
 
-/// Returns the stamps of names given in their natural order, in the format whose times ascend, if there is
-/// one. Fractions of different lengths are decimals (12.5 before 12.75) or whole milli-, micro- or
-/// nanoseconds without leading zeros, whichever fits.
+/// Returns the stamps of names, which are given in natural order. Prefers a format whose times ascend. If
+/// fractions have different lengths, they are read as decimals (12.5 before 12.75) or as whole milli-, micro-
+/// or nanoseconds without leading zeros, whichever fits.
 NameTimes times_of_names(const std::vector<std::string>& stems);
 
 }  // namespace pcl_bv

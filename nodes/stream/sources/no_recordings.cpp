@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Used instead of recorded.cpp, packets.cpp and recording_sink.cpp where the component `recording` is not
-// built.
+// Used instead of recorded.cpp, packets.cpp and recording_sink.cpp in builds without the component
+// `recording`.
 
 #include <algorithm>
 #include <array>

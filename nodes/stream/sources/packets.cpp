@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Frames of a sensor's packets, one for each revolution.
+// Frames of a sensor's packets, one frame for each revolution.
 
 #include <cmath>
 

@@ -40,7 +40,8 @@ class NameReader {
     at_ += run.size();
     return run;
   }
-  // Reads a number of `count` digits; with `alone`, no further digit may follow. Returns -1 if there is none.
+  // Reads a number of `count` digits. With `alone`, no further digit may follow. Returns -1 if there is no
+  // such number.
   int number(std::size_t count, bool alone) {
     const std::string_view run = digits();
     if (run.size() < count || (alone && run.size() > count)) return -1;
@@ -56,14 +57,14 @@ class NameReader {
   std::size_t at_;
 };
 
-// Returns -1 if the number is too large.
+// Returns the number, or -1 if it is too large.
 std::int64_t whole(std::string_view digits) {
   std::int64_t value = 0;
   return read_whole_text(digits, value) ? value : -1;
 }
 
-// Reads hours, minutes and seconds, which follow each other directly or are all separated by the same
-// character, and a fraction. Returns the seconds of the day, or -1 if there is no time.
+// Reads hours, minutes and seconds, and a fraction. The first three follow each other directly or are
+// separated by the same character. Returns the seconds of the day, or -1 if there is no time.
 std::int64_t take_clock(NameReader& name, bool apart, ParsedTime& time) {
   const int hours = name.number(2, apart);
   const char between = name.here();
@@ -85,7 +86,7 @@ std::int64_t take_clock(NameReader& name, bool apart, ParsedTime& time) {
   return 3600 * hours + 60 * minutes + seconds;
 }
 
-// Reads "+0800" or "+08:00". Returns its seconds, or 0 (UTC) for anything else.
+// Reads a time zone such as "+0800" or "+08:00". Returns its seconds, or 0 (UTC) for any other text.
 std::int64_t take_zone(NameReader& name) {
   NameReader zone = name;
   if (!zone.take("+")) return 0;
@@ -139,8 +140,8 @@ ParsedTime of_nanoseconds(std::int64_t stamp) {
   return {TimeKind::epoch, stamp / kSecond, std::string(9 - rest.size(), '0') + rest};
 }
 
-// Interprets a whole number as a time: seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262 (the
-// end of 64-bit nanoseconds), and nanoseconds from 1e16 on. Other numbers are frame numbers.
+// Interprets a whole number as a time. It may be seconds of 2001 to 2033, milli- or microseconds of 2001 to
+// 2262 (the end of 64-bit nanoseconds), or nanoseconds of at least 1e16. Other numbers are frame numbers.
 std::optional<ParsedTime> epoch_of(std::int64_t value) {
   constexpr std::int64_t e9 = 1'000'000'000, e12 = 1000 * e9, e15 = 1000 * e12;
   if (value >= 10 * e15) return of_nanoseconds(value);

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::int64_t kMaxGap = 500'000'000;  // nanoseconds
 
-// long double holds today's times in seconds to the nanosecond.
+// The numbers of a line. long double represents today's times in seconds with an error below a nanosecond.
 using Numbers = std::vector<long double>;
 
-// Returns the numbers of a line; none if the line contains anything else.
+// Returns the numbers of a line. Returns none if the line contains anything else.
 Numbers numbers_of(std::string_view line) {
   Numbers numbers;
   for (;;) {
@@ -41,7 +41,7 @@ Pose pose_of(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translat
   return pose;
 }
 
-// Returns nullopt if the numbers are no rotation, within the precision that files have.
+// Returns the pose, or nullopt if the numbers are no rotation within the precision of files.
 std::optional<Pose> pose_of_rows(const Numbers& rows) {
   Eigen::Matrix<double, 3, 4> m;
   for (std::size_t i = 0; i < 12; ++i)
@@ -66,7 +66,8 @@ std::string text_of(const std::filesystem::path& file) {
   }
 }
 
-// Returns the transform from the sensor to the camera whose poses KITTI gives, if there is a calib.txt.
+// Returns the transform from the sensor to the camera that has KITTI's poses, or nullopt without a usable
+// calib.txt.
 std::optional<Pose> camera_from_calibration(const std::filesystem::path& poses) {
   const std::filesystem::path file = poses.parent_path() / "calib.txt";
   std::error_code unknown;
@@ -118,7 +119,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
 
 std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (poses_.empty()) return std::nullopt;
-  if (!by_stamp_) {  // a recording can have more clouds than its index says
+  if (!by_stamp_) {  // a recording can have more clouds than in its index
     return number < poses_.size() ? std::optional(poses_[number].second) : std::nullopt;
   }
   const auto after =

@@ -58,7 +58,7 @@ class Recorded final : public FrameSource {
   }
 
  private:
-  // Returns the number of clouds: from the index if there is one, otherwise by reading all messages.
+  // Returns the number of clouds. Takes it from the index if there is one, otherwise reads all messages.
   std::size_t count() {
     std::size_t messages = reader_->topics()[topic_].messages;
     if (messages > 0) return messages;

@@ -36,8 +36,8 @@ std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   return list;
 }
 
-// Lists topics with their types, which a user needs to convert them:
-// "/points (livox_ros_driver2/msg/CustomMsg)".
+// Returns a list of topics with their types, such as "/points (livox_ros_driver2/msg/CustomMsg)". Users need
+// the type to convert the messages.
 std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
   std::string list;
   for (const RecordedTopic& topic : topics) {
@@ -87,12 +87,13 @@ void check_recording_content(const std::filesystem::path& file) {
   if (std::find(names.begin(), names.end(), lower_case_extension(file)) == names.end() ||
       std::filesystem::is_directory(file, unknown) || has_recorded_clouds(file))
     return;
-  static_cast<void>(InputFile(file));  // throws for a missing or empty file, which is the better reason
+  static_cast<void>(InputFile(file));  // throws the better error for a missing or empty file
   throw IoError(
       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
 }
 
-// Number of skipped clouds that are stored. Threads that take numbers in order may be late by some clouds.
+// Number of skipped clouds that are stored. If several threads load clouds in order, some clouds are loaded
+// late.
 constexpr std::size_t kMaxSkipped = 16;
 
 struct RecordedClouds::State {
@@ -100,9 +101,9 @@ struct RecordedClouds::State {
   std::unique_ptr<VelodyneReader> packets;  // used instead of `reader` for a packet capture
   std::size_t topic = 0;
   std::size_t next = 0;                                      // number of the next cloud in the file
-  std::map<std::size_t, std::function<RawCloud()>> skipped;  // by number: the cloud, or its error
-  std::string note;                                          // of the last cloud that was read
-  std::map<std::size_t, std::string> notes;  // by number: notes that differ from the one before
+  std::map<std::size_t, std::function<RawCloud()>> skipped;  // by number; returns the cloud or throws
+  std::string note;                                          // note of the last cloud that was read
+  std::map<std::size_t, std::string> notes;  // by number; notes that differ from the previous note
   std::vector<std::string> taken;            // warnings that take_warnings() has returned
   mutable std::mutex mutex;
 
@@ -125,8 +126,8 @@ struct RecordedClouds::State {
     return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
   }
 
-  // Converts the cloud that take() has read, and counts it, also if this throws. Which clouds get a note does
-  // not depend on the order of loading.
+  // Converts the cloud that take() has read. Counts the cloud, also if the conversion throws. Which clouds
+  // get a note does not depend on the order of loading.
   RawCloud noted_cloud() {
     const std::size_t number = next++;
     RawCloud made = cloud();
@@ -205,7 +206,7 @@ std::vector<std::string> RecordedClouds::warnings() const {
   return state_->warnings();
 }
 
-// Compares warnings by their texts, since damage is found again when a part is read again.
+// Compares warnings by their texts, because damage is found again when a part of the file is read again.
 std::vector<std::string> RecordedClouds::take_warnings() {
   const std::lock_guard lock(state_->mutex);
   std::vector<std::string> fresh;

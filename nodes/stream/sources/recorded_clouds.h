@@ -16,18 +16,20 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct RecordedTopic;
 
-/// Returns the index of the topic with this name or, if `name` is empty, of the only topic with clouds
-/// (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding). Throws std::invalid_argument, which lists the
-/// topics with clouds, if the named topic does not exist or has no clouds, or if no name is given and several
-/// topics have clouds. Throws IoError if no name is given and no topic has clouds.
+/// Returns the index of the topic with this name. If `name` is empty, returns that of the only topic with
+/// clouds (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding).
+///
+/// Throws std::invalid_argument with a list of the topics with clouds if the named topic does not exist or
+/// has no clouds, or if no name is given and several topics have clouds. Throws IoError if no name is given
+/// and no topic has clouds.
 std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name);
 
-/// Returns whether the file is a recording (open_recording()) or a capture of a sensor's packets
-/// (VelodyneReader), by its first bytes.
+/// Returns whether the file's first bytes are those of a recording (open_recording()) or of a capture of a
+/// sensor's packets (VelodyneReader).
 bool has_recorded_clouds(const std::filesystem::path& file);
 
-/// The clouds of a recording or of a packet capture, accessed by number. Several threads may call it; one at
-/// a time proceeds.
+/// The clouds of a recording or of a packet capture, accessed by number. Several threads may call the member
+/// functions, which run one at a time.
 class RecordedClouds {
  public:
   /// `topic` is the topic of a recording, or the ADDRESS:PORT of a sensor in a packet capture. Throws as
@@ -37,20 +39,21 @@ class RecordedClouds {
   RecordedClouds(const RecordedClouds&) = delete;
   RecordedClouds& operator=(const RecordedClouds&) = delete;
 
-  /// Returns the number of clouds. Reads the whole file if it has no index.
+  /// Returns the number of clouds. Reads the whole file if the file has no index.
   std::size_t count();
 
   /// Loads a cloud with all its fields. If clouds are loaded in ascending order, or nearly so, the file is
-  /// read once: the last 16 skipped clouds are stored until they are loaded. Loading any other earlier cloud
-  /// reads the file again from the beginning. Throws IoError if there is no such cloud, and MessageError if
-  /// the message is not a cloud.
+  /// read once, because the last 16 skipped clouds are stored until they are loaded. Loading any other
+  /// earlier cloud reads the file again from the beginning.
+  ///
+  /// Throws IoError if there is no cloud with this number, and MessageError if the message is not a cloud.
   RawCloud load(std::size_t number);
 
-  /// Returns the note of a loaded cloud. Empty if the cloud before it has the same note, which is usual for
-  /// the clouds of one driver.
+  /// Returns the note of a loaded cloud. Returns an empty text if the cloud before it has the same note, as
+  /// most clouds of a driver do.
   std::string new_note(std::size_t number) const;
 
-  /// Returns a line for each damage found so far.
+  /// Returns a line for each damage of the file that has been found so far.
   std::vector<std::string> warnings() const;
 
   /// Returns the lines of warnings() that no earlier call has returned.
@@ -61,7 +64,7 @@ class RecordedClouds {
   std::unique_ptr<State> state_;
 };
 
-/// The sweeps of a capture of packets as frames. Throws IoError, naming the file.
+/// Returns a source of the sweeps in a capture of packets. Throws IoError with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
 }  // namespace pcl_bv

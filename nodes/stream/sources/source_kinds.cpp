@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of sources: files of clouds, synthetic frames, and topics.
+// The table of sources, which are files of clouds, synthetic frames, recordings and topics.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view kSynth = "synth:", kDds = "dds:";
 
-// Returns the times of the files. Sorts the files by time if the order of names is another.
+// Returns the times of the files. Sorts the files by time if their names are in another order.
 NameTimes times_of(std::vector<std::filesystem::path>& files) {
   std::vector<std::string> stems;
   for (const std::filesystem::path& file : files)
@@ -79,7 +79,7 @@ Pose pose_of(const std::array<double, 12>& rows) {
   return pose;
 }
 
-// The sequence has poses of its own; a file of poses, if given, replaces them.
+// The sequence generates poses. A file of poses, if given, replaces them.
 std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const ReplayOptions& options) {
   const RuralRoadSequenceSpec spec = parse_rural_road_sequence(name.substr(kSynth.size()));
   const bool own_poses = options.poses.empty();

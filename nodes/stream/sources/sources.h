@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the sources share: poses, replays, and the functions that open sources.
+// Poses and replays, which several sources use, and the functions that open sources.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,13 @@ class Poses {
  public:
   Poses() = default;
 
-  /// Throws IoError, naming the file and the line, for content that cannot be read. For poses by frame
-  /// number, it also throws if their number is not `frames`, or if `frames` is unknown (nullopt).
+  /// Throws IoError, with the file and the line, for content that cannot be read. `frames` is the number of
+  /// frames, if known. For poses by frame number, the constructor also throws IoError if there are not
+  /// `frames` poses or if `frames` is nullopt.
   Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
 
-  /// Returns the pose of a frame by its number or by its stamp, depending on the file; nullopt if there is
-  /// none.
+  /// Returns the pose of a frame, depending on the file by its number or by its stamp. Returns nullopt if the
+  /// file has no pose for it.
   std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
 
  private:
@@ -32,8 +33,8 @@ class Poses {
 };
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
-/// empty. `load` fills in the cloud number `index` and its owner, and throws if it cannot. `times` are
-/// the stamps if options.own_stamps is set.
+/// empty. `load` sets the cloud number `index` and its owner in the frame, and throws an exception if that is
+/// impossible. `times` are the stamps if options.own_stamps is set.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
                                          std::function<void(std::size_t index, Frame&)> load,
@@ -41,11 +42,12 @@ std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::fi
 
 std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);
 
-/// Returns the rows for packets and recordings, none in a build without the component `recording`.
+/// Returns the source kinds for packets and recordings, or none in a build without the component `recording`.
 std::vector<SourceKind> recording_kinds();
 
 /// Throws IoError if the file has the extension of a recording or capture (.bag, .mcap, .db3, .pcap, .pcapng)
-/// but not its first bytes, or if it is missing or empty. Other extensions pass.
+/// but does not begin with the bytes of one, or if such a file is missing or empty. Does nothing for other
+/// extensions.
 void check_recording_content(const std::filesystem::path& file);
 
 }  // namespace pcl_bv

@@ -26,7 +26,8 @@ std::vector<std::int64_t> decimal_stamps(const Times& times) {
   return stamps;
 }
 
-// Reads fractions as whole milli-, micro- or nanoseconds; the longest fraction decides which.
+// Reads fractions as whole milli-, micro- or nanoseconds. The longest fraction decides which of these units
+// it is.
 std::vector<std::int64_t> unpadded_stamps(Times times) {
   std::size_t longest = 0;
   for (const ParsedTime& time : times)
@@ -37,7 +38,8 @@ std::vector<std::int64_t> unpadded_stamps(Times times) {
   return decimal_stamps(times);
 }
 
-// Returns the longest time step divided by the median step. Sensors have even steps.
+// Returns the longest time step divided by the median step. It is small for sensors, because their steps are
+// even.
 double unevenness(std::vector<std::int64_t> stamps) {
   std::sort(stamps.begin(), stamps.end());
   std::vector<std::int64_t> steps;
@@ -47,9 +49,9 @@ double unevenness(std::vector<std::int64_t> stamps) {
   return static_cast<double>(steps.back()) / std::max(1.0, static_cast<double>(steps[steps.size() / 2]));
 }
 
-// Returns whether fractions are whole numbers without leading zeros. Zeros decide if there are any: only a
-// padded fraction begins with a zero, and only one without removed zeros ends with a zero. Otherwise the
-// evenness of the steps decides.
+// Returns whether fractions are whole numbers without leading zeros. A fraction that begins with a zero is
+// padded, so the answer is no. A fraction that ends with a zero is not a decimal without trailing zeros, so
+// the answer is yes. Without such zeros, the reading with more even steps is chosen.
 bool are_unpadded(const Times& times) {
   const auto any = [&](auto holds) { return std::any_of(times.begin(), times.end(), holds); };
   const std::size_t size = times.front().fraction.size();
@@ -66,8 +68,8 @@ bool are_unpadded(const Times& times) {
   return unpadded < decimal || (unpadded == decimal && nine);
 }
 
-// Returns whether fractions are frame numbers: 20121214_142259_000017 is the start of a recording and a
-// number.
+// Returns whether fractions are frame numbers. For example, 20121214_142259_000017 is the start time of a
+// recording and a frame number.
 bool are_frame_numbers(const Times& times) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (!times[i].may_be_frame_number || times[i].seconds != times[0].seconds ||
@@ -97,7 +99,8 @@ NameTimes interpretation_of(const Times& times) {
   return interpretation;
 }
 
-// Returns the last (or first) time of this kind in each name; empty if a name has none.
+// Returns the last (or first) time of this kind in each name. Returns an empty list if a name has no such
+// time.
 Times times_of_kind(const std::vector<Times>& all, TimeKind kind, bool last) {
   Times times;
   const auto is_kind = [kind](const ParsedTime& time) { return time.kind == kind; };

@@ -13,18 +13,21 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Which messages a sink sends.
 struct MessageTopics {
-  std::string prefix = "/bv";  ///< Put before "/objects", "/markers", "/scene", "/points" and "/frames".
+  std::string prefix = "/bv";  ///< Text before "/objects", "/markers", "/scene", "/points" and "/frames".
   bool points = false;         ///< Labelled clouds on "/points".
   bool scene = true;           ///< foxglove_msgs/msg/SceneUpdate on "/scene".
-  /// Each frame, also lost ones, as a line of the sink `jsonl` on "/frames"; for viewers.
+  /// Each frame, also if it was lost, as a line of the sink `jsonl` on "/frames", for viewers.
   bool frames = false;
   bool poses = true;  ///< Poses of the sensor in "map", if known, on "/tf".
 };
 
-/// Creates a sink that sends objects (Detection3DArray of vision_msgs 4), markers (MarkerArray of ROS 2
-/// Humble and later), the messages enabled in `topics`, and "/diagnostics" once per second of stream time. A
-/// frame without a frame_id gets "lidar", since viewers need one. Throws std::invalid_argument if `carrier`
-/// is null.
+/// Creates a sink that sends these messages:
+/// - objects (Detection3DArray of vision_msgs 4) and markers (MarkerArray of ROS 2 Humble and later);
+/// - the messages enabled in `topics`;
+/// - "/diagnostics", once per second of stream time.
+///
+/// A frame without a frame_id gets "lidar", because viewers need a frame_id. Throws std::invalid_argument if
+/// `carrier` is null.
 std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carrier,
                                              const MessageTopics& topics = {});
 

@@ -68,7 +68,7 @@ void fill_scene(const Frame& frame, const FrameResult& result, const std::vector
   std::set<std::pair<std::string, std::int32_t>> now;
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
     const VolumeShape box = box_of(result, i);
-    if (box.kind != VolumeShape::Kind::cube) continue;  // no volume, nothing to show
+    if (box.kind != VolumeShape::Kind::cube) continue;  // a cluster without a volume
     msg::SceneEntity& entity = scene.entities.emplace_back();
     topics::set_time(frame.header.stamp_ns, entity.timestamp);
     entity.frame_id = frame.header.frame_id;

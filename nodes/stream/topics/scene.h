@@ -13,8 +13,8 @@
 namespace pcl_bv {
 
 /// Fills a foxglove_msgs/SceneUpdate with an entity for each object. The entity has all volumes of the
-/// object, its id as text and its properties as metadata, and replaces the last entity with this id. Entities
-/// of `shown` that have ended are deleted.
+/// object, its id as text and its properties as metadata. It replaces the last entity with the same id.
+/// Entities of `shown` whose objects have ended are deleted.
 void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                 std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene);
 

@@ -28,16 +28,16 @@ VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const E
       kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
 }
 
-// Returns the rotation from z to a unit axis. For a downward axis it goes by way of the opposite axis, which
-// is better conditioned. Eigen's FromTwoVectors() uses a singular value decomposition for opposite vectors,
-// which took half of this unit's compile time.
+// Returns the rotation from z to a unit axis. For a downward axis, it first computes the rotation to the
+// opposite axis, which is better conditioned. Does not use Eigen's FromTwoVectors(), because its singular
+// value decomposition for opposite vectors took half of this file's compile time.
 Eigen::Quaterniond rotation_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
   const Eigen::Quaterniond rotation = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
   return axis.z() < 0 ? rotation * Eigen::Quaterniond(0, 1, 0, 0) : rotation;
 }
 
-// Returns the edges of the faces, each once.
+// Returns the edges of the faces. An edge of two faces is returned once.
 VolumeShape wires(const Mesh& mesh) {
   VolumeShape volume;
   volume.size = {1, 1, 1};

@@ -6,9 +6,9 @@
 // The scene is harder than the street (street.h). The road winds over hills of up to 15 %, with kerbs, rough
 // verges with grass, ditches, low walls and hedges. Tree crowns and bridges extend over the road. Cars are
 // parked or move; there are cyclists and groups of people. The car that carries the sensor drives at up to 12
-// m/s, brakes to a standstill, and turns at up to 30 degrees a second.
+// m/s, brakes to a standstill, and turns at up to 30 degrees per second.
 //
-// The fixed frame has x along the road's mean direction, y left, z up, metres. The road is infinite: the
+// The fixed frame has x along the road's mean direction, y left, z up, metres. The road is infinite. The
 // shape of an object depends only on the seed and the object's id.
 #pragma once
 
@@ -42,24 +42,24 @@ struct RuralRoadObject {
   std::uint32_t id = 0;  ///< >= 1, the same in every frame.
   SynthObjectKind kind = SynthObjectKind::car;
   std::array<double, 3> center{};               ///< Centre of the box in the sensor's frame, metres.
-  std::array<std::array<double, 3>, 3> axes{};  ///< Forward, left, up in rows, in the sensor's frame.
-  std::array<double, 3> half_extents{};         ///< Metres, along the axes.
-  std::array<double, 3> velocity{};             ///< Of the centre, in the fixed frame, m/s.
-  double yaw_rate = 0;                          ///< In the fixed frame, rad/s.
+  std::array<std::array<double, 3>, 3> axes{};  ///< Rows: forward, left, up, in the sensor's frame.
+  std::array<double, 3> half_extents{};         ///< Half lengths of the box along the axes, metres.
+  std::array<double, 3> velocity{};             ///< Velocity of the centre in the fixed frame, m/s.
+  double yaw_rate = 0;                          ///< Yaw rate in the fixed frame, rad/s.
 };
 
 /// A sweep and its ground truth.
 ///
-/// The cloud has the rows, columns, rays without a return and false returns of StreetFrame. Returns from
-/// grass have the label `vegetation` and are neither ground nor object.
+/// The rows, the columns, the rays without a return and the false returns of the cloud are as in StreetFrame.
+/// Returns from grass have the label `vegetation` and are neither ground nor object.
 struct RuralRoadFrame {
   SynthCloud cloud;
   std::vector<RuralRoadObject> objects;  ///< The objects nearer than street_max_range, by ascending id.
   std::array<double, 12> pose{};         ///< Pose of the sensor in the fixed frame: 3 x 4 matrix, row-major.
 };
 
-/// Returns the sweep at time frame * street_frame_seconds, taken at one instant. Frames are independent of
-/// one another. The same arguments give the same bits (on the same machine and libm). Throws
+/// Returns the sweep at time frame * street_frame_seconds. All rays are cast at this instant. Frames are
+/// independent of one another. The same arguments give the same bits (on the same machine and libm). Throws
 /// std::invalid_argument for any number of beams but 16, 32, 64 and 128. O(points + frame), about 150 ms for
 /// 64 beams.
 RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_t frame);
@@ -69,7 +69,7 @@ RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_
 RuralRoadFrame make_rural_road_truth(const RuralRoadOptions& options, std::size_t frame);
 
 /// Returns the height of the ground at (x, y) in the fixed frame, metres, without the roughness (up to 4 cm).
-/// `frame` selects the section of the road: (x, y) must be within 100 m of the sensor's position in that
+/// `frame` selects the section of the road. (x, y) must be within 100 m of the sensor's position in that
 /// frame.
 double rural_road_ground_height(std::uint64_t seed, std::size_t frame, double x, double y);
 

@@ -3,14 +3,14 @@
 
 // Synthetic LiDAR sweeps of a street with ground truth for each point and object.
 //
-// The sensor resembles an HDL-64E at the origin, x forward, y left, z up (against gravity), metres. The
-// sensor is 1.73 m above a road that climbs by 5 % along +x. The road lies between curbs of 0.12 m;
-// sidewalks, gardens and houses lie behind the curbs.
+// The sensor resembles an HDL-64E. The sensor's frame has its origin at the sensor, x forward, y left, z up
+// (against gravity), metres. The sensor is 1.73 m above a road that climbs by 5 % along +x. The road lies
+// between curbs that are 0.12 m high. Sidewalks, gardens and houses lie behind the curbs.
 //
-// The sensor drives along the road at 8 m/s and takes ten sweeps a second, each at one instant. Cars in the
-// sensor's lane drive at the same speed, oncoming cars at 11 m/s. Pedestrians walk along the sidewalks at 1.1
-// to 1.5 m/s. All other objects are static. The street is infinite: the shape of an object depends only on
-// the seed and the object's id.
+// The sensor drives along the road at 8 m/s and takes ten sweeps per second. All rays of a sweep are cast at
+// the same instant. Cars in the sensor's lane drive at the sensor's speed, oncoming cars drive at 11 m/s.
+// Pedestrians walk along the sidewalks at 1.1 to 1.5 m/s. All other objects are static. The street is
+// infinite. The shape of an object depends only on the seed and the object's id.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline constexpr double street_curb_height = 0.12;    ///< Metres from the road 
 inline constexpr double street_curb_left = 7.1;       ///< y of the left curb; the road is to its right.
 inline constexpr double street_curb_right = -3.9;     ///< y of the right curb; the road is to its left.
 inline constexpr double street_max_range = 100;       ///< Metres; farther surfaces give no return.
-inline constexpr double street_range_noise = 0.02;    ///< Standard deviation along the ray, metres.
+inline constexpr double street_range_noise = 0.02;    ///< Standard deviation of the range, metres.
 inline constexpr double street_frame_seconds = 0.1;   ///< Time between two sweeps, seconds.
 
 /// Options of make_street_frame().
@@ -38,8 +38,8 @@ struct StreetOptions {
   /// Number of rays of a sweep, rounded by street_rays(). The default is 64 beams x 2000 azimuths.
   std::size_t points = 128'000;
   std::uint64_t seed = 1;
-  /// Number of beams, at least 1. With 128, one more beam lies half a step below each of the 64 default
-  /// beams.
+  /// Number of beams, at least 1. With 128 beams, an additional beam lies half a step below each of the 64
+  /// default beams.
   std::size_t beams = street_beams;
 };
 
@@ -69,25 +69,28 @@ struct StreetObject {
   SynthObjectKind kind = SynthObjectKind::car;
   std::array<double, 3> center{};               ///< Centre of the box in the sensor's frame, metres.
   std::array<std::array<double, 3>, 3> axes{};  ///< Orthonormal rows: forward, left, up.
-  std::array<double, 3> half_extents{};         ///< Metres, along the axes.
-  std::array<double, 3> velocity{};             ///< Of the centre in the sensor's frame, m/s; constant.
+  std::array<double, 3> half_extents{};         ///< Half lengths of the box along the axes, metres.
+  std::array<double, 3> velocity{};             ///< Constant velocity of the centre, sensor's frame, m/s.
 };
 
 /// A sweep and its ground truth.
 ///
 /// The cloud has one row per beam, the top beam first, and one column per azimuth. Column 0 points backward
-/// and the azimuths run clockwise as seen from above, so the middle column points forward. Rays without a
-/// return are points at (0, 0, 0): rays into the sky or out of range, 1.5 % of all rays at random, and one
-/// third of the rays that hit a car's cabin (glass). One ground return in 700 is a false return below the
-/// ground, as mirrors and puddles cause; its labels are object 0 and ground 0. Curb faces are labelled as
-/// ground.
+/// and the azimuths run clockwise as seen from above, so the middle column points forward. Curb faces are
+/// labelled as ground.
+///
+/// A ray without a return gives a point at (0, 0, 0). These are rays into the sky or out of range, 1.5 % of
+/// all rays at random, and one third of the rays that hit a car's cabin (glass).
+///
+/// One ground return in 700 is a false return below the ground, such as mirrors and puddles cause. Its labels
+/// `object` and `ground` are 0.
 struct StreetFrame {
   SynthCloud cloud;
   std::vector<StreetObject> objects;  ///< The objects nearer than street_max_range, by ascending id.
 };
 
-/// Returns the number of points of a sweep with options `points` and `beams`: the multiple of `beams` nearest
-/// to `points` (half-way cases round up), at least `beams`.
+/// Returns the number of points of a sweep with the options `points` and `beams`. It is the multiple of
+/// `beams` nearest to `points` (half-way cases round up), and at least `beams`.
 std::size_t street_rays(std::size_t points, std::size_t beams = street_beams);
 
 /// Returns the sweep at time frame * street_frame_seconds. Frames are independent of one another. The same

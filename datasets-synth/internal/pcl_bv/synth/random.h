@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A random number generator with fixed algorithms: the distributions of <random> differ between standard
-// libraries.
+// A random number generator with fixed algorithms, because the distributions of <random> differ between
+// standard libraries.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
 ///
-/// A list of keys is hashed into the initial state, so each list has its own independent stream: the numbers
-/// of `SplitMix64({seed, frame, ray})` do not depend on how many numbers the other rays draw.
+/// A list of keys is hashed into the initial state, so each list has its own independent stream.
+/// For example, the numbers of `SplitMix64({seed, frame, ray})` do not depend on how many numbers are drawn
+/// for other rays.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}

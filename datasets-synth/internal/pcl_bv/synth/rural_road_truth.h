@@ -12,20 +12,21 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Returns the pose in KITTI's format: 12 numbers, the upper three rows of the matrix from the sensor's frame
-/// to the fixed frame, and a line feed. Parsing the numbers here and in truth_line() gives the same doubles.
+/// to the fixed frame, and a line feed. The numbers of pose_line() and truth_line() have enough digits to be
+/// read back exactly.
 std::string pose_line(const RuralRoadFrame& frame);
 
 /// Returns one JSON object and a line feed. Its members are `seq` (the frame's number), `stamp_ns`, `pose`
 /// (12 numbers as in pose_line()) and `objects`, by ascending id. Members of each element of `objects`:
 ///
-///  id        as in the cloud's field `object`, the same in every frame;
+///  id        id as in the cloud's field `object`, the same in every frame;
 ///  class     "car", ...;
 ///  center    centre of the box in the sensor's frame, metres;
-///  axes      forward, left, up: three rows, in the sensor's frame;
+///  axes      three rows (forward, left, up) in the sensor's frame;
 ///  yaw       angle of the forward axis about the sensor's z axis, radians;
 ///  size      full lengths of the box along its axes, metres;
 ///  velocity  velocity of the centre in the fixed frame, m/s;
-///  yaw_rate  in the fixed frame, rad/s;
+///  yaw_rate  yaw rate in the fixed frame, rad/s;
 ///  points    number of returns of the object in the cloud (0: occluded).
 std::string truth_line(const RuralRoadFrame& frame, std::size_t number);
 

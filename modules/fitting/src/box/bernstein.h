@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Polynomials on [0, 1] in Bernstein form: a polynomial is nowhere below its smallest coefficient.
+// Polynomials on [0, 1] in Bernstein form. A polynomial in this form is nowhere below its smallest
+// coefficient.
 #pragma once
 
 #include <algorithm>

@@ -39,7 +39,7 @@ void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& 
     frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
     frame.size[b] = box.width;
     frame.size[c] = box.height;
-    frame.stuck_axes = 1;  // no further rotation about this axis can shrink the box
+    frame.stuck_axes = 1;  // Another rotation about this axis cannot shrink the box.
   }
 }
 

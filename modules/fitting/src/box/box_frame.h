@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A box that shrinks as it is rotated about one of its axes after another.
+// A box around a hull, which shrinks while it is rotated about one of its axes after another.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ struct BoxFrame {
   Eigen::Matrix3d axes;
   Eigen::Vector3d size;  ///< Extents along the axes.
   int axis = 0;          ///< The next rotation is about this axis.
-  int stuck_axes = 0;    ///< Number of axes in a row about which no rotation shrinks the box.
+  int stuck_axes = 0;    ///< Number of successive axes about which no rotation shrinks the box.
 
   double volume() const { return size.prod(); }
   bool done() const { return stuck_axes == 3; }
@@ -24,9 +24,9 @@ struct BoxFrame {
 /// Returns the extents of the vertices along the axes.
 Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Matrix3d& axes);
 
-/// Rotates the frame about one axis after another, each time to the smallest box that has this axis. Ends
-/// after `times` rotations, or when no rotation reduces the area across its axis by more than the fraction
-/// `smaller`.
+/// Rotates the frame about one axis after another, each time to the smallest box with this axis. Ends after
+/// `times` rotations. Ends earlier if no rotation reduces the area perpendicular to its axis by more than the
+/// fraction `smaller`.
 void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
                   Silhouette::Projection& projection);
 

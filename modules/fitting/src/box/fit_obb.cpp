@@ -83,10 +83,11 @@ std::optional<Coordinates> first_valid(const PointView& points) {
   return std::nullopt;
 }
 
-// For few points: projects all of them in double, which takes a third of the time of the search on 300
-// points. The margin for the rounding of n . q is 8 2^-53 of |q|_1, twice the possible error
-// (volumes/src/obb.cpp). No |q|_1 exceeds the sum of the sides of the points' box; the smallest normal number
-// covers products that underflow. Coordinate axes need no margin, because the box is exact along them.
+// Measures the box of few points. Projects all points in double arithmetic, which for 300 points takes a
+// third of the time of measure_many(). The margin for the rounding of n . q is 8 2^-53 of |q|_1, twice the
+// possible error (volumes/src/obb.cpp). |q|_1 is at most the sum of the sides of the points' box. The
+// smallest normal number covers products that underflow. Coordinate axes need no margin, because the supports
+// along them are exact.
 Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                 UsableIsa isa) {
   const LoadedPoints loaded(points, 0, points.count);
@@ -110,7 +111,8 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
   return Obb::from_slabs(axes, from, low, high);
 }
 
-// For many points: the search rejects nearly all of them in floats, and the supports are exact.
+// Measures the box of many points. The support search rejects nearly all points in float arithmetic, and its
+// supports are exact.
 Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
   SupportDirections directions;

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A smallest box has two adjacent sides that each contain an edge of the hull (O'Rourke 1985). Take a pair of
-// edges. The normal of one side moves along the arc of its edge: n1 = (1 - t) a + t b. The normal of the
-// other side is perpendicular to n1 and to its own edge, so n2 is linear in t, too, and n3 = n1 x n2 is
-// quadratic.
+// edges. The normal n1 of one side moves along the arc of its edge, as n1 = (1 - t) a + t b. The normal n2 of
+// the other side is perpendicular to n1 and to the other edge. Therefore n2 is linear in t, too, and
+// n3 = n1 x n2 is quadratic.
 //
 // Take any six vertices, two for each normal, and let d1, d2, d3 be the vectors from the vertex on the low
 // side to the vertex on the high side. The volume over these six vertices is (d1.n1)(d2.n2)(d3.n3) /
-// (|n1|^2 |n2|^2). The volume of the box around the hull is the maximum of this over all choices of vertices.
-// So if for one choice the quartic (d1.n1)(d2.n2)(d3.n3) - v |n1|^2 |n2|^2 is not negative on a range of t,
-// no box in this range is smaller than v. A range without such a proof is divided where the support vertices
-// change.
+// (|n1|^2 |n2|^2). The volume of the box around the hull is the maximum of this expression over all choices
+// of vertices. If for one choice the quartic (d1.n1)(d2.n2)(d3.n3) - v |n1|^2 |n2|^2 is not negative on a
+// range of t, then no box in this range is smaller than v. A range without such a proof is divided where the
+// support vertices change.
 
 #include "box/flush_search.h"
 
@@ -51,7 +51,7 @@ struct Widths {
 // Indices of the vertices on the low and the high side of each direction.
 using SupportVertices = std::array<std::int32_t, 6>;
 
-// A box over six vertices: around the whole hull, if these are the support vertices.
+// A box over six vertices. If these are the support vertices, the box encloses the whole hull.
 struct Measured {
   Widths widths;
   SupportVertices supports;
@@ -105,8 +105,8 @@ class FlushSearch {
   double limit_ = 0;
 };
 
-// Sets the volume below which a box is smaller than the best. The margin is above rounding, which moves each
-// width by a few 2^-53 of the hull's size.
+// Sets the volume below which a box is treated as smaller than the best box. The margin is larger than the
+// effect of rounding, which changes each width by a few 2^-53 of the hull's size.
 void FlushSearch::set_limit() {
   constexpr double kClose = 1e-10, kOfRounding = 1e-14;
   limit_ =
@@ -134,8 +134,8 @@ const BoxFrame& FlushSearch::run() {
   return best_;
 }
 
-// Searches the ranges of t in which n2 is on the arc of the other edge: where f and g, the dot products of n1
-// with the two ends of this arc, have different signs.
+// Searches the ranges of t in which n2 is on the arc of the other edge. In these ranges f and g, the dot
+// products of n1 with the two ends of this arc, have different signs.
 void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
                               const double* to_row) {
   const Linear f = {from_row[other.from], to_row[other.from]}, g = {from_row[other.to], to_row[other.to]};
@@ -157,8 +157,8 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
     };
     const auto first = [&](double t) -> Vector3d { return arc[0] + t * (arc[1] - arc[0]); };
     NormalRange range{{first(begin), first(end)}, {second(begin), second(end)}, &one, &other};
-    // Where n1 is parallel to the other edge, n2 can be anywhere on the arc. The boxes left out there are
-    // rotations about n1, of which the smallest is at an end of the arc.
+    // If n1 is parallel to the other edge, n2 can be anywhere on the arc. The boxes with n2 inside the arc
+    // need no search. They are rotations about n1, and the smallest of these has n2 at an end of the arc.
     const double lengths[2] = {range.second[0].squaredNorm(), range.second[1].squaredNorm()};
     if (std::max(lengths[0], lengths[1]) < 1e-24) continue;
     for (std::size_t k = 0; k < 2; ++k)
@@ -167,10 +167,10 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
   }
 }
 
-// Whether a side of a box smaller than the limit may have its normal on this arc. The volume of a box is no
-// less than the hull's width along the normal times the area of the hull's shadow along the normal. This area
-// is no less than the sum of the facets' projected areas with any fixed signs, which is a linear function of
-// the normal.
+// Returns whether a side of a box smaller than the limit may have its normal on this arc. The volume of a box
+// is at least the hull's width along the normal times the area of the hull's shadow along the normal. This
+// area is at least half the sum of the facets' projected areas with any fixed signs. Such a sum is a linear
+// function of the normal.
 bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   const std::array<Vector3d, 2> n = {gauss_.nodes[arc.from], gauss_.nodes[arc.to]};
   const Vector3d middle = n[0] + n[1];
@@ -187,7 +187,7 @@ bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   return false;
 }
 
-// Tries vertices first that need no climb.
+// First tries vertices that are found without a climb, because that is faster.
 void FlushSearch::search(const NormalRange& range) {
   const Vector3d n1 = range.first[0] + range.first[1], n2 = range.second[0] + range.second[1],
                  n3 = cross3(n1, n2);
@@ -264,8 +264,8 @@ Measured FlushSearch::over(const Eigen::Matrix3d& axes, const SupportVertices& s
   return found;
 }
 
-// Measures the box at t. A climb may end early, among vertices in one line or plane up to rounding. So a
-// volume below the limit is measured again over all vertices.
+// Measures the box at t. A climb may end early among vertices that are collinear or coplanar up to rounding.
+// Therefore a volume below the limit is measured again over all vertices.
 Measured FlushSearch::measure(const NormalRange& range, double t) {
   const Vector3d second = range.second_at(t);
   Eigen::Matrix3d axes;
@@ -282,8 +282,8 @@ Measured FlushSearch::measure(const NormalRange& range, double t) {
   return whole;
 }
 
-// Rotates a better box to a local minimum before it becomes the best, so that a lower limit discards more
-// pairs.
+// Rotates a better box to a local minimum before it becomes the best box. This lowers the limit further, so
+// that more pairs are discarded.
 void FlushSearch::accept(const Eigen::Matrix3d& axes) {
   constexpr int kRotations = 90;
   BoxFrame better{orthonormal_axes(axes), {}};

@@ -17,8 +17,8 @@ GaussArcs::GaussArcs(const Silhouette& shape, SupportGraph& graph) {
   measure(shape.vertices(), graph);
 }
 
-// Computes the normals of the facets. A facet whose area is mere rounding lies in the plane of a neighbour,
-// so it gets that neighbour's normal; neighbours at long edges come first.
+// Computes the normals of the facets. A facet whose area is only a rounding error lies in the plane of a
+// neighbour, so it gets the normal of that neighbour. Neighbours at long edges are tried first.
 void GaussArcs::add_nodes(const Silhouette& shape) {
   constexpr double kNoArea = 1e-14;
   nodes.reserve(shape.facets() * 5 / 4);
@@ -68,8 +68,8 @@ void GaussArcs::add_cut(std::int32_t from, std::int32_t to, const Eigen::Vector3
   add_cut(cut, to, along, vertex, depth + 1);
 }
 
-// Measures the widths. Over any one opposite vertex, the width along the unit normals of an arc is a cosine.
-// It is concave where it is positive, so its minimum is at an end of the arc.
+// Computes the lower bounds of the widths. For one fixed opposite vertex, the width along the unit normals of
+// an arc is a cosine. Where the cosine is positive it is concave, so its minimum is at an end of the arc.
 void GaussArcs::measure(const std::vector<Eigen::Vector3d>& vertices, SupportGraph& graph) {
   std::vector<std::int32_t> farthest;
   farthest.reserve(nodes.size());

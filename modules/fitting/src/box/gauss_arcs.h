@@ -16,15 +16,15 @@ namespace pcl_bv {
 
 /// The arcs of all edges of a hull, and lower bounds of its width.
 struct GaussArcs {
-  /// An arc, or a part of one: arcs of more than 60 degrees are divided.
+  /// An arc, or a part of an arc of more than 60 degrees.
   struct Arc {
-    std::int32_t from, to;  ///< Indices into `nodes`: the normals at the two ends.
-    std::int32_t vertex;    ///< A vertex of the edge.
+    std::int32_t from, to;  ///< Indices into `nodes` of the normals at the two ends.
+    std::int32_t vertex;    ///< A vertex of the edge that the arc belongs to.
     std::int32_t opposite;  ///< A vertex with the minimum projection on the middle of the arc.
     double width;           ///< Lower bound of the hull's width along any normal of the arc.
   };
 
-  /// Unit normals: of the facets, then of the points at which arcs are divided.
+  /// The unit normals of the facets, then those at which arcs are divided.
   std::vector<Eigen::Vector3d> nodes;
   std::vector<Arc> arcs;
 

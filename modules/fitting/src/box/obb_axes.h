@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The axes of oriented boxes by method, and the measurement of the box along its axes.
+// The axes of oriented boxes for each method, and the measurement of the box along its axes.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,10 +16,10 @@
 
 namespace pcl_bv {
 
-/// Returns the box along the axes around all valid points, of which there must be one or more. It encloses
-/// them by exact arithmetic, and is tight to a few units in the last place of the extents and of the centre.
-/// The columns of `axes` must be unit and orthogonal to 1e-12; `supports` may be along any set. Needs a
-/// FloatEnvironment.
+/// Returns the box along the axes around all valid points. There must be at least one valid point. The box
+/// encloses the points by exact arithmetic, and is tight to a few units in the last place of the extents and
+/// of the centre. The columns of `axes` must be orthonormal to 1e-12. `supports` may be along any set. Needs
+/// a FloatEnvironment.
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution);
 
@@ -32,22 +32,23 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);
 /// A few points in local coordinates.
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 
-/// Returns the support points of all directions; if there are no more points than that, all valid points.
+/// Returns the support points of all directions. If the cloud has no more points than these, returns all
+/// valid points.
 FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
-/// Returns the coordinate axes or the axes of one of DiTO's triangles (Larsson, Kallberg 2011): those with
-/// the smallest half surface, measured on `few` in floats. `supports` must be along dop14, with points; `few`
-/// are support_or_all_points().
+/// Returns the axes with the smallest half surface among the coordinate axes and the axes of DiTO's triangles
+/// (Larsson, Kallberg 2011). The surface is measured on `few` in floats. `supports` must be along dop14, with
+/// points. `few` must be the result of support_or_all_points().
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame);
 
-/// Returns the axes of the smallest box around the hull; for more than 128 vertices those of the smallest box
-/// that a search finds. `summary` must be of the same points.
+/// Returns the axes of the smallest box around the hull. If the hull has more than 128 vertices, it is the
+/// smallest box that a search finds. `summary` must be of the same points.
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
                              const Execution& execution);
 
-/// Return axes, the first of which is `up`, a unit vector. With those of yaw_axes() the area seen from above
-/// is the minimum; with those of lshape_axes() the points are closest to the sides. `supports` must be along
-/// dop26, with points.
+/// Returns axes, the first of which is `up`, a unit vector. For the axes of yaw_axes() the area seen from
+/// above is the minimum. For the axes of lshape_axes() the points are closest to the sides. `supports` must
+/// be along dop26, with points.
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                          const Eigen::Vector3d& up, const Execution& execution);
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// DiTO, the ditetrahedron of Larsson, Kallberg 2011: two tetrahedra on a large triangle of extremal points
-// have seven triangles. Each triangle's normal with each of its edges is tried as a pair of axes.
+// DiTO, the ditetrahedron of Larsson, Kallberg 2011. Two tetrahedra on a common large triangle of extremal
+// points have seven triangles. The normal of each triangle is tried as an axis with each edge of this
+// triangle as another axis.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,10 +15,10 @@
 namespace pcl_bv {
 namespace {
 
-// Points thinner than this are flat. Local coordinates have an extent from 1 to 2.
+// Points thinner than this limit are flat. Local coordinates have an extent from 1 to 2.
 constexpr double kThin = 1e-10;
 
-// The coordinates of a few points as lanes of floats, so that a frame is measured on all points at a time.
+// The coordinates of a few points as lanes of floats, so that all points are projected at the same time.
 class PointLanes {
  public:
   explicit PointLanes(const FewPoints& few) {
@@ -37,7 +38,7 @@ class PointLanes {
   }
 
  private:
-  static constexpr std::size_t kCount = 16;  // no less than the 14 support points
+  static constexpr std::size_t kCount = 16;  // at least the 14 support points
   using Array = Eigen::Array<float, static_cast<int>(kCount), 1>;
   Array x_, y_, z_;
 };
@@ -72,7 +73,7 @@ struct Best {
   float half_area;
 };
 
-// Each direction has a pair of support points: finds the pair that is farthest apart.
+// Each direction has a pair of support points. Finds the pair that is farthest apart.
 void farthest_pair(const Supports& supports, const LocalFrame& frame, Eigen::Vector3d& p,
                    Eigen::Vector3d& q) {
   double greatest = -1;

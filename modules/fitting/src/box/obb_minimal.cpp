@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest box. For hulls of few vertices, all pairs of edges are compared (flush_search.h). For other
-// hulls, a search starts from many frames and rotates each about one of its axes after another while the
-// volume decreases. Rotating calipers give the smallest box around the outline along an axis (Barequet,
-// Har-Peled 2001; Chang et al. 2011). The search ends within a few thousandths of the minimum, occasionally
-// within a few hundredths. The worse half of the frames is dropped repeatedly (Karnin, Koren, Somekh 2013).
+// Computes the smallest box. For hulls of few vertices, all pairs of edges are compared (flush_search.h). For
+// other hulls, a search starts from many frames. It rotates each frame about one of its axes after another
+// while the volume decreases. For each axis, rotating calipers give the smallest rectangle around the outline
+// along the axis (Barequet, Har-Peled 2001; Chang et al. 2011). The worse half of the frames is dropped
+// repeatedly (Karnin, Koren, Somekh 2013). The result is usually within a few thousandths of the minimum,
+// occasionally within a few hundredths.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -27,7 +28,8 @@
 namespace pcl_bv {
 namespace {
 
-// Random rotations, from unit quaternions of seeded integers: the same on every machine.
+// Returns random rotations that are the same on every machine. They are computed from seeded random integers,
+// which give unit quaternions.
 std::vector<Eigen::Matrix3d> random_rotations(std::size_t count) {
   std::vector<Eigen::Matrix3d> frames;
   std::mt19937_64 random(1);
@@ -46,7 +48,7 @@ std::vector<Eigen::Matrix3d> random_rotations(std::size_t count) {
 // Adds frames with the normals of the largest facets.
 void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
   constexpr std::size_t kFacets = 20;
-  constexpr double kNoNormal = 1e-20;  // squared length: below, a normal is mere rounding
+  constexpr double kNoNormal = 1e-20;  // squared length, below which a normal is only a rounding error
   std::vector<Eigen::Vector3d> normals;
   for (const Triangle& t : hull.triangles) {
     const auto at = [&](std::size_t k) { return hull.vertices[static_cast<std::size_t>(t[k])].local; };
@@ -58,19 +60,21 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
     if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
-// Hulls of more vertices are only searched from many frames: the time for all pairs of edges grows
-// quadratically.
+// All pairs of edges are compared for hulls of at most this number of vertices. For larger hulls this would
+// take too long, because the time grows quadratically.
 constexpr std::size_t kExhaustive = 128;
 
-// Numbers of frames in the search: random frames among the starts, the best starts, which are rotated, and
-// the best frames, which are rotated to the end. If pairs of edges are compared afterwards, a box within some
-// percent of the minimum is enough.
+// Numbers of frames in the search. `random_starts` are the random frames among the starts. `rotated_starts`
+// are the best starts, and only these are rotated. `finalists` are the best frames, and only these are
+// rotated to the end. If pairs of edges are compared afterwards, a box within some percent of the minimum is
+// enough.
 struct Effort {
   std::size_t random_starts, rotated_starts, finalists;
 };
 constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 
-// The first starts are DiTO, PCA and the coordinate axes: the result must not be larger than their boxes.
+// The first three starts are the axes of DiTO, those of PCA and the coordinate axes. The result must not be
+// larger than their boxes.
 constexpr std::size_t kGuaranteedStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
@@ -103,7 +107,7 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
 void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape,
                 const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
-  constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
+  constexpr double kSmaller = 1e-9;  // A smaller decrease of the area is not worth another rotation.
   const std::size_t vertices = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
   const ParallelPolicy policy = worthwhile(execution, Work::silhouette, vertices);
   for_each_range(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
@@ -134,7 +138,7 @@ BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& 
   }
   shrink_all(frames, kLastRotations, shape, execution);
   BoxFrame best = *std::min_element(frames.begin(), frames.end(), smaller);
-  best.size = extents(shape.vertices(), best.axes);  // over all vertices, without the rounding of silhouettes
+  best.size = extents(shape.vertices(), best.axes);  // without the rounding errors of silhouettes
   const BoxFrame& best_guaranteed = *std::min_element(guaranteed.begin(), guaranteed.end(), smaller);
   return smaller(best_guaranteed, best) ? best_guaranteed : best;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upright boxes: of minimum area, or with the sides closest to the points (Zhang et al. 2017).
+// Upright boxes, either of minimum area or with the sides closest to the points (Zhang et al. 2017).
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,23 +18,25 @@
 namespace pcl_bv {
 namespace {
 
-// The unit vector at t, which makes a quarter turn from t = 0 to t = 1. Not computed by a sine, which
-// libraries round differently.
+// Returns the unit vector at t. From t = 0 to t = 1 it rotates by 90 degrees. It is not computed by a sine,
+// because libraries round the sine differently.
 Eigen::Vector2d direction(double t) {
   const double x = 1 - t, length = std::sqrt(x * x + t * t);
   return {x / length, t / length};
 }
 
-constexpr std::size_t kCoarseSteps = 20;  // 3 to 6 degrees apart
+constexpr std::size_t kCoarseSteps = 20;  // steps of 3 to 6 degrees
 constexpr std::size_t kCoarsePoints = 512;
 constexpr std::size_t kFinePoints = 4096;
 constexpr int kStarts = 3;
-constexpr int kHalvings = 7;  // down to steps of 0.02 to 0.05 degrees
+constexpr int kHalvings = 7;  // The last steps are of 0.02 to 0.05 degrees.
 
-// Distances from a side below this part of the rectangle's diagonal are treated as equal: 12 cm for a car.
+// Distances from a side below this fraction of the rectangle's diagonal are treated as equal. For a car the
+// limit is 12 cm.
 constexpr double kNear = 1.0 / 40;
 
-// An evenly spaced sample of the cloud seen from above. In floats, because it only chooses an angle.
+// An evenly spaced sample of the cloud seen from above. Floats are precise enough, because the sample is only
+// used to choose an angle.
 struct Sample {
   Sample(const PointView& points, const Supports& supports, const LocalFrame& frame, const Ground& ground,
          const Eigen::Vector2d& origin, std::size_t size) {
@@ -52,8 +54,8 @@ struct Sample {
   std::vector<float> x, y;
 };
 
-// How close the points are to the sides: the sum of 1 / max(d, near)^2, with d the distance of a point from
-// the nearest side.
+// Measures how close the points are to the sides, by the sum of 1 / max(d, near)^2 with d the distance of a
+// point from the nearest side.
 class Closeness {
  public:
   Closeness(const Outline& outline, double diagonal)
@@ -113,7 +115,7 @@ struct AngleScore {
   double closeness;
 };
 
-// Refines an angle by ever smaller steps to either side; a step is taken if it increases the closeness.
+// Refines an angle by smaller and smaller steps to both sides. A step is taken if it increases the closeness.
 AngleScore refined(AngleScore best, const Closeness& closeness, const Sample& sample) {
   best.closeness = closeness(sample, direction(best.t));
   double step = 0.5 / static_cast<double>(kCoarseSteps);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A SIMD filter drops the points inside the polygon of the 26 extremal points (Akl, Toussaint 1978): usually
-// most points. The monotone chain processes the others.
+// A SIMD filter drops the points inside the polygon of the 26 extremal points (Akl, Toussaint 1978). These
+// are usually most points. to_convex_chain() processes the others.
 
 #include "box/outline.h"
 
@@ -19,10 +19,10 @@
 namespace pcl_bv {
 namespace {
 
-// The vertical half-spaces through the polygon's edges. Their margin covers rounding of up to 128 units of
-// the extent (2^-17 for floats, 2^-46 for doubles) and underflow: points this near to a half-space's plane
-// are treated as outside. If rounding drops an outside point nevertheless, the box may get larger, but it
-// still encloses this point.
+// Returns the vertical half-spaces through the polygon's edges. Points within a margin of a half-space's
+// plane are treated as outside. The margin covers underflow and rounding errors of up to 128 rounding units
+// of the extent (2^-17 for floats, 2^-46 for doubles). If rounding drops an outside point nevertheless, the
+// box may be larger than the minimum, but it still encloses this point.
 HalfSpaces outline_half_spaces(const PointView& points, const FewPoints& few, const LocalFrame& frame,
                                const Ground& ground) {
   SmallVector<Eigen::Vector2d, 32> corners;
@@ -47,7 +47,7 @@ HalfSpaces outline_half_spaces(const PointView& points, const FewPoints& few, co
     const Eigen::Vector3d n = outward.x() * ground.east + outward.y() * ground.north;
     const Eigen::Vector3d on_plane = frame.global(a.x() * ground.east + a.y() * ground.north);
     const double limit = n.dot(on_plane - center) - error_bound;
-    if (!(limit > 0)) return {};  // so thin that all points are near the outline
+    if (!(limit > 0)) return {};  // The polygon is so thin that all points are near the outline.
     result.planes[result.count++] = {n.x(), n.y(), n.z(), is_float ? static_cast<float>(limit) : limit};
   }
   return result;

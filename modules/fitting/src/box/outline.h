@@ -15,7 +15,7 @@
 
 namespace pcl_bv {
 
-/// The plane perpendicular to `up`, with the axes `east` and `north`: x and y if up is z.
+/// The plane perpendicular to `up`, with the orthonormal axes `east` and `north`.
 struct Ground {
   explicit Ground(const Eigen::Vector3d& unit_up);
 
@@ -28,12 +28,12 @@ struct Ground {
   Eigen::Vector3d up, east, north;
 };
 
-/// Corners of a convex polygon, counter-clockwise. On the stack for small clusters, of which a sweep has
-/// hundreds.
+/// Corners of a convex polygon, counter-clockwise. Up to 1024 corners are stored without an allocation, which
+/// would cost more than the outline of a small cluster. A sweep can have thousands of small clusters.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
 /// Returns the convex outline of the points seen from above, in local coordinates, up to rounding. It has one
-/// corner or more. `supports` must be along dop26, with points. The same bits for every execution.
+/// corner or more. `supports` must be along dop26, with points. The bits are the same for every execution.
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution);
 

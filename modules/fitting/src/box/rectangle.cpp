@@ -19,7 +19,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Whether the path from a over b to c turns left.
+// Returns whether the path from a through b to c turns left.
 bool turns_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return cross(b - a, c - a) > 0;
 }
@@ -27,7 +27,7 @@ bool turns_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
 }  // namespace
 
 // The leftmost, lowest, rightmost and highest points are corners. Points inside the quadrilateral of these
-// four are dropped. The other points fall into four runs, each between two successive corners.
+// four are dropped. The other points are divided into four runs, each between two successive corners.
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
   if (count < 2) return count;
   Eigen::Vector2d* const end = points + count;
@@ -58,7 +58,7 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
     points[kept++] = next;
   };
   for (int run = 0; run < 4; ++run) {
-    // Points with equal x may come in any order: only the outermost remains.
+    // Points with equal x may be in any order, because only the outermost of them remains.
     std::sort(begin[run], begin[run + 1], [to_the_right = run < 2](const auto& a, const auto& b) {
       return to_the_right ? a.x() < b.x() : a.x() > b.x();
     });
@@ -83,8 +83,9 @@ Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count) 
     const Eigen::Vector2d edge = corners[next(i)] - corners[i];
     const double length = std::sqrt(dot(edge, edge));
     const Eigen::Vector2d u = edge / length, v(-u.y(), u.x());
-    // Moves a caliper on while its projection along `direction` grows, at most once around. `direction` need
-    // not be a unit vector, so this does not wait for the square root above.
+    // Moves a caliper to the next corner while its projection along `direction` grows, at most once around
+    // the polygon. `direction` need not be a unit vector. So the processor need not wait for the square root
+    // above.
     const auto advance = [&](std::size_t& at, const Eigen::Vector2d& direction) {
       for (std::size_t steps = 0; steps < count; ++steps) {
         if (!(dot(corners[next(at)] - corners[at], direction) > 0)) break;

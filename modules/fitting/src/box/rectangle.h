@@ -10,9 +10,10 @@
 
 namespace pcl_bv {
 
-/// Moves the corners of the convex hull to the front, counter-clockwise, and returns their number: 1 for
-/// equal points, 2 for points on a line. Subject to rounding: good enough to choose axes, not to enclose
-/// points. planar_hull.h is exact, and slower by an allocation. O(n log n). Andrew 1979.
+/// Moves the corners of the convex hull to the front, counter-clockwise, and returns their number. It is 1
+/// for equal points and 2 for points on a line. The result has rounding errors. It may be used to choose
+/// axes, not to enclose points. planar_hull() is exact, but slower because it allocates. O(n log n). Andrew
+/// 1979.
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count);
 
 /// A rectangle in the plane, without its position.
@@ -26,7 +27,7 @@ struct Rectangle {
 
 /// Returns the rectangle of minimum area around a convex polygon of 1 corner or more, as returned by
 /// to_convex_chain(). Such a rectangle has a side along an edge of the polygon (Freeman, Shapira 1975), so
-/// only these are compared. Rotating calipers (Toussaint 1983): O(corners).
+/// only rectangles along edges are compared. Uses rotating calipers (Toussaint 1983). O(corners).
 Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count);
 
 }  // namespace pcl_bv

@@ -17,7 +17,7 @@ namespace {
 // An edge as a side of one of its two facets.
 struct Side {
   std::int32_t low, high;
-  bool falls;  // runs from the higher vertex index to the lower
+  bool falls;  // whether the side runs from the higher vertex index to the lower
   std::int32_t facet;
 
   auto key() const { return std::tie(low, high, falls); }
@@ -36,9 +36,9 @@ std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
   return sides;
 }
 
-// Whether b is right of the line from a to c by more than rounding, for a hull with an extent from 1 to 2.
-// Other corners are dropped, because the calipers would stop at them: where facets or edges are parallel to
-// the view, several corners are in a line or at the same position.
+// Returns whether b is to the right of the line from a to c by more than rounding errors, for a hull with an
+// extent from 1 to 2. If facets or edges are parallel to the view, several corners are in a line or at the
+// same position. Such corners are dropped, because the calipers would stop at them.
 bool sticks_out(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   constexpr double kRounding = 1e-13;
   const Eigen::Vector2d along = c - a, to = b - a;
@@ -73,7 +73,7 @@ void Silhouette::find_rim(const Eigen::Vector3d& towards, Projection& projection
     facing[t] = (nx[t] * x + ny[t] * y) + nz[t] * z;
   projection.rim.resize(edges_.size());
   std::size_t count = 0;
-  for (const Edge& edge : edges_) {  // without branches, which would be unpredictable
+  for (const Edge& edge : edges_) {  // The loop has no branches, because they would be unpredictable.
     const bool left = facing[edge.left] > 0, right = facing[edge.right] > 0;
     const std::int32_t turned = (edge.from ^ edge.to) & (static_cast<std::int32_t>(left) - 1);
     projection.rim[count] = {edge.from ^ turned, edge.to ^ turned};

@@ -14,23 +14,23 @@
 
 namespace pcl_bv {
 
-/// Computes the silhouettes of a solid hull under parallel projection. If the hull has 28 vertices, like that
-/// of a car, a silhouette has some 12.
+/// Computes the silhouettes of a solid hull under parallel projection. For the hull of a car, which has about
+/// 28 vertices, a silhouette has about 12 corners.
 class Silhouette {
  public:
   struct Step {
-    std::int32_t from, to;  ///< Vertices.
+    std::int32_t from, to;  ///< Indices of the vertices at the ends of an edge.
   };
 
   /// Result of project(), with its working memory.
   struct Projection {
-    std::vector<double> facing;            ///< For each facet: positive if it faces the viewer.
+    std::vector<double> facing;            ///< One value per facet; positive if the facet faces the viewer.
     std::vector<Step> rim;                 ///< Edges of the silhouette, in the order of edges().
-    std::vector<std::int32_t> next;        ///< For each vertex of the silhouette: the vertex after it.
-    std::vector<Eigen::Vector2d> corners;  ///< Corners of the silhouette: the result.
+    std::vector<std::int32_t> next;        ///< The next vertex of the silhouette after each of its vertices.
+    std::vector<Eigen::Vector2d> corners;  ///< Corners of the silhouette, which project() returns.
   };
 
-  /// Vertices and triangles as of a LocalHull of rank 3.
+  /// The vertices and triangles must be as those of a LocalHull of rank 3.
   Silhouette(std::vector<Eigen::Vector3d> vertices, const std::vector<Triangle>& triangles);
 
   struct Edge {
@@ -47,9 +47,9 @@ class Silhouette {
     return {normals_[0][facet], normals_[1][facet], normals_[2][facet]};
   }
 
-  /// Returns projection.corners: the corners of the silhouette along u x v, counter-clockwise, in the
+  /// Returns projection.corners, the corners of the silhouette along u x v, counter-clockwise, in the
   /// coordinates (u, v). The polygon is convex up to rounding. Its edges are the edges between a facet that
-  /// faces the viewer and a facet that does not, so nothing needs to be sorted: O(vertices).
+  /// faces the viewer and a facet that does not, so nothing needs to be sorted. O(vertices).
   const std::vector<Eigen::Vector2d>& project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                                               Projection& projection) const;
 

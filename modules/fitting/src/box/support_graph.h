@@ -24,9 +24,9 @@ class SupportGraph {
     std::int32_t low, high;
   };
 
-  /// Returns the vertices with the minimum and the maximum projection along a direction near the given one:
-  /// the middle of its cell, one of 384 cells on the faces of a cube. They are computed when a cell is first
-  /// used. Any two vertices for a zero vector.
+  /// Returns the vertices with the minimum and the maximum projection along a direction near the given one,
+  /// namely the middle of its cell. The faces of a cube are divided into 384 cells. The vertices of a cell
+  /// are computed when the cell is first used. For a zero vector the result is any vertices.
   LowHigh approximate_supports(const Eigen::Vector3d& direction);
 
   /// Returns the vertices with the minimum and the maximum projection along the direction, as climb() finds
@@ -37,12 +37,12 @@ class SupportGraph {
   }
 
   /// Moves from vertex `from` along edges while the projection grows, and returns the last vertex. This is
-  /// the vertex with the maximum projection, unless rounding ends the climb early, as it can among vertices
-  /// in one line.
+  /// the vertex with the maximum projection, unless rounding ends the climb early. That can happen among
+  /// collinear vertices.
   std::int32_t climb(std::int32_t from, const Eigen::Vector3d& direction) const;
 
-  /// Returns the vertices with the minimum and the maximum projection along each column, by a pass over all
-  /// vertices.
+  /// Returns the vertices with the minimum and the maximum projection along each column of `axes`, by a pass
+  /// over all vertices.
   std::array<std::int32_t, 6> exact_supports(const Eigen::Matrix3d& axes) const;
 
  private:
@@ -51,7 +51,7 @@ class SupportGraph {
 
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<std::int32_t> first_, neighbours_;   // the neighbours of vertex i begin at position first_[i]
-  std::array<LowHigh, 3 * kCells * kCells> near_;  // of each cell; opposite cells share an entry
+  std::array<LowHigh, 3 * kCells * kCells> near_;  // supports of each cell; opposite cells share an entry
 };
 
 }  // namespace pcl_bv

@@ -10,7 +10,7 @@ namespace pcl_bv {
 
 struct SymmetricEigen {
   Eigen::Vector3d values;   ///< Eigenvalues, descending.
-  Eigen::Matrix3d vectors;  ///< Eigenvectors as columns, orthonormal to some 1e-15, right-handed.
+  Eigen::Matrix3d vectors;  ///< Eigenvectors as columns, orthonormal to about 1e-15, right-handed.
 };
 
 /// Computes eigenvalues and eigenvectors by Jacobi rotations. Uses only sums, products, quotients and square

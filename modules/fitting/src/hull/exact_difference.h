@@ -6,7 +6,7 @@
 
 namespace pcl_bv {
 
-/// Returns whether `difference`, which is b - a rounded to a double, is exact.
+/// Returns whether `difference`, which is b - a rounded to a double, equals b - a exactly.
 inline bool is_exact_difference(double b, double a, double difference) {
   const double back = difference - b;
   return b - (difference - back) == 0 && -a - back == 0;

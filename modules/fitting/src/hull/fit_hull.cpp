@@ -19,7 +19,7 @@ namespace {
 
 using Normals = std::vector<Eigen::Vector3d>;
 
-// Appends v / |v|; nothing for a zero vector.
+// Appends v / |v| unless v is the zero vector.
 void add_unit(const Eigen::Vector3d& v, Normals& normals) {
   const double length = norm3(v);
   if (length > 0) normals.push_back((v / length).array() + 0.0);
@@ -30,9 +30,10 @@ void add_both(const Eigen::Vector3d& v, Normals& normals) {
   add_unit(-v, normals);
 }
 
-// The normals of the planes: of the faces; for a flat hull of both sides along each flat direction, then of
-// the edges; last of the axis-aligned box. Without the box, the rounding of faces that meet at a small angle
-// would let the body extend far beyond its points.
+// Returns the normals of the hull's planes. First come the normals of the triangles. A flat hull has none.
+// Instead, it has both normals along each flat direction and the normals of the edges. The normals of the
+// axis-aligned box come last. Without the box, the rounding of faces that meet at a small angle would let the
+// body extend far beyond its points.
 Normals normals_of(const LocalHull& hull) {
   Normals normals;
   const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };
@@ -51,7 +52,7 @@ Normals normals_of(const LocalHull& hull) {
   return normals;
 }
 
-// Removes repeated normals; the others keep the order of their first appearance.
+// Removes repeated normals. The remaining normals are in the order of their first appearance.
 void drop_repeated(Normals& normals) {
   std::vector<std::size_t> order(normals.size());
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -69,7 +70,8 @@ void drop_repeated(Normals& normals) {
   normals = std::move(kept);
 }
 
-// Calls measure(plane), 100 planes at a time: a plane takes some 10 us where a surface is smooth.
+// Calls measure(plane) for all planes. A thread takes 100 planes at a time, because a plane takes only about
+// 10 us on a smooth surface.
 template <typename Measure>
 void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
   constexpr std::size_t kTogether = 100;

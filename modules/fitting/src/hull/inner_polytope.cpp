@@ -32,7 +32,7 @@ Corners corners_of(const Supports& supports, const LocalFrame& frame, std::vecto
   return corners;
 }
 
-// The floating-point type in which half_spaces.h computes: that of the points.
+// The floating-point type of the points, in which half_spaces.h computes.
 struct Scalar {
   explicit Scalar(ScalarType type) : is_float(type == ScalarType::float32) {}
 
@@ -57,12 +57,12 @@ Coordinates middle(const Corners& corners, const LocalFrame& frame, const Scalar
   return {scalar.nearest(c.x()), scalar.nearest(c.y()), scalar.nearest(c.z())};
 }
 
-// The half-space of a triangle. Its limit is lowered by the error bound of everything that is rounded, with
-// U = 2^-53 and u the rounding unit of the scalar type. Local coordinates, of at most 2, are off by 4 U;
-// edges by 12 U; the components of their cross product m by 112 U; the rounded unit normal n by
-// 112 U / |m| + 2 u. For a point p of the cloud, with D the largest extent of the cloud, this puts
-// n . (p - a) off by 3 D times as much. n . (p - c), as the kernel rounds it, is off by 16 u D, and
-// n . (a - c) by 24 U D. Together this is less than D (512 U / |m| + 64 u).
+// Returns the half-space of a triangle. Its limit is lowered by an error bound for all rounding. Let U =
+// 2^-53, u the rounding unit of the scalar type, and D the largest extent of the cloud. Local coordinates,
+// which are at most 2, have errors of at most 4 U. The edges have errors of 12 U, the components of their
+// cross product m errors of 112 U, and the rounded unit normal n an error of 112 U / |m| + 2 u. For a point p
+// of the cloud, this error changes n . (p - a) by at most 3 D times as much. The kernel's rounding of n . (p
+// - c) adds 16 u D, and that of n . (a - c) adds 24 U D. The total is less than D (512 U / |m| + 64 u).
 HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinates& center, double extent,
                      const Scalar& scalar) {
   const auto at = [&](std::size_t i) { return corners.local[static_cast<std::size_t>(t[i])]; };
@@ -73,7 +73,7 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
   const Coordinates& a = corners.points[static_cast<std::size_t>(t[0])];
   const double projection = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
   const double error_bound = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.underflow_bound();
-  // NaN if the triangle has no area: then no point is inside.
+  // If the triangle has no area, the limit is NaN, and the caller uses no half-spaces.
   h.limit = scalar.down(projection - error_bound);
   return h;
 }
@@ -90,11 +90,12 @@ HalfSpaces inner_polytope(const PointView& points, const Supports& supports, con
   double ball = kInfinity;
   for (const Triangle& t : triangles) {
     const HalfSpace h = half_space(corners, t, result.center, frame.extent(), scalar);
-    if (!(h.limit > 0)) return {};  // too flat to contain the centre: the filter would drop little
+    if (!(h.limit > 0)) return {};  // The polytope is so flat that the filter would drop few points.
     ball = std::min(ball, h.limit);
     result.planes[result.count++] = h;
   }
-  // In the ball, n . (p - c) is below each limit by 2^-9 of the limit, also as the kernels round it.
+  // For a point p in the ball, n . (p - c) is below each limit by 2^-9 of the limit. This margin also covers
+  // the rounding of the kernels.
   if (scalar.squares(frame.extent())) result.squared_ball = scalar.down(ball * ball * (1 - 0x1p-8));
   return result;
 }

@@ -10,9 +10,9 @@
 
 namespace pcl_bv {
 
-/// Returns half-spaces such that every point of the cloud inside all of them (as list_outside() decides) is
+/// Returns half-spaces for list_outside(). Every point of the cloud that list_outside() does not list is
 /// strictly inside the convex hull of the extremal points, by exact arithmetic. The extremal points
-/// themselves are not inside. The count of half-spaces is 0 if the extremal points do not span a solid.
+/// themselves are listed. The number of half-spaces is 0 if the extremal points do not span a solid.
 HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 }  // namespace pcl_bv

@@ -16,14 +16,14 @@
 namespace pcl_bv {
 namespace {
 
-// For so few points the polytope costs more than it saves: 300 points of a Gaussian take 118 us without the
-// filter and 194 us with it (AVX-512).
+// For at most this number of points the polytope takes more time than it saves. With 300 points of a
+// Gaussian, the hull takes 118 us without the filter and 194 us with it (AVX-512).
 constexpr std::size_t kFewPoints = 500;
 
-// If a chunk of a source has more candidates than this, only the extreme ones are stored. If all chunks
-// together have more than 8 times as many, only the extreme ones of all are stored. Not for points in memory:
-// there, candidates take only a few times the memory of the points, and on a smooth surface, where all points
-// are extreme, the hull would be computed twice.
+// If a chunk of a source has more candidates than this, only its extreme points are stored. If all chunks
+// together have more than 8 times this number, only the extreme points of all chunks are stored. This is not
+// done for points in memory, because their candidates take only a few times the memory of the points.
+// Furthermore, it would compute the hull twice on a smooth surface, where all points are extreme.
 constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
@@ -55,8 +55,8 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
   return all;
 }
 
-// The box of the candidates. It is that of all points, as no point strictly inside a hull is on a side of its
-// box.
+// Returns the box of the candidates. It is also the box of all points, because the other points are strictly
+// inside the hull and therefore not on a side of the box.
 Aabb box_of(const std::vector<HullPoint>& candidates) {
   Aabb box;
   for (const HullPoint& candidate : candidates)
@@ -69,8 +69,8 @@ void keep_vertices(const std::vector<std::size_t>& positions, LocalHull& hull) {
     hull.vertices.push_back(hull.candidates[i]);
 }
 
-// The corners of a flat hull. Drops the coordinate in which the normal of the plane is largest, which rounds
-// nothing.
+// Finds the corners of a flat hull. Projects the points by dropping the coordinate in which the normal of the
+// plane is largest, because this needs no rounding.
 void find_polygon(LocalHull& hull) {
   Eigen::Index dropped = 0;
   hull.axes.col(2).cwiseAbs().maxCoeff(&dropped);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The convex hull as other fits use it: a few points instead of all, in local coordinates of about 1.
+// The convex hull that other fits use instead of all points, in local coordinates of about 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,20 +27,20 @@ struct HullPoint {
   std::size_t index;  ///< Index of the point in the cloud.
 };
 
-/// The convex hull of a cloud. The inherited Span is that of the candidates; only `rank` is that of all
+/// The convex hull of a cloud. The inherited Span is that of the candidates, but `rank` is the rank of all
 /// points.
 struct LocalHull : Span {
-  /// Rank 3: in ascending order of their positions in the view. Rank 2: the corners of a polygon,
-  /// counter-clockwise seen from the side to which axes.col(2) points. Rank 1: the two ends. Rank 0: one
-  /// point.
+  /// For rank 3, the vertices in ascending order of their positions in the view. For rank 2, the corners of a
+  /// polygon, counter-clockwise seen from the side to which axes.col(2) points. For rank 1, the two ends. For
+  /// rank 0, one point.
   std::vector<HullPoint> vertices;
 
   /// As ConvexHull::triangles. Empty unless the rank is 3.
   std::vector<Triangle> triangles;
 
   /// The extreme points by exact arithmetic, in ascending order of their positions in the view. Every valid
-  /// point of the cloud is in their convex hull. So a convex set that contains them contains the cloud, and a
-  /// convex function is largest at one of them.
+  /// point of the cloud is in their convex hull. Therefore a convex set that contains the candidates contains
+  /// the cloud, and a convex function has its maximum over the cloud at a candidate.
   std::vector<HullPoint> candidates;
 
   /// Returns the vertices in local coordinates.
@@ -52,7 +52,7 @@ struct LocalHull : Span {
   }
 
   /// Returns the coordinates of a point along the axes, each divided by the entry of `distances` for that
-  /// axis. They are about 1, and no cloud is thin in them.
+  /// axis. These coordinates are about 1, and no cloud is thin in them.
   Eigen::Vector3d spread(const Eigen::Vector3d& local) const {
     const Eigen::Vector3d q = local - candidates.front().local;
     return Eigen::Vector3d(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q))
@@ -61,8 +61,8 @@ struct LocalHull : Span {
 };
 
 /// Computes the hull of a cloud with at least one valid point. `supports` must be along dop26, with points.
-/// The same bits for every execution. O(n) for the points inside the polytope of the extremal points (Akl,
-/// Toussaint 1978), O(m log m) for the m others. Needs a FloatEnvironment.
+/// The bits are the same for every execution. O(n) for the points inside the polytope of the extremal points
+/// (Akl, Toussaint 1978), O(m log m) for the m other points. Needs a FloatEnvironment.
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const Execution& execution);
 

@@ -15,8 +15,8 @@
 namespace pcl_bv {
 namespace {
 
-// The orientation in double arithmetic; 0 if rounding could have changed its sign. Each product has three
-// roundings and the difference one, for which 8 2^-53 is enough.
+// Returns the orientation in double arithmetic, or 0 if rounding could have changed its sign. Each product
+// has three roundings, and the difference has one. A relative margin of 8 2^-53 is enough for these.
 int rounded_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());
@@ -24,7 +24,7 @@ int rounded_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, cons
   return std::abs(left - right) <= rounding ? 0 : left > right ? 1 : -1;
 }
 
-// The support points along eight directions, counter-clockwise.
+// Returns the support points along eight directions, counter-clockwise.
 std::vector<Eigen::Vector2d> octagon(const std::vector<Eigen::Vector2d>& points) {
   constexpr double directions[8][2] = {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}};
   std::vector<Eigen::Vector2d> corners;
@@ -43,9 +43,10 @@ std::vector<Eigen::Vector2d> octagon(const std::vector<Eigen::Vector2d>& points)
   return corners;
 }
 
-// Positions of the points that are not certainly to the left of all edges of an octagon of points (Akl,
-// Toussaint 1978). The points left out are inside the hull, whichever corners rounding has chosen: a point
-// outside the hull cannot be to the left of all edges of a closed polygon of points.
+// Returns the positions of all points except those that are certainly to the left of all edges of an octagon
+// of points (Akl, Toussaint 1978). The omitted points are inside the hull for any choice of corners, also a
+// choice changed by rounding, because a point outside the hull cannot be to the left of all edges of a closed
+// polygon of points.
 std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& points) {
   const std::vector<Eigen::Vector2d> corners = octagon(points);
   std::vector<std::size_t> positions;
@@ -58,9 +59,9 @@ std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& poi
   return positions;
 }
 
-// Appends a point to the chain that begins at position `first` of `chain`, and removes the corners before the
-// point at which the chain does not turn left. The corners before `first` belong to the other chain, which is
-// complete.
+// Appends a point to the chain that begins at position `first` of `chain`. Before that, removes the last
+// corners of this chain while it would not turn left at them. The corners before `first` belong to the other
+// chain, which is complete.
 void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, std::size_t first,
                   std::vector<std::size_t>& chain) {
   while (chain.size() >= first + 2 &&
@@ -78,13 +79,13 @@ int compare(double a, double b) {
 int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   if (const int certain = rounded_orientation(a, b, c)) return certain;
   // Points of lattices are often collinear, and their differences are doubles. Then each product is the sum
-  // of its rounded value and a rounding error, both doubles: the rounded values decide, and if they are
-  // equal, the errors.
+  // of its rounded value and a rounding error that is also a double. The rounded values are compared first,
+  // and the errors if the rounded values are equal.
   const double bx = b.x() - a.x(), by = b.y() - a.y(), cx = c.x() - a.x(), cy = c.y() - a.y();
   const double left = bx * cy, right = by * cx;
   const bool doubles = is_exact_difference(b.x(), a.x(), bx) && is_exact_difference(b.y(), a.y(), by) &&
                        is_exact_difference(c.x(), a.x(), cx) && is_exact_difference(c.y(), a.y(), cy);
-  constexpr double tiny = 0x1p-900;  // below, the errors of products may not be doubles
+  constexpr double tiny = 0x1p-900;  // The rounding errors of smaller products may not be doubles.
   const auto fine = [](double u, double v, double product) {
     return u == 0 || v == 0 || (std::abs(product) > tiny && std::isfinite(product));
   };

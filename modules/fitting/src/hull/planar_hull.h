@@ -11,13 +11,13 @@
 namespace pcl_bv {
 
 /// Returns the positions of the corners of the convex hull, counter-clockwise, beginning with the corner that
-/// has the smallest (x, y). No three corners are collinear and no two are equal; of equal points the first is
-/// a corner. Points on a line give the two ends, equal points one. Exact arithmetic; coordinates must be
-/// finite and of up to 1e100 in magnitude. O(n log n).
+/// has the smallest (x, y). No three corners are collinear and no two are equal. Of equal points only the
+/// first can be a corner. Points on a line give the two ends, equal points give one corner. The arithmetic is
+/// exact. Coordinates must be at most 1e100 in magnitude. O(n log n).
 std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points);
 
-/// Returns the sign of (b - a) x (c - a), exactly: 1 if c is to the left of a -> b, -1 if to the right, 0 if
-/// on the line.
+/// Returns the exact sign of (b - a) x (c - a): 1 if c is to the left of a -> b, -1 if c is to the right, 0
+/// if c is on the line.
 int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
 }  // namespace pcl_bv

@@ -36,7 +36,7 @@ std::vector<Triangle> Quickhull::triangles() const {
   return found;
 }
 
-// Facets in one plane are connected: a search over neighbours finds them.
+// Facets in one plane are connected, so a search over neighbours finds them.
 std::vector<std::size_t> Quickhull::faces() const {
   std::vector<std::size_t> face(facets_.size());
   std::iota(face.begin(), face.end(), std::size_t{0});
@@ -72,8 +72,8 @@ bool Quickhull::in_plane(const Facet& facet, const Facet& other) const {
   });
 }
 
-// Assigns each point to the first facet that it sees, from facet number `first` on. Points that see none are
-// inside.
+// Assigns each point to the first facet that it sees, among the facets with numbers of at least `first`.
+// Points that see none of these facets are inside.
 void Quickhull::assign_points(const std::vector<std::int32_t>& points, std::size_t first) {
   for (const std::int32_t point : points) {
     const auto seen = std::find_if(facets_.begin() + static_cast<std::ptrdiff_t>(first), facets_.end(),
@@ -82,8 +82,8 @@ void Quickhull::assign_points(const std::vector<std::int32_t>& points, std::size
   }
 }
 
-// The point farthest above the facet. Of equally far points the first, because of equal points the first is a
-// vertex.
+// Returns the point farthest above the facet. Of equally far points it returns the first, because of equal
+// points the first must become a vertex.
 std::int32_t Quickhull::farthest(const Facet& facet) const {
   const Eigen::Vector3d a = vector(at(facet.corners[0]));
   const Eigen::Vector3d normal = (vector(at(facet.corners[1])) - a).cross(vector(at(facet.corners[2])) - a);
@@ -100,8 +100,8 @@ std::int32_t Quickhull::farthest(const Facet& facet) const {
   return best;
 }
 
-// Removes the facets that the point sees, beginning with one of them. Returns the edges around these facets,
-// the horizon; appends the points above them to `waiting`.
+// Removes the facets that the point sees. `start` is one of them. Returns the horizon, which consists of the
+// edges around these facets. Appends the points above these facets to `waiting`.
 std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int32_t start,
                                                     std::vector<std::int32_t>& waiting) {
   std::vector<Edge> horizon_edges;
@@ -120,7 +120,7 @@ std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int
         stack.push_back(seen.neighbours[k]);
         continue;
       }
-      other.visited = point;  // so that sees() is called once
+      other.visited = point;  // so that sees() is called only once for this facet
       horizon_edges.push_back({seen.corners[k], seen.corners[(k + 1) % 3], seen.neighbours[k]});
     }
   }

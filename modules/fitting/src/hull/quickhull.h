@@ -14,20 +14,22 @@
 
 namespace pcl_bv {
 
-/// Begins with a tetrahedron and adds the points outside, farthest first (Barber, Dobkin, Huhdanpaa 1996). A
-/// point sees a facet if it is strictly above the plane of the facet. Therefore the facets that a point sees
-/// are connected, the facets in whose plane the point is remain, and a point that sees none of the new facets
-/// is inside. With exact predicates, the proof of the authors holds unchanged.
+/// Begins with a tetrahedron and adds the points outside, the farthest first (Barber, Dobkin, Huhdanpaa
+/// 1996). A point sees a facet if it is strictly above the plane of the facet. From this definition follow
+/// three facts. The facets that a point sees are connected. A facet whose plane contains the point remains. A
+/// point that sees none of the new facets is inside. With exact predicates, the proof of the authors holds
+/// unchanged.
 class Quickhull {
  public:
-  /// Computes the hull. `corners` are the positions of four points that are not in a plane. Keeps a reference
-  /// to the points.
+  /// Computes the hull. `corners` are the positions of four points that are not in a plane. Stores a
+  /// reference to `points`.
   Quickhull(const std::vector<Coordinates>& points, const std::array<std::int32_t, 4>& corners);
 
-  /// Returns the facets as positions of points.
+  /// Returns the facets. The corners are positions in `points`.
   std::vector<Triangle> triangles() const;
 
-  /// Returns for each of triangles() the number of its face. Triangles in one plane have the same number.
+  /// Returns the number of the face of each triangle, in the order of triangles(). Triangles in one plane
+  /// have the same number.
   std::vector<std::size_t> faces() const;
 
  private:
@@ -55,7 +57,7 @@ class Quickhull {
 
   const std::vector<Coordinates>& points_;
   std::vector<Facet> facets_;
-  std::vector<std::int32_t> facet_from_;  // by point: the new facet whose horizon edge begins there
+  std::vector<std::int32_t> facet_from_;  // per point, the new facet whose horizon edge begins at the point
 };
 
 }  // namespace pcl_bv

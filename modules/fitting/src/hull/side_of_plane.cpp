@@ -24,8 +24,8 @@ bool is_exact(const Coordinates& b, const Coordinates& a, const Coordinates& dif
          is_exact_difference(b.z, a.z, difference.z);
 }
 
-// Adds the product a b c to the sum. Returns false if the errors of products are so small that they may not
-// be doubles.
+// Adds the product a b c to the sum. Returns false if the rounding errors of products are so small that they
+// may not be doubles.
 bool add_triple(double a, double b, double c, Expansion& sum) {
   const double product = a * b;
   if (product == 0) return a == 0 || b == 0;
@@ -34,7 +34,7 @@ bool add_triple(double a, double b, double c, Expansion& sum) {
   return sum.is_lossless();
 }
 
-// The exponents of the lowest and the highest bit that the coordinates have together. One coordinate must not
+// The exponents of the lowest and the highest bit of all added coordinates. At least one coordinate must not
 // be 0.
 struct Bits {
   int lowest = std::numeric_limits<int>::max(), highest = std::numeric_limits<int>::min();
@@ -73,7 +73,8 @@ int by_integers(const Coordinates& a, const Coordinates& b, const Coordinates& c
     for (std::size_t k = 0; k < 3; ++k)
       bits.add((*q)[k]);
   }
-  // The integers have up to 160 bits: sums of products of three of their differences have less than 490.
+  // The integers have at most 160 bits. The volume, a sum of products of three differences, then has less
+  // than 490 bits.
   if (bits.highest - bits.lowest < 160) return by_integers<boost::multiprecision::int512_t>(a, b, c, p, bits);
   return by_integers<boost::multiprecision::cpp_int>(a, b, c, p, bits);
 }
@@ -87,12 +88,13 @@ int side_of_plane(const Coordinates& a, const Coordinates& b, const Coordinates&
   double terms = 0;
   for (std::size_t k = 0; k < 3; ++k)
     terms += (std::abs(left[k]) + std::abs(right[k])) * std::abs(w[k]);
-  // Shewchuk's bound, (7 + 56 u) u of the terms with u = 2^-53, and what underflow may cost, times
-  // differences of up to 2e100.
+  // Shewchuk's error bound is (7 + 56 u) u times the terms, with u = 2^-53. 1e-200 covers products that
+  // underflow, multiplied by differences of at most 2e100.
   if (std::abs(volume) > 0x1p-50 * terms + 1e-200) return volume > 0 ? 1 : -1;
   if (p == a || p == b || p == c) return 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;  // all in a plane across an axis: walls and floors
+    // All points are in a plane perpendicular to an axis, as on walls and floors.
+    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;
   }
   if (is_exact(b, a, u) && is_exact(c, a, v) && is_exact(p, a, w)) {
     Expansion sum;

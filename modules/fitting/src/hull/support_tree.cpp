@@ -22,8 +22,9 @@ namespace {
 constexpr std::size_t kLeafPoints = 8;
 constexpr std::size_t kFewQueries = 64;
 
-// Error bound of a projection. Local coordinates are at most 2 and off by 4 2^-53. The products with a normal
-// and the sum of three add less than 20 times that, and the sides of a box as much again.
+// Error bound of a projection. Local coordinates are at most 2, with an error of at most 4 2^-53. The
+// products with a normal and their sum add less than 20 times this error. The sides of a box add as much
+// again.
 constexpr double kErrorBound = 0x1p-44;
 
 }  // namespace
@@ -41,10 +42,11 @@ double SupportTree::Node::projection_bound(const Eigen::Vector3d& normal) const 
   return dot3(normal, center) + dot3(along.cwiseAbs(), half) + kErrorBound;
 }
 
-// The axes of the box of some points. Its plane contains the first point, the point farthest from it, and the
-// point farthest from the line through these two. In this plane the sides are those of the smallest
-// rectangle. If a side were along that line, the box of a square patch would be too wide by a third; and for
-// a flat helix of 100 000 points each facet on top would visit half the nodes, which takes 15 s.
+// Returns the axes of the box of some points. The first two axes span the plane of three points: the first
+// point, the point farthest from it, and the point farthest from the line through these two. In this plane
+// the sides are those of the smallest rectangle. If a side were along that line instead, the box of a square
+// patch would be too wide by a third. Then, for a flat helix of 100 000 points, each facet on top would visit
+// half the nodes, which takes 15 s.
 Eigen::Matrix3d SupportTree::sides(std::uint32_t begin, std::uint32_t end) const {
   const auto from_start = [&](std::uint32_t i) -> Eigen::Vector3d {
     return point(i).local - point(begin).local;
@@ -63,8 +65,8 @@ Eigen::Matrix3d SupportTree::sides(std::uint32_t begin, std::uint32_t end) const
   const Eigen::Vector3d u = unit3(first), second = farthest(u);
   Eigen::Vector3d v = negligible(second) ? PlaneBasis(u).u : unit3(second);
   v = unit3(v - dot3(v, u) * u);
-  // For so few points a rectangle takes longer than it saves: the hull of 300 points of a Gaussian takes
-  // 213 us without rectangles and 253 us with them.
+  // For at most kFew points a rectangle takes more time than it saves. The hull of 300 points of a Gaussian
+  // takes 213 us without rectangles and 253 us with them.
   constexpr std::uint32_t kFew = 500;
   Eigen::Vector2d side = Eigen::Vector2d::UnitX();
   if (end - begin > kFew) {
@@ -112,7 +114,7 @@ void SupportTree::build(std::uint32_t begin, std::uint32_t end, std::size_t leaf
   build(middle, end, leaf_points);
 }
 
-// Returns the maximum rounded projection of the points below node n, or `known` if that is larger.
+// Returns the maximum rounded projection of the points below node n, or `known` if `known` is larger.
 double SupportTree::greatest(const Eigen::Vector3d& normal, double known, std::uint32_t n) const {
   const Node& node = nodes_[n];
   if (node.projection_bound(normal) < known) return known;

@@ -12,12 +12,12 @@
 
 namespace pcl_bv {
 
-/// A tree of oriented boxes over points. Each box is oriented along its points: on a smooth surface,
+/// A tree of oriented boxes over points. Each box is oriented along its points, because on a smooth surface
 /// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
 class SupportTree {
  public:
-  /// Keeps a reference to the points. `queries` is the expected number of queries: a small number does not
-  /// pay for a tree. O(m log m).
+  /// Stores a reference to the points. `queries` is the expected number of queries. If it is small, the tree
+  /// has only one node, because a deeper tree would take more time than it saves. O(m log m).
   SupportTree(const std::vector<HullPoint>& points, std::size_t queries);
 
   /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of
@@ -27,9 +27,9 @@ class SupportTree {
  private:
   struct Node {
     Eigen::Matrix3d axes;
-    Eigen::Vector3d center, half;  // of the box, in local coordinates
-    std::uint32_t begin, end;      // range of its points in order_
-    std::uint32_t second;          // position of the second child; 0: a leaf. The first child is next
+    Eigen::Vector3d center, half;  // centre and half extents of the box, in local coordinates
+    std::uint32_t begin, end;      // range of the node's points in order_
+    std::uint32_t second;          // position of the second child, 0 for a leaf; the first child is next
 
     double projection_bound(const Eigen::Vector3d& normal) const;  // upper bound for its points
   };

@@ -25,13 +25,13 @@ inline bool same_number(const NumberedPoint& a, const NumberedPoint& b) {
   return a.number == b.number;
 }
 
-/// In ascending order of the numbers.
+/// Points in ascending order of their numbers.
 using NumberedPoints = std::vector<NumberedPoint>;
 
-/// Throws std::invalid_argument (a point is in two parts) unless `disjoint`.
+/// Throws std::invalid_argument unless `disjoint`. The message says that a point is in two parts.
 void require_disjoint(bool disjoint);
 
-/// Returns the points of both. Throws as require_disjoint() does if a number is in both.
+/// Returns the points of `a` and `b`. Throws as require_disjoint() does if a number is in both lists.
 NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b);
 
 /// Stores points without gaps as floats or doubles, for the kernels.

@@ -19,8 +19,8 @@ namespace pcl_bv {
 
 namespace {
 
-// Sets counts, support points and extreme points, but no moments, in the state of points that are not all
-// stored. number(i) is the number of the i-th point in the whole cloud.
+// Sets counts, support points and extreme points of a state for more than kMaxStored points. Does not set
+// moments. number(i) is the number of the i-th point in the whole cloud.
 template <typename Number>
 void add_extremes(const PointView& points, const Execution& execution, const Number& number,
                   PartialState& state) {
@@ -57,7 +57,7 @@ MomentTree block_moments_of(const PointView& points, std::size_t first_block, co
   return blocks;
 }
 
-// The state of more than kMaxStored points.
+// Returns the state of more than kMaxStored points.
 PartialState state_of(const PointView& points, std::size_t first, const Execution& execution) {
   PartialState state;
   state.scalar = points.scalar;
@@ -72,7 +72,7 @@ PartialState state_of(const PointView& points, std::size_t first, const Executio
   return state;
 }
 
-// The state of the same points in the form of more than kMaxStored points.
+// Converts a state that stores all points to the form for more than kMaxStored points.
 PartialState reduced(PartialState state) {
   if (!state.stores_all() || state.loose.empty()) return state;
   const PackedPoints packed(state.loose, state.scalar);
@@ -108,8 +108,7 @@ MomentTree tree_of(MomentNodes nodes) {
   return tree;
 }
 
-// Moves the blocks that have become complete from the loose points to the tree, which is built of these and
-// `nodes`.
+// Removes complete blocks from the loose points. Sets state.blocks to the tree of these blocks and `nodes`.
 void sum_whole_blocks(PartialState& state, MomentNodes nodes) {
   NumberedPoints loose;
   for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
@@ -146,8 +145,8 @@ PartialState merged(const PartialState& one, const PartialState& other) {
   return both;
 }
 
-// The points that represent the cloud: the extreme points and the support points. On a flat side, a support
-// point may be any point of the side, so it need not be an extreme point.
+// Returns the points that represent the cloud, which are the extreme points and the support points. A support
+// point may be any point of a flat side, so it is not always an extreme point.
 NumberedPoints representative_points(const PartialState& state) {
   NumberedPoints points = state.extreme;
   for (const SupportPoint& p : state.support_points) {
@@ -166,7 +165,7 @@ std::shared_ptr<const Moments> moments_of_all(const PartialState& state) {
   return std::make_shared<Moments>(tree_of(std::move(nodes)).total());
 }
 
-// The supports of the whole cloud, with indices into `points`, which represent it.
+// Returns the supports of the whole cloud. The indices are positions in `points`, which represent the cloud.
 Supports supports_of(const PartialState& state, const NumberedPoints& points, const PointView& view,
                      const Execution& execution) {
   Supports supports;
@@ -247,7 +246,8 @@ EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate&
   const NumberedPoints points = representative_points(*state_);
   const PackedPoints packed(points, state_->scalar);
   Supports supports = supports_of(*state_, points, packed.view(), execution);
-  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // with indices in the whole cloud
+  // `farthest` answers with indices in the whole cloud, so the supports must have these indices, too.
+  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {
     supports.along[k].low_point.index = state_->support_points[2 * k].index;
     supports.along[k].high_point.index = state_->support_points[2 * k + 1].index;
   }

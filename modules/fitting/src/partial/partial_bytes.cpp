@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The bytes of a Partial. All numbers are little-endian, as in memory on every machine that pcl_bv supports:
+// The bytes of a Partial. All numbers are little-endian, as in memory on every machine that pcl_bv supports.
 //   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64  26 support points
 //   loose points, extreme points, nodes of moments: for each list u64 count, then the elements
 //   CRC-32 of all bytes before: u32
 
-// This file also holds the members of Partial that need no kernels, so that the fuzzer of the bytes needs
-// none.
+// The member functions of Partial that need no kernels are also defined in this file. Therefore the fuzzer of
+// the bytes needs no kernels.
 
 #include <algorithm>
 #include <boost/crc.hpp>
@@ -87,7 +87,8 @@ class Reader {
   std::size_t left_;
 };
 
-// One description for both directions: Io is Writer or Reader. For a Writer the other arguments are const.
+// The transfer functions both write and read. Io is Writer or Reader. For a Writer the other arguments are
+// const.
 
 template <typename Io, typename Point>
 void transfer_point(Io& io, Point& p) {
@@ -131,7 +132,7 @@ void write(const NumberedPoints& points, Writer& out) {
     transfer_numbered(out, p);
 }
 
-// Reads the number of elements that follow. Each has at least `element` bytes.
+// Reads the number of elements that follow. Each element has `element` bytes.
 std::size_t read_count(Reader& in, std::size_t element) {
   std::size_t count = 0;
   in(count);

@@ -16,18 +16,19 @@
 
 namespace pcl_bv {
 
-/// The data of a Partial. The same points give the same state, in whatever parts and order they came.
+/// The data of a Partial. The state depends on the points alone, not on how they were divided into parts or
+/// in which order these were merged.
 struct PartialState {
   ScalarType scalar = ScalarType::float32;
 
-  /// All points, if there are at most Partial::kMaxStored. Otherwise the points of those blocks of the cloud
-  /// that are not complete here.
+  /// All points, if there are at most Partial::kMaxStored. Otherwise the points of the incomplete blocks, of
+  /// which this Partial does not hold all points.
   NumberedPoints loose;
 
-  // Only if there are more than Partial::kMaxStored points:
+  // The members below are set only if there are more than Partial::kMaxStored points.
   std::size_t used = 0;
   std::size_t dropped = 0;
-  /// Ordered as in SupportDirections; the indices are those in the whole cloud.
+  /// Support points in the order of SupportDirections, with their numbers in the whole cloud as indices.
   std::array<SupportPoint, 2 * kMaxDirections> support_points{};
   NumberedPoints extreme;  ///< The extreme points of all points, loose or not.
   MomentTree blocks;       ///< The moments of complete blocks.

@@ -28,9 +28,9 @@ std::vector<Eigen::Vector3d> hemisphere() {
   return axes;
 }
 
-// Moves to the best of eight neighbours while one is better. Otherwise halves the step and rotates the
-// pattern by the angle with the cosine 3/5 and the sine 4/5, so that a ridge along the pattern does not stop
-// the search for long.
+// Moves to the best of eight neighbours if it is better than `best`. Otherwise halves the step and rotates
+// the pattern of the neighbours by the angle with the cosine 3/5 and the sine 4/5. Without the rotation, a
+// ridge along the pattern could stop the search.
 void improve(Rated& best, double step, double last_step,
              const std::function<double(const Eigen::Vector3d&)>& size) {
   constexpr int kMostMoves = 400;

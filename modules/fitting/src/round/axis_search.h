@@ -14,7 +14,7 @@ namespace pcl_bv {
 
 /// Points in local coordinates, projected onto an axis and onto the plane perpendicular to it.
 struct Profile {
-  /// Projects the points, and replaces the results of the call before. O(points).
+  /// Projects the points, and replaces the results of the previous call of project(). O(points).
   void project(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
 
   Eigen::Vector3d foot;       ///< Centre of the points' smallest circle, in the plane through the origin.
@@ -22,23 +22,24 @@ struct Profile {
   double low = 0, high = 0;   ///< Minimum and maximum projection on the axis.
   std::vector<double> projections;  ///< Projection of each point on the axis.
 
-  /// Fills `squared`: the squared distance of each point from the line along the axis through `foot`.
+  /// Fills `squared`.
   void measure_distances();
-  std::vector<double> squared;
+  std::vector<double> squared;  ///< Squared distance of each point from the axis line through `foot`.
 
  private:
   Eigen::Vector3d middle_;
   std::vector<Eigen::Vector3d> flat_;
 };
 
-/// Returns the vertices in local coordinates; of more than 1000 only those with the minimum or maximum
-/// projection along one of 49 directions. These are enough for the search, because its result is measured on
-/// all points.
+/// Returns the vertices in local coordinates. Of more than 1000 vertices it returns only those with the
+/// minimum or maximum projection along one of 49 directions. These are enough for the search, because the
+/// volume along the found axis is measured on all points.
 std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull);
 
-/// Returns a unit vector at which `size` is small; `size` must be the same for opposite vectors. Tries 49
-/// directions over the hemisphere and the hull's own axes, and improves the best by ever smaller steps. Uses
-/// neither functions of libm nor random numbers.
+/// Returns a unit vector for which size() is small. size() must return the same for opposite vectors. The
+/// search tries 49 directions over the hemisphere and the axes of the hull, and improves the best of them by
+/// smaller and smaller steps. To give the same bits everywhere, it uses no random numbers, and of libm only
+/// the square root.
 Eigen::Vector3d search_axis(const LocalHull& hull, const std::function<double(const Eigen::Vector3d&)>& size);
 
 }  // namespace pcl_bv

@@ -20,8 +20,8 @@ struct Candidate {
   double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // divided by pi
 };
 
-// The shortest capsule of this radius: each cap's centre is as far inward as the points allow. At a point's
-// distance from the axis, a cap extends by `cap_length` beyond its centre.
+// Returns the shortest capsule of this radius. The centre of each cap is as far inward as the points allow.
+// At the distance of a point from the axis, a cap extends by `cap_length` beyond its centre.
 Candidate shortest(const Profile& profile, double squared_radius) {
   double low = profile.projections.front(), high = low;
   bool first = true;
@@ -35,7 +35,7 @@ Candidate shortest(const Profile& profile, double squared_radius) {
   return {low, high, std::sqrt(squared_radius)};
 }
 
-// Tries larger radii: a wider capsule can be so much shorter that its volume is smaller.
+// Tries larger radii, because a wider capsule can be so much shorter that its volume is smaller.
 Candidate widened(const Profile& profile) {
   Candidate best = shortest(profile, profile.squared_radius);
   constexpr int kHalvings = 18;  // steps down to 2e-6 of the radius
@@ -51,9 +51,9 @@ Candidate widened(const Profile& profile) {
   return best;
 }
 
-// The capsule with these ends around all points. With q = p - a and e = b - a, the computed distance from the
-// segment is off by less than 20 U (|q|_1 + |e|_1), U = 2^-53: the foot, the differences and the lengths
-// together.
+// Returns the capsule with these ends around all points. Let q = p - a, e = b - a and U = 2^-53. The error of
+// the computed distance from the segment is less than 20 U (|q|_1 + |e|_1). This includes the errors of the
+// foot, the differences and the lengths.
 Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
   const Eigen::Vector3d e = (b - a) * frame.scale();

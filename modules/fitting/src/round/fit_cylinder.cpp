@@ -14,7 +14,7 @@ namespace pcl_bv {
 namespace {
 
 Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector3d>& vertices) {
-  if (hull.rank == 2) return hull.axes.col(2);  // points in a plane: a disc
+  if (hull.rank == 2) return hull.axes.col(2);  // The cylinder of points in a plane is a disc.
   if (hull.rank < 2) return hull.axes.col(0);
   Profile profile;
   return search_axis(hull, [&](const Eigen::Vector3d& axis) {
@@ -23,8 +23,8 @@ Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector
   });
 }
 
-// The cylinder with this centre and axis around all points. With q off by U = 2^-53 of itself, q . axis is
-// off by 5 U |q|_1, |q x axis| by 15 U |q|_1, and 1 / |axis| by 4 U.
+// Returns the cylinder with this centre and axis around all points. q has a relative error of U = 2^-53. The
+// error of q . axis is 5 U |q|_1, that of |q x axis| is 15 U |q|_1, and that of 1 / |axis| is 4 U.
 Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center,
                            const Eigen::Vector3d& axis) {
   double radius = 0, half_height = 0;

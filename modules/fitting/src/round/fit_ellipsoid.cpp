@@ -15,16 +15,18 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // of kappa; the volume then exceeds the bound by twice as much
+// Relative tolerance of kappa (smallest_ellipsoid.cpp). If the solver meets it, the volume exceeds its lower
+// bound by at most a relative 2e-6.
+constexpr double kTolerance = 1e-6;
 constexpr int kMostIterations = 300;
 
-// Radii are no less than this part of the largest. Smaller ones are practically flat, and distances divided
-// by them would be meaningless.
+// Radii are at least this fraction of the largest radius. An ellipsoid with a smaller radius is practically
+// flat, and distances divided by such a radius would be meaningless.
 constexpr double kThinRadius = 0x1p-30;
 
-// Solves for the vertices in LocalHull::spread() coordinates, the first `rank` of them. The smallest
-// ellipsoid is the same in all affine coordinates, but the solver's matrices are inaccurate for points
-// thinner than 1e-8.
+// Finds the smallest ellipsoid of the vertices in the first `rank` coordinates of LocalHull::spread(). The
+// smallest ellipsoid is the same in all affine coordinates, but the solver's matrices would be inaccurate for
+// points thinner than 1e-8.
 WeightedEllipsoid solve(const LocalHull& hull) {
   std::vector<Eigen::Vector3d> points;
   for (const HullPoint& v : hull.vertices)
@@ -37,8 +39,8 @@ struct Axes {
   Eigen::Vector3d radii;  // in local units
 };
 
-// Scales the radii such that all points are inside. With q off by U = 2^-53 of itself, q . axis is off by
-// 5 U |q|_1.
+// Scales the radii such that all points are inside. q has a relative error of U = 2^-53, and the error of
+// q . axis is 5 U |q|_1.
 Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center, Axes body) {
   double greatest = 0;
   for (const HullPoint& candidate : hull.candidates) {
@@ -55,8 +57,8 @@ Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3
   return body;
 }
 
-// Fills in the certificate. `ratio` compares volumes, areas or lengths, as many dimensions as the points
-// span. The margin of the bound covers rounding, which moved the spread points by 2^-48 divided by the
+// Fills in the certificate. `ratio` compares volumes, areas or lengths for rank 3, 2 or 1. The margin of the
+// bound covers rounding errors. These moved the points in spread() coordinates by 2^-48 divided by the
 // smallest entry of hull.distances.
 void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllipsoid& weighted,
              const Axes& body, EllipsoidCertificate& certificate) {
@@ -86,8 +88,8 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
     if (hull.rank == 0) {
       certificate.support = {hull.vertices[0].index};
       certificate.weights = {1};
-      // If the extent is below 1e-300, even distinct points have rank 0: a ball with a radius of twice the
-      // extent holds them.
+      // If the extent is below 1e-300, even distinct points have rank 0. A ball with a radius of twice the
+      // extent contains them.
       const Eigen::Vector3d radii = Eigen::Vector3d::Constant(2 * frame.extent());
       ellipsoid = Ellipsoid(vector(hull.vertices[0].point), Eigen::Matrix3d::Identity(), radii);
       return;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In lifted coordinates z = (p, 1), with the weights u: X = sum u z z' and kappa = z' X^-1 z for each point.
-// At the optimum no kappa exceeds dimensions + 1, and the points with weight attain it.
+// A point p has the lifted coordinates z = (p, 1) and a weight u. Let X = sum u z z' over all points, and
+// kappa = z' X^-1 z for each point. At the optimum, kappa is dimensions + 1 for the points with weight, and
+// not larger for the others.
 
 #include "round/smallest_ellipsoid.h"
 
@@ -16,16 +17,17 @@ namespace {
 using Lifted = std::array<double, 4>;
 using Square = std::array<Lifted, 4>;
 
-// If more points than this have weight, they exchange it only with the point of largest kappa: all pairs
-// would take longer than the pass over the points.
+// If more points than this have weight, they exchange weight only with the point of largest kappa, because
+// exchanges of all pairs would take longer than the pass over the points.
 constexpr std::size_t kMostPairs = 40;
 // Measured on 300 clouds of two separate half spheres. With 16 sweeps and 300 passes, volumes exceed the
-// bound by up to 9e-5, and by 1e-5 or more for 84 clouds. With 256 sweeps, all are within 2e-6 after 265
-// passes, in 1.4 times the time.
+// lower bound by at most 9e-5, and for 84 clouds by 1e-5 or more. With 256 sweeps and 265 passes, all volumes
+// are within 2e-6 of the bound. This takes 1.4 times the time.
 constexpr int kMostSweeps = 256;
 constexpr double kSettled = 1e-7;
 
-// Maximises det X by exchanges of weight.
+// Finds the weights that maximise det X, which the top of the file defines. Each step moves weight from one
+// point to another.
 class Ascent {
  public:
   Ascent(const std::vector<Eigen::Vector3d>& points, int dimensions)
@@ -33,7 +35,7 @@ class Ascent {
     start();
   }
 
-  // One pass over all points, then exchanges of weight. Returns false if no exchange is needed any more.
+  // Makes one pass over all points, then exchanges weight. Returns false if no exchange is needed any more.
   bool step(double tolerance) {
     refresh();
     const auto most =
@@ -122,8 +124,8 @@ class Ascent {
     return sum;
   }
 
-  // The first weights: the two extreme points along each coordinate, and points each farthest from the span
-  // of those before, which make X regular.
+  // Sets the first weights. The two extreme points along each coordinate get weight. So do points that are
+  // each farthest from the span of the points before, which make X regular.
   void start() {
     const auto d = static_cast<Eigen::Index>(size_) - 1;
     std::vector<Eigen::Vector3d> rest = points_;
@@ -164,7 +166,7 @@ class Ascent {
       p -= product(p, direction) / squared * direction;
   }
 
-  // Moves the weight delta from k to i (or back, if negative) with which det X is largest:
+  // Moves the weight delta from k to i (from i to k if negative). Chooses the delta that maximises det X, by
   // det (X + delta (z z' - y y')) / det X = 1 + delta (kappa_i - kappa_k) -
   // delta^2 (kappa_i kappa_k - kappa_ik^2). Returns delta.
   double exchange(std::size_t i, std::size_t k) {

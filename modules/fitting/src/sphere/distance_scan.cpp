@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::size_t kBlocksPerChunk = 32;
 
-// With so few blocks the float filter stays off: each block is likely to hold a point on the sphere, which
-// floats cannot reject.
+// With at most this number of blocks the float filter is off, because each block probably has a point on the
+// sphere, which floats cannot reject.
 constexpr std::size_t kFewBlocks = 4;
 
-// Margins for the rounding of distances and of their sums, a few dozen roundings at most.
+// Margins for the rounding of distances and of their sums, which are at most a few dozen roundings.
 constexpr double kRoundUp = 1 + 0x1p-44;
 constexpr double kRoundDown = 1 - 0x1p-44;
 
@@ -36,8 +36,8 @@ void raise(std::atomic<double>& greatest, double found) {
   }
 }
 
-// Replaces `best` by the farthest of the block's points in that octant, if it is farther. Only points with a
-// squared distance of at least `squared` are inspected.
+// Replaces `best` by the farthest point of the block in the octant `in_octant`, if that point is farther.
+// Only points with a squared distance of at least `squared` are inspected.
 void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
                    double squared, FloatFilter filter, FarPoint& best) {
   std::array<std::uint32_t, kBlockPoints> positions;
@@ -73,8 +73,8 @@ ParallelPolicy DistanceScan::policy(std::size_t expected) const {
   return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
 }
 
-// Calls visit(chunk, first block, number of blocks) for all chunks. `expected` is the number of blocks that
-// will be inspected; it decides the number of threads.
+// Calls visit(chunk, first block, number of blocks) for all chunks. `expected` is the expected number of
+// inspected blocks, from which the number of threads is chosen.
 template <typename Visit>
 void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const {
   const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
@@ -111,9 +111,9 @@ double DistanceScan::greatest(const DistanceCenter& center, double at_least) con
   return greatest;
 }
 
-// The farthest point in each octant among all points that the threads have scanned so far. Which candidates
-// compete depends on timing; the points that remain in the end do not. Points nearer than the nearest of the
-// eight can be skipped.
+// The farthest point in each octant among all points that the threads have scanned so far. Points nearer than
+// the nearest of these eight can be skipped. Which candidates compete depends on timing, but the final points
+// do not.
 class DistanceScan::SharedOctants {
  public:
   SharedOctants() {
@@ -166,8 +166,9 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
     best.raise(scan.max_squared);
   }
   if (scan.filter == FloatFilter::reject) best.filtered();
-  // The points are found while the chunk is in memory. To find them later, a source would have to load the
-  // chunk again, and the values of all chunks would have to be stored: 31 000 chunks for a billion points.
+  // The farthest points are found while the chunk is in memory. To find them later, a source would have to
+  // load the chunk again, and the maxima of all chunks would have to be stored. A billion points have 31 000
+  // chunks.
   for (std::size_t o = 0; o < 8; ++o) {
     for (std::size_t b = 0; b < count; ++b) {
       if (greatest[b][o] < 0 || greatest[b][o] < best[o]) continue;
@@ -180,7 +181,7 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
   // The array is not initialised, because the kernel writes every bound. Points of a source get no bounds,
-  // because a scan loads all of them anyway.
+  // because every scan has to load all points of a source.
   if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
     bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
@@ -190,16 +191,17 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
     scan_chunk(first, count, center, limit, best);
   });
   found = best.points();
-  // If floats reject next to nothing, nearly all points are near the surface, and bounds do not help either.
+  // If the float filter rejects almost no points, nearly all points are near the surface, and bounds do not
+  // help either.
   if (2 * best.chunks_filtered() < (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk) {
     filter_ = FloatFilter::off;
     bounds_.reset();
   }
 }
 
-// Lists the points at least `distance` from `center`, and those that can be so far from a centre that moves
-// from here by up to an eighth of its movement since the full scan. Returns false if these points are not
-// few.
+// Lists the points that can be at least `distance` from a centre near `center`. Near means at most an eighth
+// of the distance between `center` and the centre of the full scan. Returns false if these points are too
+// many or there are no bounds.
 bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   if (bounds_ == nullptr) return false;
   const double moved = distance_up(center, scan_center_);
@@ -234,7 +236,8 @@ void DistanceScan::scan_shell(const DistanceCenter& center, double limit, Octant
 bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
   const double distance = std::sqrt(limit) * kRoundDown;
   found = {};
-  // A point that is not listed is nearer than shell_distance_ plus the movement of the centre since then.
+  // A point that is not listed is nearer than shell_distance_ plus the movement of the centre since
+  // list_shell().
   listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
   listed_ = listed_ || (scanned_ && list_shell(center, distance));
   if (listed_) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compares the distances of a cloud's points with a radius, in parallel: which points are outside, how far,
-// and which points need not be inspected again.
+// Compares the distances of a cloud's points with a radius, in parallel. Finds which points are outside, how
+// far they are, and which points need not be inspected again.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace pcl_bv {
 
-/// For each block of points the largest squared distance of a point.
+/// The largest squared distance of a point in each block.
 using BlockMaxima = SmallVector<double, 16>;
 
 /// Scans of a cloud for points far from a centre. All squared distances are squared_distance() of the
@@ -33,15 +33,15 @@ class DistanceScan {
   /// Returns whether a pass over all points would run in one thread.
   bool serial() const;
 
-  /// Sets `maxima` to the largest squared distance of a valid point in each block that is at least `limit`;
-  /// -1 if the block has no such point.
+  /// Sets `maxima` to the largest squared distance of a valid point in each block. If that distance is below
+  /// `limit`, the value is -1.
   void block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const;
 
   /// Returns the largest squared distance of a valid point, or `at_least` if that is larger.
   double greatest(const DistanceCenter& center, double at_least) const;
 
-  /// Calls visit(position in the block, p), in ascending order, for the valid points of a block with a
-  /// squared distance of at least `limit`.
+  /// Calls visit(i, p) for the valid points p of a block with a squared distance of at least `limit`, in
+  /// ascending order of their positions i in the block.
   template <typename Visit>
   void visit_block(std::size_t block, const DistanceCenter& center, double limit, const Visit& visit) const {
     const LoadedPoints part = blocks(block, 1);
@@ -51,9 +51,9 @@ class DistanceScan {
       visit(listed[i], load_point(part.view(), listed[i]));
   }
 
-  /// Answers a query as FarthestQuery does. Made for centres that hardly move between calls: a scan of all
-  /// points also stores upper bounds of distances, one for every few points. Later calls inspect only the
-  /// points that can reach the limit, if these are few.
+  /// Answers a query as FarthestQuery does. Fastest if the centre hardly moves between calls. A scan of all
+  /// points also stores upper bounds of distances, one bound per several points. If only a few points can
+  /// have a distance above the limit, later calls inspect only these.
   bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
 
  private:
@@ -75,7 +75,7 @@ class DistanceScan {
   FloatFilter filter_;
   std::size_t blocks_;
 
-  std::unique_ptr<float[]> bounds_;  // of the latest full scan, for distances from scan_center_
+  std::unique_ptr<float[]> bounds_;  // bounds of distances from scan_center_, of the latest full scan
   DistanceCenter scan_center_;
   bool scanned_ = false;
 

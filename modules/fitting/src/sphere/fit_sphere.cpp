@@ -37,7 +37,7 @@ struct FirstBall {
   double squared_radius;  // in the unit of the kernels, squared
 };
 
-// The ball over the two extremal points of the axis whose extremal points are farthest apart.
+// Returns the ball over the two extremal points of the axis whose extremal points are farthest apart.
 FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   FirstBall ball{Eigen::Vector3d::Zero(), -1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -51,7 +51,8 @@ FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   return ball;
 }
 
-// The directions that EPOS-98 has beyond those of the cube; one of each two opposite directions.
+// Returns the directions of EPOS-98 that are not directions of the cube. Of two opposite directions it
+// returns one.
 std::vector<Direction> epos98_directions() {
   std::vector<Direction> directions = spread_directions();
   const auto of_cube = [](const Direction& d) {
@@ -61,8 +62,8 @@ std::vector<Direction> epos98_directions() {
   return directions;
 }
 
-// The first ball of EPOS. If there are no more points than support points, it is the ball of all points
-// (Larsson 2008).
+// Returns the first ball of EPOS. If there are no more points than support points, it is the ball of all
+// points (Larsson 2008).
 FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports& supports,
                     const LocalFrame& frame, const Execution& execution) {
   const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(supports.set);

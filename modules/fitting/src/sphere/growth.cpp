@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ritter's step for one point after another (Ritter 1990, Larsson 2008), in the orders of the paper, §5.
+// Applies Ritter's step to one point after another (Ritter 1990, Larsson 2008), in the orders of the paper,
+// §5.
 
 #include "sphere/growth.h"
 
@@ -13,8 +14,8 @@
 namespace pcl_bv {
 namespace {
 
-// A sphere that only grows. After each step it contains, by exact arithmetic, the sphere before the step, so
-// points once inside stay inside.
+// A sphere that only grows. After each step it contains, by exact arithmetic, the sphere before the step.
+// Therefore points that are inside remain inside.
 class GrowingSphere {
  public:
   GrowingSphere(const LocalFrame& frame, const Eigen::Vector3d& center, double squared_radius)
@@ -26,8 +27,7 @@ class GrowingSphere {
   double squared_radius() const { return radius_ * radius_ * (1 - 0x1p-50); }
 
   // Grows to the sphere through p and the far side of the old sphere, with a margin for rounding. A point
-  // that is inside by exact arithmetic never changes the sphere, so callers may pass such points or leave
-  // them out.
+  // that is inside by exact arithmetic never changes the sphere, so callers may pass or omit such points.
   void grow(const Coordinates& p) {
     const double d = std::sqrt(squared_distance(p, center()));
     if (!(d > radius_ * kInside)) return;
@@ -60,8 +60,8 @@ void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
     grow_over_block(scan, block, sphere);
 }
 
-// Calls visit(block), in ascending order, for the blocks with points outside the sphere as it is at the
-// beginning. These blocks are found in parallel.
+// Calls visit(block), in ascending order, for the blocks with points outside the sphere. The blocks are found
+// in parallel before the first call, so visit() may grow the sphere.
 template <typename Visit>
 void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& sphere, const Visit& visit) {
   const double limit = sphere.squared_radius();
@@ -72,7 +72,8 @@ void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& spher
   }
 }
 
-// For an index list that is not ascending: grows over the points outside in ascending order of their indices.
+// Grows over the points outside in ascending order of their indices, also if the view's index list is not
+// ascending.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
   std::vector<std::size_t> outside;
@@ -102,11 +103,11 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
     grow_by_index(scan, sphere);
   } else if (growth == SphereGrowth::deferred && !scan.serial()) {
-    // Each block is compared with the sphere as grown so far. This skips only points that would not change
-    // it.
+    // Each block is compared with the sphere that has grown over the blocks before. This skips only points
+    // that would not change the sphere.
     for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });
   } else {
-    grow_in_order(scan, sphere);  // the same bits as the deferred variants, and faster in one thread
+    grow_in_order(scan, sphere);  // gives the bits of the deferred variants, and is faster in one thread
   }
   return sphere.finish();
 }

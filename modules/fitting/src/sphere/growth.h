@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Grows a first sphere over the points that are outside of it: EXPANDSPHERE of the paper.
+// Grows a first sphere over the points outside of it (EXPANDSPHERE in the paper).
 #pragma once
 
 #include "local_frame.h"
@@ -10,8 +10,8 @@
 
 namespace pcl_bv {
 
-/// Grows the sphere of `center` and `squared_radius` (as the kernels measure) until it contains every valid
-/// point by exact arithmetic.
+/// Grows the sphere with this centre and squared radius until it contains every valid point by exact
+/// arithmetic. `squared_radius` is in the unit of the distance kernels (LocalFrame::center()).
 Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eigen::Vector3d& center,
                    double squared_radius, SphereGrowth growth);
 

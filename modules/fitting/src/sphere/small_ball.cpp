@@ -15,16 +15,18 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kRounding = 1 + 0x1p-50;  // smaller relative differences of squared distances are rounding
-constexpr double kTie = 1 + 0x1p-46;       // the same if two computed centres of one ball are compared
+// Squared distances that differ by smaller factors are treated as equal. kTie is for distances from two
+// computed centres of the same ball.
+constexpr double kRounding = 1 + 0x1p-50;
+constexpr double kTie = 1 + 0x1p-46;
 
 double squared_distance(const Vector& a, const Vector& b) {
   return dot3(a - b, a - b);
 }
 
 // Solves rows[i] . x = right[i] by elimination with row pivoting. The residual is small even if the rows are
-// nearly dependent, and the residual decides how far the points of a support are outside their ball. Returns
-// false if the rows are dependent.
+// nearly dependent. This matters because the residual decides how far the points of a support are outside
+// their ball. Returns false if the rows are dependent.
 bool solve(std::array<Vector, 3> rows, Vector right, Vector& x) {
   for (int column = 0; column < 3; ++column) {
     int pivot = column;
@@ -68,19 +70,20 @@ class Step {
     }
   }
 
-  // Returns the members of the support that stay, as bits. Sets the centre, relative to the new point.
+  // Returns the members of the support that remain, as bits. Sets the centre, relative to the new point.
   unsigned solve(Vector& center) {
-    // Smaller supports first: if the ball that one spans contains all points, it is the smallest ball.
+    // Smaller supports are tried first. If the ball of a support contains all points, it is the smallest
+    // ball.
     if (!try_pairs() && !try_triples()) try_quadruples();
     center = center_;
     return members_;
   }
 
  private:
-  // Compares the ball with this centre through the new point (the origin) with the best ball so far. Returns
-  // whether no point is outside of it. Cospherical points span the same ball many times. Of equal balls the
-  // one with the largest minimum weight is taken, because a support with a negative weight does not require
-  // its ball.
+  // Compares the ball that has this centre and passes through the new point (the origin) with the best ball
+  // so far. Returns whether no point is outside the ball. Several supports of cospherical points have the
+  // same ball. Of equal balls the one with the largest minimum weight is taken, because a support with a
+  // negative weight does not require its ball.
   template <typename LeastWeight>
   bool offer(unsigned members, const Vector& center, LeastWeight&& least_weight) {
     const double squared_radius = dot3(center, center);
@@ -109,7 +112,7 @@ class Step {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
         const double product = dot3(spokes_[i], spokes_[j]);
-        // If the triangle is not acute, its longest side spans the ball.
+        // If the triangle is not acute, its longest side alone gives the ball.
         if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
         Vector center;
         const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross3(spokes_[i], spokes_[j])};
@@ -120,8 +123,8 @@ class Step {
     return false;
   }
 
-  // Tries all quadruples until a ball contains all points and has no negative weight: a sphere through four
-  // points may contain the fifth without being the smallest.
+  // Tries all quadruples until a ball contains all points and has no negative weight. The weights must be
+  // checked because a sphere through four points may contain the fifth without being the smallest.
   void try_quadruples() {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
@@ -169,8 +172,8 @@ void weigh(const Vector* points, SmallBall& ball) {
     weight /= sum;
 }
 
-// Returns sum w_i |q_i|^2 - |sum w_i q_i|^2, with q_i relative to the centre. For any weights, no ball around
-// these points has a smaller squared radius.
+// Returns sum w_i |q_i|^2 - |sum w_i q_i|^2, with the support points q_i relative to the centre. For any
+// weights, no ball around the support points has a smaller squared radius.
 double squared_lower_bound(const Vector* points, const SmallBall& ball) {
   double squares = 0;
   Vector mean = Vector::Zero();
@@ -210,8 +213,8 @@ SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const 
     ball.center = points[ball.support[0]];
     ball.squared_radius = 0;
   }
-  // Each step's ball is larger than the ball before, until rounding hides it. Far fewer than 200 steps are
-  // needed.
+  // The ball of each step is larger than the ball before, until the difference is smaller than rounding
+  // errors. Far fewer than 200 steps are needed.
   for (int steps = 0; steps < 200; ++steps) {
     const std::size_t pivot = farthest(points, count, ball.center, greatest);
     const bool done = greatest <= ball.squared_radius * kRounding;

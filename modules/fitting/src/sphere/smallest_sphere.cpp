@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The orthant scan (Larsson, Capannini, Källberg 2016): compute the exact ball of a few points, scan all
-// points, add the farthest point outside in each octant, and repeat until no point is outside.
+// The orthant scan (Larsson, Capannini, Källberg 2016) computes the exact ball of a few points, scans all
+// points, and adds the farthest outside point in each octant to the few points. It repeats this until no
+// point is outside.
 
 #include "pcl_bv/fitting/smallest_sphere.h"
 
@@ -18,8 +19,9 @@
 namespace pcl_bv {
 namespace {
 
-// A point is outside only if its squared distance exceeds that of the candidates by this factor. Half of the
-// margin is for the rounding of distances, half for that of the ball.
+// A point is outside only if its squared distance exceeds the largest squared distance of the candidates by
+// this factor. Half of the margin is for the rounding of distances, the other half for the rounding of the
+// ball.
 constexpr double kNotOutside = 1 + 0x1p-48;
 
 // Fills in the certificate. The lower bound has a margin for the rounding of the weights, of the bound itself

@@ -11,7 +11,8 @@
 
 namespace pcl_bv {
 
-/// Distinct points of a cloud: at first in ascending order of their indices, then in the order of add().
+/// Distinct points of a cloud. Points from the constructor come first, in ascending order of their indices.
+/// Points from add() follow in the order of the calls.
 class SeedPoints {
  public:
   struct Seed {
@@ -19,20 +20,20 @@ class SeedPoints {
     Coordinates point;
   };
 
-  /// The support points of all directions; the supports must have points.
+  /// Takes the support points of all directions. `supports` must have points.
   explicit SeedPoints(const Supports& supports);
 
-  /// All valid points of a view of at most kChunkPoints points; `supports` are those of the view.
+  /// Takes all valid points of a view of at most kChunkPoints points. `supports` must be those of the view.
   SeedPoints(const PointView& points, const Supports& supports);
 
   std::size_t size() const { return seeds_.size(); }
   const Seed& operator[](std::size_t i) const { return seeds_[i]; }
 
-  /// Appends a point. Returns false, and changes nothing, if the point is there already.
+  /// Appends a point. If a point with this index is present already, returns false and changes nothing.
   bool add(std::size_t index, const Coordinates& point);
 
-  /// Returns the smallest ball of the points, in local coordinates. `start`, if not null, is the ball of the
-  /// first of these points.
+  /// Returns the smallest ball of the points, in local coordinates. `start`, if not null, is an earlier
+  /// result, computed before points were added.
   SmallBall smallest_ball(const LocalFrame& frame, const SmallBall* start = nullptr) const;
 
   /// Returns the largest squared distance of the points from `center`.

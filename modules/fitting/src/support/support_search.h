@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The search for supports, split into calls for each chunk, so that one pass can do other work on the chunks,
-// too.
+// The search for supports. It has a call for each chunk, so that the same pass can do other work on the
+// chunk.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ inline bool represents_cloud(const Execution& execution) {
   return execution.supports != nullptr && execution.supports->moments != nullptr;
 }
 
-/// Throws std::invalid_argument if the points only represent a whole cloud. For fits whose volume depends on
-/// all points; `fit` is the name of the fit for the message.
+/// Throws std::invalid_argument if the points only represent a whole cloud. Called by fits whose volume
+/// depends on all points. `fit` is the name of the fit in the message.
 void require_all_points(const Execution& execution, const char* fit);
 
 /// Throws the std::invalid_argument of require_all_points().
@@ -35,12 +35,12 @@ void require_all_points(const Execution& execution, const char* fit);
 /// Finds the support points of a cloud chunk by chunk.
 class SupportSearch {
  public:
-  /// For a cloud of so many points. Keeps a reference to the directions.
+  /// `points` is the number of points of the cloud. Stores a reference to `directions`.
   SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points);
 
-  /// Finds the support points of a chunk. Several threads may call it at the same time: they share the
+  /// Finds the support points of a chunk. Several threads may call find() at the same time. They share the
   /// projections found so far, and skip points that cannot exceed these. Which points a call finds depends on
-  /// timing; the merged result does not. Needs a FloatEnvironment.
+  /// timing, but the merged result does not. Needs a FloatEnvironment.
   ChunkSupports find(const PointView& chunk);
 
   /// Merges the support points of a chunk into those found so far.
@@ -58,7 +58,7 @@ class SupportSearch {
  private:
   UsableIsa isa_;
   const SupportDirections& directions_;
-  bool shared_;  // whether there are several chunks, which use known_max_
+  bool shared_;  // whether there are several chunks, which then share known_max_
   std::array<std::atomic<double>, kMaxSupports> known_max_;
   ChunkSupports all_;
 };
@@ -72,8 +72,8 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
 /// rank is not set.
 Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
-/// The supports of a box, built chunk by chunk: empty_bounds() starts without a point, merge_bounds() adds
-/// the box of a chunk, finish_bounds() sets the counts.
+/// These functions compute the supports of a box chunk by chunk. empty_bounds() returns the supports of no
+/// point, merge_bounds() adds the box of a chunk, and finish_bounds() sets the counts.
 Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);

@@ -17,13 +17,13 @@
 namespace pcl_bv {
 namespace {
 
-// Whether `known` has all directions of `set`, with the points if `detail` wants them.
+// Returns whether `known` has all directions of `set`, with support points if `detail` requires them.
 bool holds(const Supports& known, DirectionSet set, SupportDetail detail) {
   const bool directions = known.set == set || known.set == DirectionSet::dop26 || set == DirectionSet::dop6;
   return directions && (known.detail == SupportDetail::points || detail == SupportDetail::bounds);
 }
 
-// Returns the supports of `known` along the directions of `set`, which holds() must allow.
+// Returns the supports of `known` along the directions of `set`. holds() must be true for this set.
 Supports part_of(const Supports& known, DirectionSet set) {
   Supports part = known;
   part.set = set;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A pipeline for PCL's clouds. Programs link pcl_bv::estimation in addition to pcl_bv::nodes.
+// A FramePipeline for PCL's clouds. Programs that include this header link pcl_bv::estimation in addition to
+// pcl_bv::nodes.
 #pragma once
 
 #include <pcl/point_cloud.h>
@@ -16,8 +17,8 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Returns a frame that shares the cloud; nothing is copied. PCL's stamp in microseconds becomes nanoseconds.
-/// The sensor position is sensor_origin_ (VIEWPOINT of a .pcd file) unless that is 0. Throws
-/// std::invalid_argument for a null pointer.
+/// Frame::sensor is the cloud's sensor_origin_ (VIEWPOINT of a .pcd file) unless that is 0. Throws
+/// std::invalid_argument if `cloud` is null.
 template <typename PointT>
 Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
   if (cloud == nullptr) throw std::invalid_argument("make_frame: the cloud is a null pointer");
@@ -41,7 +42,7 @@ class ClusterPipeline : public FramePipeline {
   using FramePipeline::FramePipeline;
   using FramePipeline::process;
 
-  /// As FramePipeline::process(). Throws std::invalid_argument for a null pointer and leaves `result`
+  /// Same as FramePipeline::process(). If `cloud` is null, throws std::invalid_argument and leaves `result`
   /// unchanged.
   void process(const typename Cloud::ConstPtr& cloud, FrameResult& result) {
     process(make_frame<PointT>(cloud), result);

@@ -17,7 +17,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Identifies a frame. Results have the header of their frame.
+/// Identifies a frame. The result of a frame has the same header.
 struct FrameHeader {
   std::uint64_t seq = 0;      ///< Number given by the source; it may repeat or stay 0.
   std::int64_t stamp_ns = 0;  ///< Time of the measurement, nanoseconds of the sensor's clock.
@@ -25,9 +25,10 @@ struct FrameHeader {
   std::uint64_t number = 0;   ///< Given by StreamRunner: 0, 1, 2, ... in the order of arrival.
 };
 
-/// Pose of the sensor: a point p in the sensor's frame is at pose * p in the fixed frame. Converts from and
-/// to Eigen::Isometry3d. It is unaligned because the alignment of Eigen::Isometry3d depends on the compiler
-/// option -mavx, which the types of a library's interface must not.
+/// Pose of the sensor. A point p in the sensor's frame is at pose * p in the fixed frame. Pose can be
+/// converted from and to Eigen::Isometry3d. It is unaligned because the alignment of Eigen::Isometry3d
+/// depends on the compiler option -mavx. The types of a library's interface must not depend on compiler
+/// options.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// A cloud of any point type with its header.
@@ -35,46 +36,47 @@ struct Frame {
   FrameHeader header;
   PointView points;
 
-  /// Keeps the memory of `points` alive. It may be null only if the frame does not outlive the call, as in
-  /// FramePipeline::process(). StreamRunner::push() rejects points without an owner.
+  /// Keeps the memory of `points` alive. It may be null only if the points are used during a call and not
+  /// afterwards, as in FramePipeline::process(). StreamRunner::push() rejects points without an owner.
   std::shared_ptr<const void> owner;
 
   double decode_ms = 0;  ///< Time of reading and decoding, if measured.
-  std::string file;      ///< File or source that it comes from; may be empty.
+  std::string file;      ///< File or source of the frame; may be empty.
   std::string note;      ///< Warning of the source about this frame; usually empty.
   /// Class of each point, by point number; null if points have no classes.
   std::shared_ptr<const std::vector<std::int64_t>> classes;
-  /// Intensity of each point, by point number, to be displayed; `owner` keeps it alive. Not set if the source
-  /// has none.
+  /// Intensity of each point, by point number, to be displayed. `owner` keeps its memory alive. Not set if
+  /// the source has no intensities.
   std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Pose of the sensor in a fixed frame, if known.
-  /// Sensor position in the frame of the points, metres, if the source states it, as VIEWPOINT of a .pcd file
-  /// does.
+  /// Sensor position in the frame of the points, metres. Set if the source gives it, for example as VIEWPOINT
+  /// of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
-  /// Time of recording or sending, nanoseconds of that machine's clock; 0: unknown. Tracking uses it if the
-  /// stamps do not advance.
+  /// Time of recording or sending, nanoseconds of the clock of the recording or sending machine. 0: unknown.
+  /// Tracking uses it if the stamps do not advance.
   std::int64_t recorded_ns = 0;
 
-  /// Start of the latency. A paced replay sets it to the time at which the frame is due. A live source whose
-  /// stamps are times of the system clock sets it to steady_time(stamp_ns). If unset, StreamRunner::push()
-  /// sets it to the time of its call.
+  /// Time from which the latency of the frame is measured. A paced replay sets it to the time at which the
+  /// frame is due. A live source whose stamps are times of the system clock sets it to steady_time(stamp_ns).
+  /// If unset, StreamRunner::push() sets it to the time of its call.
   std::chrono::steady_clock::time_point taken{};
 };
 
-/// Returns a sensor position as stored in a cloud. Returns nullopt for the origin, which clouds without a
-/// position have, and for a coordinate that is not finite or exceeds kMaxCoordinate in magnitude.
+/// Returns `noted`, a sensor position stored in a cloud, if it is usable. Returns nullopt for the origin,
+/// because clouds without a position store the origin. Also returns nullopt if a coordinate is not finite or
+/// exceeds kMaxCoordinate in magnitude.
 inline std::optional<Eigen::Vector3d> stored_sensor_position(const Eigen::Vector3d& noted) {
   const bool is_place = (noted.array().abs() <= kMaxCoordinate).all() && !noted.isZero(0);  // false for NaN
   return is_place ? std::optional(noted) : std::nullopt;
 }
 
-/// Returns the sensor position of VIEWPOINT of a .pcd file in the frame of the points, as
-/// stored_sensor_position().
+/// Returns VIEWPOINT of a .pcd file as a sensor position in the frame of the points. Returns nullopt if
+/// stored_sensor_position() does.
 inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
   return stored_sensor_position({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }
 
-/// Converts a time of the system clock (nanoseconds since 1970) to the steady clock, which is never set.
+/// Converts a time of the system clock (nanoseconds since 1970) to the steady clock, which nobody can set.
 inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns) {
   const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));

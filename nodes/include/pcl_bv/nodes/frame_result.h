@@ -30,45 +30,49 @@ struct StageTimes {
 
 /// Source of the time step between a tracked frame and the frame before.
 enum class TrackTime : std::uint8_t {
-  stamps,    ///< The stamps, which advance.
-  recorded,  ///< Frame::recorded_ns, because this stamp or the previous one did not advance.
-  none       ///< Neither advances: tracks are expected at their last positions.
+  /// The stamps, which advanced. Directly after a frame with `recorded`, Frame::recorded_ns is still used.
+  stamps,
+  recorded,  ///< Frame::recorded_ns, because the stamp did not advance.
+  none       ///< Neither of them advanced. Tracks are expected at their last positions.
 };
 
-/// Everything found in one frame. Reuse keeps the capacity. Indices are those of the frame's cloud.
+/// Everything found in one frame. A reused object keeps its capacity. Indices are those of the frame's cloud.
 struct FrameResult {
   FrameHeader header;
-  /// The configuration that was used; never null.
+  /// The configuration with which the frame was processed; never null.
   std::shared_ptr<const PipelineConfig> config = std::make_shared<PipelineConfig>();
   std::size_t points = 0;  ///< Number of points of the cloud, valid or not.
   Counts counts;           ///< Number of points in no cluster, by reason.
   /// Indices of the points that passed the filter; see points_after_filter().
   std::vector<std::int32_t> passed_filter;
-  GroundSplit ground;  ///< Ground and other points; `found` is false without ground removal.
-  /// Sensor position, the centre of ground zones: ground.sensor if given; otherwise Frame::sensor or the
-  /// origin, if the points lie around it; otherwise the densest part of the cloud (find_sensor()). The origin
-  /// if no enabled setting depends on it.
+  GroundSplit ground;  ///< Ground and other points. `found` is false without ground removal.
+  /// Sensor position, which is the centre of the ground zones. It is the first of these that applies:
+  /// 1. the origin, if no enabled setting depends on the position or the points are not in memory;
+  /// 2. ground.sensor, if given;
+  /// 3. Frame::sensor, if the points lie around it;
+  /// 4. the origin, if the points lie around it;
+  /// 5. the densest part of the cloud (find_sensor()).
   SensorPosition sensor;
-  /// Whether the points lie around the origin, from which filter.range_max and cluster.tolerance_per_metre
-  /// are measured. Always true if neither is set and the ground method is not zones, and for points that are
-  /// not in memory.
+  /// Whether the points lie around the origin. filter.range_max and cluster.tolerance_per_metre are measured
+  /// from the origin. Always true if neither is set and the ground method is not zones. Also always true for
+  /// points that are not in memory.
   bool around_origin = true;
-  /// The clusters, largest first. Without clustering, all remaining points are one cluster. It may have no
-  /// index list: read clusters by points_of().
+  /// The clusters, largest first. Without clustering, all remaining points are one cluster, which may have no
+  /// index list. Therefore read the points of clusters by points_of().
   Clusters clusters;
-  std::vector<std::int64_t> class_of;  ///< Class of each cluster if cluster.class_field is set; else empty.
-  /// Used instead of `passed_filter` for large clouds without index lists.
+  std::vector<std::int64_t> class_of;  ///< Class of each cluster; empty without cluster.class_field.
+  /// The filtered points, used instead of `passed_filter` for large clouds without index lists.
   std::shared_ptr<const PointSource> filtered;
 
   TrackTime track_time = TrackTime::stamps;  ///< Meaningful only with tracking.
-  /// Track of each cluster, none until the track has its id; empty without tracking.
+  /// Track of each cluster; nullopt until the track has its id. Empty without tracking.
   std::vector<std::optional<TrackEntry>> tracks;
 
-  /// Requested methods in order: the union over all classes.
+  /// Requested methods in order (the union over all classes).
   std::vector<const Method*> methods;
-  std::vector<AnyVolume> volumes;  ///< Volumes: for each cluster, one per entry of `methods`.
-  /// For each volume: 0 if the cluster's class does not request it, and it is empty. If `requested` is empty,
-  /// all volumes are requested.
+  std::vector<AnyVolume> volumes;  ///< For each cluster, one volume per entry of `methods`.
+  /// For each volume: whether the cluster's class requests it (0 or 1). Volumes that are not requested are
+  /// empty. If `requested` is empty, all volumes are requested.
   std::vector<std::uint8_t> requested;
   /// For each volume: the result of its fit. A failed fit leaves the volume empty.
   std::vector<EstimationResult> results;
@@ -83,19 +87,19 @@ struct FrameResult {
     return requested.empty() || requested[cluster * methods.size() + method] != 0;
   }
 
-  /// Returns the points that passed the filter, or the points of a cluster, as views of `cloud` (the frame's
-  /// points) and of the lists above. They may contain invalid points.
+  /// Return the points that passed the filter, and the points of a cluster. They may contain invalid points.
+  /// `cloud` is the points of the frame. The views refer to `cloud` and to the lists of this object.
   PointView points_after_filter(const PointView& cloud) const;
   PointView points_of(std::size_t cluster, const PointView& cloud) const;
 };
 
 /// Returns for each point of the frame's cloud the number of its cluster, kLabelGround or kLabelNone. If
-/// frame.points has an index list, the labels go up to the largest index in it. `result` must be that of
-/// `frame`.
+/// frame.points has an index list, there is a label for each index from 0 to the largest one in the list.
+/// `result` must be that of `frame`.
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
 /// Returns a warning if ground removal found no ground, or only ground, among at least 100 points. The
-/// warning names settings to try by their keys. Otherwise returns an empty text.
+/// warning names the keys of settings to try. Otherwise returns an empty text.
 std::string ground_warning(const FrameResult& result);
 
 /// Returns a warning if the range filter (filter.range_min to filter.range_max) dropped more than half of at
@@ -103,25 +107,28 @@ std::string ground_warning(const FrameResult& result);
 /// empty text.
 std::string range_warning(const FrameResult& result, const std::string& from);
 
-/// Returns a warning if the frame is tracked and its stamp does not advance; it tells which time the tracks
-/// use instead. Otherwise returns an empty text.
+/// Returns a warning if the frame is tracked and its stamp does not advance. The warning tells how tracking
+/// then determines the time. Otherwise returns an empty text.
 std::string track_warning(const FrameResult& result);
 
 /// Returns the report entries of all clusters.
 std::vector<ClusterEntry> cluster_entries(const FrameResult& result);
 
-/// Returns the same entries one by one, so that a million clusters need no memory. Refers to `result`.
+/// Returns the entries of cluster_entries() one by one, so that a million entries are never in memory
+/// together. Refers to `result`.
 ClusterSource cluster_source(const FrameResult& result);
 
-/// Return the report of a frame, with or without its clusters, and of a lost frame with the reason.
+/// Returns the report of a frame with its clusters.
 FrameReport report_of(const Frame& frame, const FrameResult& result);
+/// Returns the report of a frame without its clusters.
 FrameReport report_without_clusters(const Frame& frame, const FrameResult& result);
+/// Returns the report of a lost frame; `reason` tells why it was lost.
 FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
-/// Returns a picture of the frame and its volumes, upright along the configured direction. With clustering,
-/// it shows the points that passed the filter in the colours of `labels` (from labels_of()) and the id of
-/// each cluster. Otherwise it shows those of them that are not ground. Refers to the frame, the result and
-/// the labels.
+/// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, it shows the
+/// points that passed the filter in the colours of `labels` (from labels_of()) and the id of each cluster.
+/// Without clustering, it shows the points that passed the filter and are not ground. Refers to `frame`,
+/// `result` and `labels`.
 Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
 
 }  // namespace pcl_bv

@@ -21,7 +21,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Thrown if the reader of a pipe has gone. A program that prints should end then, but this is no failure.
+/// Thrown if a pipe has no reader any more. A program that prints should then end, without reporting a
+/// failure.
 class ClosedPipe : public IoError {
  public:
   using IoError::IoError;
@@ -32,17 +33,17 @@ class FrameSink {
  public:
   virtual ~FrameSink() = default;
 
-  /// Writes one frame; frames come in order. Throws IoError if nothing more can be written (ClosedPipe for a
-  /// pipe without a reader, if SIGPIPE is ignored). Any other exception concerns this frame only.
+  /// Writes one frame; frames come in order. Throws IoError if nothing more can be written. Throws ClosedPipe
+  /// for a pipe without a reader, if SIGPIPE is ignored. Any other exception concerns this frame only.
   virtual void write(const Frame& frame, const FrameResult& result) = 0;
 
-  /// Writes that a frame was lost, and the reason.
+  /// Writes that a frame was lost and why.
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// Offers settings that the readers of the results may see and change. Called before the first frame.
   virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
-  /// Returns the warnings since the last call that affect no frame, one line each.
+  /// Returns the warnings since the last call of take_warnings(), one line each. They affect no frame.
   virtual std::vector<std::string> take_warnings() { return {}; }
 
   /// Ends the output; nothing is written afterwards. Throws IoError if not everything could be written.
@@ -55,10 +56,10 @@ struct SinkDescription;
 struct SinkKind {
   std::string_view name;    ///< Text before the colon: "vtp".
   std::string_view target;  ///< Syntax of the text after the colon, for help: "FOLDER[,points]".
-  /// Extension of the files if `target` is a folder with a file per frame; else empty.
+  /// Extension of the files if `target` is a folder with a file per frame; otherwise empty.
   std::string_view files;
   std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
-  bool live = false;  ///< Sends to listeners: the target is not a file.
+  bool live = false;  ///< Whether it sends to listeners, so that the target is not a file.
 };
 
 /// Returns the table of sinks: jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
@@ -70,59 +71,62 @@ std::string sink_syntax();
 /// Which sink to open and where it writes.
 struct SinkDescription {
   const SinkKind* kind = nullptr;
-  /// File or folder ("-": standard output); dds: topic prefix; ws: [HOST:]PORT.
+  /// File ("-": standard output) or folder. For dds: prefix of the topics. For ws: [HOST:]PORT.
   std::filesystem::path target;
-  bool points = false;  ///< Write the points of each frame, too.
+  bool points = false;  ///< Whether to write the points of each frame, too.
 };
 
-/// Parses the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any other text.
+/// Parses a description in the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any
+/// other text.
 SinkDescription parse_sink(const std::string& description);
 
 /// Opens a sink.
 ///
-/// A file or recording is created if it does not exist; an existing one is emptied by the first frame or by
-/// close(). A folder is created if it does not exist. After each frame, jsonl and csv files hold whole lines
-/// (if the disk is full, the last one may be cut), and frames.pvd (vtp) lists the frame. Files of single
-/// frames (vtp, image, labels) are named by FrameHeader::number. Throws IoError if the sink cannot be opened,
-/// and std::invalid_argument if `kind` is null.
+/// A file or recording is created if it does not exist. The first frame or close() empties an existing one. A
+/// folder is created if it does not exist. After each frame, jsonl and csv files hold whole lines; if the
+/// disk is full, the last line may be cut. After each frame, frames.pvd (vtp) lists the frame. Files of
+/// single frames (vtp, image, labels) are named by FrameHeader::number.
+///
+/// Throws IoError if the sink cannot be opened, and std::invalid_argument if `kind` is null.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
-/// Creates a sink that calls the function with each result. Throws std::invalid_argument if that is empty.
+/// Creates a sink that calls `on_result` with each result. Throws std::invalid_argument if `on_result` is
+/// empty.
 std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result);
 
-/// Writes to several sinks and isolates their failures from each other and from the stream. A sink that
-/// throws IoError gets no more frames; a sink that throws anything else lacks that frame only. times() and
-/// alive() may be called from any thread.
+/// Writes to several sinks. A failure of one sink affects neither the other sinks nor the stream. A sink that
+/// throws IoError gets no more frames. A sink that throws any other exception misses only that frame. Other
+/// threads may call times() and alive().
 class SinkGroup {
  public:
-  /// `report` is called with a line for each failure, but not if a sink fails as it did the time before.
-  /// Throws std::invalid_argument if `report` is empty.
+  /// `report` is called with one line for each failure and warning. A failure with the same text as the
+  /// sink's previous failure is not reported again. Throws std::invalid_argument if `report` is empty.
   explicit SinkGroup(std::function<void(const std::string&)> report);
 
   /// If nothing was written and close() was not called, for example because another sink could not be opened,
-  /// each sink removes the files that it created. Folders that were created for the sinks are then removed if
+  /// each sink removes the files that it created. Then folders that were created for the sinks are removed if
   /// they are empty.
   ~SinkGroup();
 
   /// Adds an open sink; `name` is its name in messages.
   void add(std::string name, std::unique_ptr<FrameSink> sink);
 
-  /// Opens a sink and adds it. Throws as make_sink(); the message begins with the sink's name.
+  /// Opens a sink and adds it. Throws as make_sink(); the text of an IoError begins with the sink's name.
   void add(const SinkDescription& description);
 
   /// Offers the settings to all sinks added so far.
   void offer_settings(const std::shared_ptr<RemoteSettings>& settings);
 
-  /// Write to all sinks that have not been given up.
+  /// Write to all sinks except those that have thrown IoError.
   void write(const Frame& frame, const FrameResult& result);
   void write_lost(const Frame& frame, const std::string& reason);
 
-  /// Closes all sinks. Reports for each sink that lacks more than one frame how many frames it lacks.
+  /// Closes all sinks. For each sink that misses more than one frame, reports the number of missing frames.
   void close();
 
-  bool failed() const { return failed_; }  ///< Whether an output failed other than by a closed pipe.
-  bool alive() const { return alive_; }    ///< Whether a sink still takes frames.
-  /// Durations of write() by sink, milliseconds.
+  bool failed() const { return failed_; }  ///< Whether a sink has failed; a closed pipe is no failure.
+  bool alive() const { return alive_; }    ///< Whether at least one sink still takes frames.
+  /// Returns the durations of write() for each sink, milliseconds.
   std::vector<std::pair<std::string, LatencyHistogram>> times() const;
 
  private:
@@ -135,7 +139,8 @@ class SinkGroup {
 
   std::function<void(const std::string&)> report_;
   std::vector<std::unique_ptr<Member>> members_;
-  // Path of each sink, and its outermost folder or file that did not exist.
+  // Path of each sink whose path did not exist, and the outermost folder or file of this path that was
+  // missing.
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> created_;
   bool used_ = false;
   std::atomic<bool> failed_{false}, alive_{false};

@@ -20,7 +20,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Thrown for a frame that its source could not read; the next frame may be readable. what() names the file
+/// Thrown for a frame that its source could not read. The next frame may be readable. what() names the file
 /// and the reason.
 class FrameError : public std::runtime_error {
  public:
@@ -28,7 +28,7 @@ class FrameError : public std::runtime_error {
       : std::runtime_error(lost.file.empty() ? why : lost.file + ": " + why),
         frame(std::move(lost)),
         reason(why) {}
-  Frame frame;  ///< The known parts of the frame: header and file.
+  Frame frame;  ///< The header and the file of the frame, as far as known.
   std::string reason;
 };
 
@@ -46,10 +46,10 @@ class FrameSource {
 
   /// Replaces `frame` by the next frame if it comes within `timeout`; reading an existing file may take
   /// longer. Throws FrameError for a frame that cannot be read; the next call continues with the following
-  /// frame. Must not be called again after Next::end or after any other exception.
+  /// frame. Must not be called again after it has returned Next::end or thrown any other exception.
   virtual Next next(Frame& frame, std::chrono::milliseconds timeout) = 0;
 
-  /// Returns the warnings about the source as a whole since the last call, one line each.
+  /// Returns the warnings about the whole source since the last call of take_warnings(), one line each.
   virtual std::vector<std::string> take_warnings() { return {}; }
 };
 
@@ -58,40 +58,44 @@ inline constexpr double kMinRate = 1e-3, kMaxRate = 1e6;
 
 /// How files and recordings become frames.
 struct ReplayOptions {
-  double rate_hz = 10;  ///< Frames per second, 0.001 to 1000000; frame n has the stamp n / rate_hz.
+  double rate_hz = 10;  ///< Frames per second (kMinRate to kMaxRate). Frame n has the stamp n / rate_hz.
   /// Use the frames' own stamps instead of `rate_hz`.
   ///
-  /// Files: the time in the name, read as by stamp_in_name(), but with one interpretation for all files of a
-  /// folder. An interpretation whose stamps ascend is preferred; it may read fractions as whole milli-,
-  /// micro- or nanoseconds without leading zeros. If there is none, take_warnings() returns a warning. A name
-  /// without a time gives a FrameError. Messages: the stamp of the header or, if that is 0, the time of
-  /// recording.
+  /// For files, the stamp is the time in the name, read as by stamp_in_name(), but with one interpretation
+  /// for all files of a folder. An interpretation whose stamps ascend is preferred. It may read fractions as
+  /// whole milli-, micro- or nanoseconds without leading zeros. If there is none, take_warnings() returns a
+  /// warning. A name without a time gives a FrameError.
+  ///
+  /// For messages, the stamp is that of the header or, if the header's stamp is 0, the time of recording.
   bool own_stamps = false;
   std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
-  std::size_t loops = 1;       ///< Number of passes; 0 means 1.
-  /// Integer field of the clouds for Frame::classes; if empty, frames have no classes.
+  std::size_t loops = 1;       ///< Number of passes over all frames; 0 is treated as 1.
+  /// Integer field of the clouds for Frame::classes. If empty, frames have no classes.
   std::string class_field{};
-  std::string frame_id{};  ///< Frame id of all frames; if empty, that of the recording.
+  std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the recording.
 
-  /// File of sensor poses; none if empty. Empty lines and lines that begin with # are skipped.
+  /// File of sensor poses. If empty, only frames whose source generates poses have one. Empty lines and lines
+  /// that begin with # are skipped.
   ///
-  /// KITTI: 12 numbers per line, the upper three rows of the pose matrix, and one line per frame. If a
+  /// KITTI files have one line per frame with 12 numbers, the upper three rows of the pose matrix. If a
   /// calib.txt next to the file has a line `Tr:`, the poses are those of the left camera and are converted to
-  /// the sensor. TUM: `seconds x y z qx qy qz qw` per line. Poses are interpolated between two lines that are
-  /// at most 0.5 s apart; other frames have no pose.
+  /// the sensor.
+  ///
+  /// TUM files have lines `seconds x y z qx qy qz qw`. Poses are interpolated between two lines that are at
+  /// most 0.5 s apart; other frames have no pose.
   std::filesystem::path poses{};
-  std::string topic{};  ///< Topic of a recording; if empty, the only one with clouds.
+  std::string topic{};  ///< Topic of a recording. If empty: its only topic with clouds.
 };
 
-/// Where a source can take the times of frames from, other than the rate.
+/// Where a source can take the times of frames from, instead of ReplayOptions::rate_hz.
 enum class FrameTimes : std::uint8_t {
   none,
-  names,     ///< File names, if requested by ReplayOptions::own_stamps.
-  messages,  ///< Messages of a recording, unless the rate is requested.
-  live       ///< Live messages; there is no other choice.
+  names,     ///< File names, with ReplayOptions::own_stamps.
+  messages,  ///< Messages of a recording, unless a rate is requested.
+  live       ///< Live messages always; a rate cannot be requested.
 };
 
-/// An entry of the table of sources. `accepts` tells whether this kind opens the name.
+/// An entry of the table of sources. `accepts` tells whether a source of this kind can have this name.
 struct SourceKind {
   std::string_view syntax;
   FrameTimes times;
@@ -101,7 +105,7 @@ struct SourceKind {
 
 /// Returns the table of sources. The first kind that accepts a name opens it; the last kind accepts any name.
 const std::vector<SourceKind>& source_kinds();
-/// Returns the kind that opens this name.
+/// Returns the first kind that accepts this name.
 const SourceKind& source_kind(const std::string& name);
 
 /// Returns the syntax of all sources for help texts.
@@ -114,30 +118,34 @@ std::string source_syntax();
 /// - `dds:TOPIC` (middleware()), which never ends;
 /// - `synth:street-sequence[:FRAMES[:SEED]]` and other synthetic sequences, generated frame by frame.
 ///
-/// Throws IoError if there is no cloud or if poses cannot be read. Throws std::invalid_argument for a rate
-/// out of range, for names without any time (ReplayOptions::own_stamps), for an unknown sequence, for a topic
-/// that does not exist, and if no topic is given and several have clouds. Also throws as
-/// Middleware::receiver() does.
+/// Throws IoError if there is no cloud or if poses cannot be read. Throws std::invalid_argument
+/// - for a rate out of range or an unknown sequence;
+/// - if stamps are to come from names (ReplayOptions::own_stamps) and no name has a time;
+/// - if the topic does not exist, or if no topic is given and several topics have clouds.
+///
+/// Also throws as Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
 
-/// Creates a source from a function that fills the next frame and returns false at the end. The function may
-/// block, since each call has a thread of its own. A call that is still running when the source is destroyed
-/// is not stopped: whatever the function uses must live until it returns. next() rethrows the exceptions of
-/// the function.
+/// Creates a source from a function that fills the next frame and returns false at the end.
+/// FrameSource::next() rethrows the exceptions of the function.
+///
+/// The function may block, because each call runs in its own thread. A call that is still running when the
+/// source is destroyed is not stopped. Everything that the function uses must live until that call returns.
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
 /// Returns the time in a file name without extension, nanoseconds; -1 if there is none.
 ///
-/// If a name contains several times, the first of these formats that occurs is used, and its last occurrence:
+/// If a name contains several times, the first format in this list that occurs in it is used, and the last
+/// time in this format:
 /// 1. A time since 1970: seconds of 2001 to 2033, also with a fraction; a whole number of milli- or
-///    microseconds of 2001 to 2262; or nanoseconds from 1e16 on.
-/// 2. A date with hours, minutes and seconds: UTC, or with a time zone east of UTC such as +0800. Zones such
-///    as -0500 are ignored.
+///    microseconds of 2001 to 2262; or a whole number of nanoseconds, at least 1e16.
+/// 2. A date with hours, minutes and seconds, in UTC or in a time zone east of UTC such as +0800. Zones west
+///    of UTC such as -0500 are ignored.
 /// 3. A time of day.
 /// 4. Other seconds with a decimal point.
 ///
-/// Other numbers are taken as frame numbers and ignored. For the names of a folder see
-/// ReplayOptions::own_stamps.
+/// Other numbers are treated as frame numbers and ignored. ReplayOptions::own_stamps describes how the names
+/// of a whole folder are read.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

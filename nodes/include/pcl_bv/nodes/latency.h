@@ -10,19 +10,19 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %: a histogram with logarithmic bins, each 1 %
-/// longer than the one before. Never allocates.
+/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. A histogram with logarithmic bins, each 1 %
+/// longer than the bin before. Never allocates.
 class LatencyHistogram {
  public:
-  /// Adds a duration in milliseconds. Durations below 1 us or above 1000 s go into the first or last bin,
-  /// but max() is exact. Negative durations and NaN are treated as 0.
+  /// Adds a duration in milliseconds. Durations below 1 us go into the first bin and durations above 1000 s
+  /// into the last bin, but max() is exact. Negative durations and NaN are treated as 0.
   void add(double milliseconds);
 
   std::uint64_t count() const { return count_; }
   double max() const { return max_; }  ///< Longest duration, milliseconds; 0 if empty.
 
-  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed: the
-  /// nearest rank, at most 1 % above the exact value. 0 if empty.
+  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed. It is the
+  /// nearest rank, at most 1 % above the exact value. Returns 0 if the histogram is empty.
   double percentile(double share) const;
 
  private:

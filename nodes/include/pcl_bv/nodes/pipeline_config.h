@@ -20,21 +20,21 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Volumes by which points are dropped, such as a robot's own links or a region to crop to.
+/// Volumes inside or outside of which points are dropped, such as a robot's own links or a region to crop to.
 struct RegionConfig {
-  std::filesystem::path file;  ///< Read by read_volumes() if `volumes` is empty.
-  bool keep = false;           ///< true: drop points outside all such regions; false: drop points inside.
+  std::filesystem::path file;  ///< File of volumes (read_volumes()), read if `volumes` is empty.
+  bool keep = false;           ///< Drop points outside all regions with `keep`, instead of points inside.
   double padding = 0;          ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
 
 /// Which points enter the pipeline. Points that are not finite are always dropped.
 struct FilterConfig {
-  /// Smallest and largest distance from the origin, metres, both inclusive. Many drivers store beams without
-  /// a return as points at the origin: with a minimum of 0 these become one huge cluster.
+  /// Smallest and largest allowed distance from the origin, metres. Many drivers store beams without a return
+  /// as points at the origin. With a minimum of 0, these points become one huge cluster.
   double range_min = 0.5;
   double range_max = std::numeric_limits<double>::infinity();
-  /// Corners of a box around the own vehicle, metres; points inside are dropped. Set both corners or none.
+  /// Corners of a box around the own vehicle, metres. Points inside are dropped. Set both corners or neither.
   std::optional<Eigen::Vector3d> own_box_min, own_box_max;
   std::vector<RegionConfig> regions{};
 };
@@ -49,16 +49,17 @@ enum class GroundMethod : std::uint8_t {
 /// Settings of the ground removal.
 struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
-  /// Sensor position in the frame of the points, metres; zones are centred there. If not given, see
-  /// FrameResult::sensor.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
+  /// Sensor position in the frame of the points, metres. Ground zones are centred there. If not given, the
+  /// position is estimated as described at FrameResult::sensor.
   std::optional<Eigen::Vector3d> sensor;
-  /// Height of the sensor (with `plane`: of the origin) above the ground, metres; estimated if not given.
+  /// Height of the sensor above the ground, metres; with `plane`, height of the origin. Estimated if not
+  /// given.
   std::optional<double> sensor_height;
-  /// Largest height of ground points above the ground surface, metres; if not given, the default of the
+  /// Largest height of ground points above the ground surface, metres. If not given, the default of the
   /// method (GroundPlaneSettings, GroundZonesSettings).
   std::optional<double> distance;
-  /// Largest angle between the ground and the horizontal; if not given, the default of the method.
+  /// Largest angle between the ground and the horizontal, degrees. If not given, the default of the method.
   std::optional<double> max_slope_degrees;
 };
 
@@ -71,31 +72,32 @@ struct FieldName {
 struct ClassConfig {
   std::int64_t value = 0;             ///< Value of the class field.
   bool drop = false;                  ///< Drop the points of this class.
-  std::optional<double> tolerance{};  ///< Metres, above 0.
+  std::optional<double> tolerance{};  ///< As ClusterConfig::tolerance, above 0.
   std::optional<std::size_t> min_size{}, max_size{};
-  std::vector<std::string> volumes{};  ///< Methods; if empty, PipelineConfig::volumes.
+  std::vector<std::string> volumes{};  ///< Methods. If empty: PipelineConfig::volumes.
 };
 
 /// Settings of the clustering.
 struct ClusterConfig {
-  double tolerance = 0.5;  ///< Points nearer to each other belong to one object, metres; 0: all points do.
-  /// Objects with fewer points are dropped. If not given: 10, or 0 if the tolerance is 0.
+  /// Points closer to each other than this belong to one object, metres. 0: all points are one object.
+  double tolerance = 0.5;
+  /// Objects with fewer points are dropped. If not given: 10, or 0 if `tolerance` is 0.
   std::optional<std::size_t> min_size;
-  /// Objects with more points: see `oversized`.
+  /// Objects with more points are treated as `oversized` says.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
-  /// Core condition of DBSCAN (Ester et al. 1996): two points within the tolerance belong to one object only
-  /// if one of them is a core point. A core point has at least this many points within the tolerance, itself
-  /// included. 1: every point is a core point.
+  /// Core condition of DBSCAN (Ester et al. 1996). Two points within the tolerance belong to one object only
+  /// if at least one of them is a core point. A core point has at least `min_points` points within the
+  /// tolerance, itself included. With 1, every point is a core point.
   std::size_t min_points = 1;
   /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterSettings).
   double tolerance_per_metre = 0;
   Oversized oversized = Oversized::drop;  ///< How objects above max_size are treated.
-  /// Integer field of the clouds that holds the points' classes. If set, all points of an object have one
-  /// class.
+  /// Integer field of the clouds that holds the points' classes. If set, all points of an object have the
+  /// same class.
   std::optional<FieldName> class_field{};
-  std::vector<ClassConfig> classes{};  ///< Classes with settings of their own; only with `class_field`.
+  std::vector<ClassConfig> classes{};  ///< Settings of single classes; only with `class_field`.
 
-  /// Returns `min_size`, or its default.
+  /// Returns `min_size` or, if not given, its default.
   std::size_t effective_min_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };
 
@@ -105,7 +107,7 @@ struct TrackConfig {
   double gate = 2.0;      ///< Largest distance of an object from its expected position, metres, at most 100.
   std::size_t birth = 3;  ///< Detections after which an object gets its id.
   std::size_t death = 5;  ///< Frames without a detection after which a track is deleted.
-  bool smooth = false;    ///< Smooth the yaw of upright boxes over time; they still contain all points.
+  bool smooth = false;    ///< Smooth the yaw of upright boxes over time. The boxes still contain all points.
   bool grow = false;      ///< Give upright boxes the largest length and width seen of the object.
 };
 
@@ -114,36 +116,36 @@ struct PipelineConfig {
   FilterConfig filter;
   GroundConfig ground;
   ClusterConfig cluster;
-  /// Methods of fitting/methods.h. If empty: obb-lshape, or aabb, sphere and obb if all points are one
-  /// object.
+  /// Names of methods (fitting/methods.h). If empty: obb-lshape, or aabb, sphere and obb if cluster.tolerance
+  /// is 0.
   std::vector<std::string> volumes;
-  SphereGrowth growth = SphereGrowth::deferred;  ///< For spheres that grow (sphere-ritter, sphere-epos*).
+  SphereGrowth growth = SphereGrowth::deferred;  ///< Policy of sphere-ritter and sphere-epos*.
   TrackConfig track;
   std::size_t threads = 1;   ///< Number of threads; 0: all processors.
   std::string isa = "auto";  ///< Instruction set, a name that parse_isa() knows.
 
-  /// Returns one line for each value that is not allowed: the key as in the configuration file, the value and
-  /// the allowed range.
+  /// Returns one line for each value that is not allowed. The line has the key as in the configuration file,
+  /// the value and the allowed range.
   std::vector<std::string> validate() const;
 
   /// Returns a warning for each setting that has no effect in combination with the others, such as
-  /// "track.smooth: has no effect without track.enabled". None of them is an error.
+  /// "track.smooth: has no effect without track.enabled". Such settings are allowed.
   std::vector<std::string> ineffective_settings() const;
 
-  /// Returns the methods of all objects: those of `volumes`, then those that only classes have. Unknown names
-  /// are skipped.
+  /// Returns the union of the methods of all objects: first those of `volumes`, then further ones of
+  /// cluster.classes. Unknown names are skipped.
   std::vector<const Method*> methods() const;
 
-  /// Returns the methods for objects of one class. Null: for objects without a class, or of a class without
-  /// settings of its own.
+  /// Returns the methods for objects of one class. `own` is the entry of cluster.classes for this class; null
+  /// if there is none, or if points have no classes.
   std::vector<const Method*> methods_of(const ClassConfig* own) const;
 
   /// Returns the execution policy for `threads`.
   ParallelPolicy parallel_policy() const;
 };
 
-/// Returns the configuration for any cloud: no filter, no ground removal, all points one object, all
-/// processors.
+/// Returns a configuration that fits any cloud: no filter, no ground removal, all points in one object,
+/// threads on all processors.
 PipelineConfig whole_cloud_config();
 
 /// Replaces the filter, ground and cluster settings by a preset:

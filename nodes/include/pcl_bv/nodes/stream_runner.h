@@ -23,19 +23,20 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 enum class Loss : std::uint8_t {
   queue,  ///< The queue was full, or stop() discarded the frame.
   age,    ///< The frame waited longer than RunnerConfig::max_age_ms.
-  error   ///< Processing threw an exception, or the source could not read the frame.
+  error   ///< `process` or `on_result` threw, or the source could not read the frame.
 };
 
-/// Number of frames by outcome. in = processed + dropped_* + frames that are waiting or being processed.
+/// Number of frames by outcome. `in` is the sum of `processed`, dropped_* and the frames that are waiting or
+/// being processed.
 struct FrameTotals {
   std::uint64_t in = 0;                                                 ///< Pushed or reported unreadable.
   std::uint64_t processed = 0;                                          ///< Processed without an exception.
   std::uint64_t dropped_queue = 0, dropped_age = 0, dropped_error = 0;  ///< Lost, by reason (Loss).
 };
 
-/// Latencies by stage in milliseconds, over all processed frames. `wait` is the time in the queue; it also
-/// covers frames whose processing threw. `latency` is the time from Frame::taken (by default the call of
-/// push()) to the return of on_result.
+/// Latencies by stage in milliseconds, over all processed frames. `wait` is the time in the queue; this
+/// histogram also has the frames whose processing threw. `latency` is the time from Frame::taken (by default
+/// the call of StreamRunner::push()) to the return of `on_result`.
 struct StageLatencies {
   LatencyHistogram decode, wait, filter, ground, cluster, fit, track, total, latency;
 };
@@ -44,44 +45,46 @@ struct StageLatencies {
 struct RunnerStats {
   FrameTotals frames;
   StageLatencies ms;
-  std::uint64_t callback_errors = 0;  ///< Exceptions from on_lost and on_silence; they drop no frame.
+  std::uint64_t callback_errors = 0;  ///< Exceptions from on_lost and on_silence.
   /// Write times in ms by sink; set by the caller from SinkGroup::times().
   std::vector<std::pair<std::string, LatencyHistogram>> sinks;
 };
 
-/// Returns the statistics as one line of JSON, milliseconds rounded to 0.001:
+/// Returns the statistics as one line of JSON. Milliseconds are rounded to 0.001. The line has the form
 /// `{"frames":{"in":..,"processed":..,"dropped":{"queue":..,"age":..,"error":..}},"ms":{"total":{"p50":..,
 /// "p95":..,"p99":..,"max":..},..,"sinks":{"vtp:FOLDER":{..}}}}`
 std::string stats_json(const RunnerStats& stats);
 
-/// Processes frames from any thread, in order, in a thread of its own.
+/// Takes frames from any thread and processes them in order, in its own thread.
 ///
-/// Memory is bounded by the queue. Do not destroy the runner from a callback or while another thread may
-/// still call push(). If `process` or `on_result` throws, that frame is dropped and reported to on_lost; the
-/// stream goes on.
+/// The queue bounds the memory. Do not destroy the runner from a callback or while another thread may still
+/// call push(). If `process` or `on_result` throws, the runner drops that frame, reports it to `on_lost` and
+/// continues with the next one.
 class StreamRunner {
  public:
-  /// Functions that the runner calls in its own thread, in the order of FrameHeader::number, also while it is
-  /// stopping.
+  /// Functions that the runner calls in its own thread, in the order of FrameHeader::number. It also calls
+  /// them after stop() has been called, until the thread ends.
   struct Callbacks {
     /// Processes a frame, usually by FramePipeline::process() of a pipeline that outlives the runner.
     std::function<void(const Frame&, FrameResult&)> process;
     /// Receives each result with its frame. May call stop().
     std::function<void(const Frame&, const FrameResult&)> on_result;
     /// Receives each lost frame, perhaps without its points, and the reason as text. Optional. At most 1000
-    /// lost frames wait for this call, and at most 1000 that are lost after stop() are reported; further ones
-    /// are only counted.
+    /// lost frames wait for `on_lost`. At most 1000 frames that are lost after the call of stop() are
+    /// reported. Further lost frames are only counted.
     std::function<void(const Frame&, Loss, const std::string&)> on_lost;
-    /// Called once per silence: when no frame has come for RunnerConfig::watchdog_s. Receives the seconds
-    /// since the last frame. Optional.
+    /// Called once when no frame has come for RunnerConfig::watchdog_s, and again only after another frame
+    /// has come. Receives the seconds since the last frame. Optional.
     std::function<void(double)> on_silence;
   };
 
-  /// Starts the thread. QueuePolicy::automatic means drop_oldest here. Throws std::invalid_argument if
-  /// `config.queue` is 0, if a duration is negative or NaN, or if `process` or `on_result` is empty.
+  /// Starts the thread. StreamRunner treats QueuePolicy::automatic as drop_oldest. Throws
+  /// std::invalid_argument if `config.queue` is 0, if a duration is negative or NaN, or if `process` or
+  /// `on_result` is empty.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config);
 
-  /// As above. Results reuse the memory of `reserved`, which FramePipeline::reserve() has allocated.
+  /// As the constructor above, but results reuse the memory of `reserved`, which FramePipeline::reserve() has
+  /// allocated.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved);
 
   /// Calls stop(End::discard).
@@ -89,19 +92,22 @@ class StreamRunner {
   StreamRunner(const StreamRunner&) = delete;
   StreamRunner& operator=(const StreamRunner&) = delete;
 
-  /// Adds a frame to the queue. Returns false if this frame is dropped at once; a stopped runner always drops
-  /// it. Waits only with QueuePolicy::block, until the queue has capacity or the runner is stopped. A call
-  /// from a callback never waits, since it would wait for itself: with QueuePolicy::block and a full queue it
-  /// drops the frame. Throws std::invalid_argument if the frame has points but no owner, since the points
-  /// might be gone when they are processed.
+  /// Adds a frame to the queue. Returns false if `frame` itself is dropped instead; a stopped runner always
+  /// drops it.
+  ///
+  /// Waits only with QueuePolicy::block, until the queue has capacity or the runner is stopped. In a callback
+  /// push() never waits, because the thread would wait for itself. There, with QueuePolicy::block and a full
+  /// queue, it drops `frame`. Throws std::invalid_argument if the frame has points but no owner, because the
+  /// points might be freed before they are processed.
   bool push(Frame frame);
 
-  /// Reports a frame that its source could not read. The frame is numbered in order with the pushed ones and
-  /// counted as lost (Loss::error). Needs no capacity in the queue, but waits while 1000 lost frames wait for
-  /// on_lost.
+  /// Reports a frame that its source could not read. The frame gets the next FrameHeader::number and is
+  /// counted as lost (Loss::error). It needs no capacity in the queue. Unless called from a callback,
+  /// report_unreadable() waits while 1000 lost frames wait for `on_lost`.
   void report_unreadable(Frame frame, std::string reason);
 
-  /// Waits until no frame is queued or being processed, at most until `until`. Returns whether this is so.
+  /// Waits, at most until the time `until`, for the moment when no frame is queued or being processed.
+  /// Returns false if that time came first.
   bool wait_idle(std::chrono::steady_clock::time_point until) const;
 
   enum class End {
@@ -109,12 +115,12 @@ class StreamRunner {
     discard  ///< Queued frames are dropped (Loss::queue); the frame being processed is finished.
   };
 
-  /// Ends the thread and waits for it. Called from a callback it does not wait: the thread ends after the
-  /// callback (with `drain`, after the queued frames). A second call does nothing, except that `discard` cuts
-  /// a drain short.
+  /// Ends the thread and waits for its end. From a callback, stop() does not wait: the thread ends after the
+  /// callback or, with `drain`, after the queued frames. A second call only waits, except that `discard`
+  /// drops the frames that a previous `drain` has not processed yet.
   void stop(End end);
 
-  /// Returns the statistics so far; `sinks` is empty. May be called from any thread.
+  /// Returns the statistics so far. RunnerStats::sinks is empty. May be called from any thread.
   RunnerStats stats() const;
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Converts ROS messages to frames and results to ROS messages. The templates work with any message types that
-// have ROS's field names: those of pcl_bv/messages, of ROS 1 and of ROS 2 (rosidl). Poses are in the frame of
-// the points.
+// Converts ROS messages to frames, and results to ROS messages. The templates work with any message types
+// that have ROS's field names, namely those of pcl_bv/messages, of ROS 1 and of ROS 2 (rosidl). Poses are in
+// the frame of the points.
 #pragma once
 
 #include <array>
@@ -29,33 +29,34 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct VolumeShape {
   enum class Kind : std::uint8_t {
     cube,
-    sphere,    ///< A sphere or an ellipsoid: `size` holds the diameters.
-    cylinder,  ///< Its axis is z.
+    sphere,    ///< A sphere or an ellipsoid; VolumeShape::size holds the diameters.
+    cylinder,  ///< The axis of the cylinder is z.
     lines      ///< Edges, for shapes that viewers do not know.
   };
   Kind kind = Kind::lines;
   std::array<double, 3> position{};
   std::array<double, 4> orientation{0, 0, 0, 1};   ///< x, y, z, w.
-  std::array<double, 3> size{};                    ///< Full lengths along its axes; 1 for lines.
+  std::array<double, 3> size{};                    ///< Full lengths along the shape's axes; 1 for `lines`.
   std::vector<std::array<double, 3>> line_points;  ///< Two points per line, in the frame of the points.
 };
 
-/// Returns the shape of a volume; for an empty volume `lines` without points.
+/// Returns the shape of a volume. An empty volume gives `lines` without points.
 VolumeShape viewer_shape(const AnyVolume& volume);
 
-/// Returns the shapes of all volumes in the order of FrameResult::volumes; for missing volumes `lines`
-/// without points. Call it once for all messages: computing the edges of a k-DOP costs as much as its fit.
+/// Returns the shapes of all volumes in the order of FrameResult::volumes. Missing volumes give `lines`
+/// without points. Call it once for all messages, because computing the edges of a k-DOP costs as much as
+/// fitting the k-DOP.
 std::vector<VolumeShape> viewer_shapes(const FrameResult& result);
 
-/// Returns the box of a cluster: its first volume that is a box, otherwise the axis-aligned box of its first
-/// volume. Without volumes: `lines` without points.
+/// Returns the first volume of a cluster that is a box, otherwise the axis-aligned box of its first volume. A
+/// cluster without volumes gives `lines` without points.
 VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
-/// Returns the red, green, blue and alpha of a cluster, 0 to 1. A tracked object keeps its colour.
+/// Returns the colour of a cluster (red, green, blue, alpha), 0 to 1. A tracked object keeps its colour.
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster);
 
-/// Returns the id of a cluster for viewers: the id of its track or, until it has one, its number in the
-/// frame.
+/// Returns the id of a cluster for viewers. It is the id of the cluster's track or, until the track has an
+/// id, the number of the cluster in the frame.
 std::string object_id(const FrameResult& result, std::size_t cluster);
 
 namespace topics {
@@ -123,7 +124,7 @@ void set_colour(const std::array<float, 4>& from, Colour& to) {
 
 }  // namespace topics
 
-/// Turns a sensor_msgs/PointCloud2 into a frame, as read_cloud_message(). `pointer` owns the message
+/// Turns a sensor_msgs/PointCloud2 into a frame as read_cloud_message() does. `pointer` owns the message
 /// (std::shared_ptr, std::unique_ptr or boost::shared_ptr) and is stored in the frame. Points are not copied
 /// if they can be read in place.
 template <class Pointer>
@@ -145,9 +146,9 @@ void read_cloud(Pointer pointer, const std::string& class_field, Frame& frame) {
   read_cloud_message(view, owner, class_field, frame);
 }
 
-/// Fills a vision_msgs/Detection3DArray with a box for each cluster. The detection's id is that of the track,
-/// or empty until there is one. Each detection has one result: the class (empty without classes), score 1 and
-/// the pose of the box, with the variances of the track's position.
+/// Fills a vision_msgs/Detection3DArray with a box for each cluster. The id of a detection is the id of the
+/// cluster's track, or empty until the track has an id. Each detection has one result with the class (empty
+/// without classes), score 1 and the pose of the box, with the variances of the track's position.
 template <class Array>
 void fill_detections(const Frame& frame, const FrameResult& result, Array& array) {
   topics::set_header(frame, array.header);
@@ -175,10 +176,10 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
   }
 }
 
-/// The markers or entities that viewers show, for deleting those of ended objects.
+/// The markers or entities that viewers show. Used to delete those of objects that have ended.
 class ShownObjects {
  public:
-  /// Replaces the set of shown objects by `now`. Returns those that are no longer in it.
+  /// Replaces the set of shown objects by `now`. Returns the shown objects that are not in `now`.
   std::set<std::pair<std::string, std::int32_t>> replace(std::set<std::pair<std::string, std::int32_t>> now);
 
  private:
@@ -186,8 +187,9 @@ class ShownObjects {
 };
 
 /// Fills a visualization_msgs/MarkerArray with a marker for each volume that is not empty, and deletes the
-/// markers of `shown` that have ended. The namespace is the method; the id is that of the track, or negative
-/// until there is one. Markers last `lifetime_ns`. `volumes` is viewer_shapes(result).
+/// markers of `shown` whose objects have ended. The namespace of a marker is the method. Its id is the id of
+/// the track, or negative until the track has an id. Markers last `lifetime_ns`. `volumes` is
+/// viewer_shapes(result).
 template <class Array>
 void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                   std::int64_t lifetime_ns, ShownObjects& shown, Array& array) {
@@ -241,7 +243,8 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
     add(ended.first, ended.second).action = Marker::DELETE;
 }
 
-/// Lifetime of markers: three frame periods, so that a viewer that misses a frame still shows the objects.
+/// Lifetime of markers. It is three frame periods, so that a viewer that misses a frame still shows the
+/// objects.
 class MarkerLifetime {
  public:
   /// Returns the lifetime for the next frame, nanoseconds; 300 ms for the first frame.
@@ -252,8 +255,8 @@ class MarkerLifetime {
   std::int64_t last_stamp_ns_ = 0, period_ns_ = 100'000'000;
 };
 
-/// Writes x, y and z as float32 and `label` as uint32 (from labels_of()), 16 bytes a point. If the frame has
-/// intensities, `intensity` as float32 follows: 20 bytes a point.
+/// Writes x, y and z as float32 and `label` as uint32 (from labels_of()), 16 bytes per point. If the frame
+/// has intensities, `intensity` follows as float32, which makes 20 bytes per point.
 void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to);
 
 namespace topics {
@@ -281,7 +284,7 @@ void set_labelled(const Frame& frame, const FrameResult& result, Cloud& cloud) {
 
 }  // namespace topics
 
-/// Fills a sensor_msgs/PointCloud2 with all points, as write_labelled_points().
+/// Fills a sensor_msgs/PointCloud2 with all points, in the format of write_labelled_points().
 template <class Cloud>
 void fill_points(const Frame& frame, const FrameResult& result, Cloud& cloud) {
   topics::set_labelled(frame, result, cloud);
@@ -295,12 +298,12 @@ class StreamHealth {
   /// Counts a lost frame.
   void count_lost() { ++lost_; }
 
-  /// Records a frame. Returns whether a diagnostic message is due.
+  /// Records a processed frame. Returns whether a diagnostic message is due.
   bool record_frame(const Frame& frame, const FrameResult& result);
 
-  /// Fills a diagnostic_msgs/DiagnosticArray. Its values are the numbers of frames and of lost frames, the
-  /// number of objects in the last frame, and the duration of the slowest frame since the last message. Its
-  /// text tells whether frames were lost and gives the first warning under the current configuration.
+  /// Fills a diagnostic_msgs/DiagnosticArray. Its values are the number of frames, the number of lost frames,
+  /// the number of objects in the last frame, and the duration of the slowest frame since the last message.
+  /// Its text says if frames were lost and contains the first warning under the current configuration.
   template <class Array>
   void fill(const Frame& frame, Array& array) {
     using Status = typename std::decay<decltype(array.status.front())>::type;

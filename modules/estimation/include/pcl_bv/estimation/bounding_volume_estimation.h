@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Estimators of bounding volumes in the style of PCL: set a cloud, set indices, compute.
+// Estimators of bounding volumes in the style of PCL. Call setInputCloud(), optionally setIndices(), then
+// compute().
 #pragma once
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
-// PCL instantiates PCLBase for its own point types only; other point types need its implementation to link.
+// PCL instantiates PCLBase only for the point types of PCL. To link with other point types, the
+// implementation of PCLBase must be included.
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cstddef>
@@ -24,7 +26,7 @@
 
 namespace pcl_bv {
 
-/// Base class of the estimators. It stores the input and runs one fit or a batch of fits.
+/// Base class of the estimators. The class stores the input and runs one fit or a batch of fits.
 ///
 /// Volumes are in the unit and frame of the points' coordinates; the cloud's sensor pose is not applied.
 ///
@@ -39,7 +41,7 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   using Ptr = pcl::shared_ptr<BoundingVolumeEstimation>;
   using ConstPtr = pcl::shared_ptr<const BoundingVolumeEstimation>;
 
-  // Overridden because PCLBase remembers that indices were set, but not that they were removed.
+  // Overridden because PCLBase records that indices were set, but not that they were removed.
   /// Restricts the fit to the points with these indices. A null pointer removes the restriction.
   void setIndices(const pcl::IndicesPtr& indices) override { this->indices_ = indices; }
   void setIndices(const pcl::IndicesConstPtr& indices) override {
@@ -51,26 +53,28 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   void setIndices(std::nullptr_t) { this->indices_.reset(); }
   using Base::setIndices;
 
-  /// Sets the number of threads of compute(): 0 for all processors, 1 (the default) for the calling thread.
-  /// The result does not depend on it. Clouds that take less than about 200 us use one thread.
+  /// Sets the number of threads of compute(). 0 uses all processors, 1 (the default) only the calling thread.
+  /// The result does not depend on the number. Fits that take less than about 200 us use one thread.
   void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
   /// Sets the instruction set, an Isa. The default is Isa::automatic, for which the constructor reads the
-  /// environment variable PCL_BV_ISA. The result does not depend on it. Throws std::invalid_argument if this
-  /// build or machine does not support the instruction set; so does the constructor.
+  /// environment variable PCL_BV_ISA. The result does not depend on the instruction set. Throws
+  /// std::invalid_argument if this build or machine does not support the instruction set. The constructor
+  /// also throws it, for the value of PCL_BV_ISA.
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
   /// Fits the volume to the input cloud, or to its points with the indices that were set.
   ///
-  /// Points with a coordinate that is not finite are dropped, whatever is_dense says. If no point is left,
-  /// the volume is empty and the status `no_valid_points`. If the fit fails, the volume is empty and the
-  /// result holds the status `failed` and the reason. Throws std::logic_error if no cloud was set, and
-  /// std::out_of_range for an index outside the cloud.
+  /// Points with a coordinate that is not finite are dropped, even if the cloud's is_dense is true. If all
+  /// points are dropped, the volume is empty and the status is `no_valid_points`. If the fit fails, the
+  /// volume is empty and the result holds the status `failed` and the reason. Throws std::logic_error if no
+  /// cloud was set, and std::out_of_range for an index outside the cloud.
   EstimationResult compute(VolumeT& volume) const { return fit(input(), volume, execution_); }
 
-  /// Fits one volume to each cluster, in order. Clusters are lists of indices into the input cloud;
-  /// setIndices() has no effect here. The results have the same bits as one compute() per cluster, and a
-  /// cluster that fails does not affect the others. Throws as compute() does, before anything is written.
+  /// Fits one volume to each cluster, in order. Clusters are lists of indices into the input cloud; The
+  /// indices of setIndices() are ignored. The results have the same bits as one call of compute() per
+  /// cluster. A cluster whose fit fails does not affect the others. Throws as compute() does, before anything
+  /// is written.
   std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
                                         std::vector<VolumeT>& volumes) const {
     std::vector<PointView> views;
@@ -86,7 +90,7 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   }
 
  protected:
-  /// Fits the volume to the points; to be implemented by each estimator.
+  /// Fits the volume to the points. Each estimator implements this function.
   virtual EstimationResult fit(const PointView& points, VolumeT& volume,
                                const Execution& execution) const = 0;
 
@@ -148,7 +152,8 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   using ConstPtr = pcl::shared_ptr<const KdopEstimation>;
   using BoundingVolumeEstimation<PointT, Kdop>::compute;
 
-  /// Sets directions that replace the K / 2 built-in ones. Throws std::invalid_argument for a null pointer.
+  /// Sets directions that replace the K / 2 built-in directions. Throws std::invalid_argument for a null
+  /// pointer.
   void setDirections(std::shared_ptr<const KdopSet> directions) {
     if (!directions)
       throw std::invalid_argument("KdopEstimation::setDirections: directions must not be null");
@@ -156,8 +161,8 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   }
   const std::shared_ptr<const KdopSet>& getDirections() const { return directions_; }
 
-  /// Fits the k-DOP as compute(kdop) does. `touching` gets, for each slab, the indices of the points of the
-  /// input cloud that touch its two sides; it is empty if there is no valid point.
+  /// Fits the k-DOP as compute(kdop) does. For each slab, stores in `touching` the indices of the points of
+  /// the input cloud that touch its two sides. `touching` is empty if there is no valid point.
   EstimationResult compute(Kdop& kdop, SlabPoints& touching) const {
     return fit_kdop(this->input(), directions_, kdop, touching, this->execution());
   }
@@ -178,7 +183,7 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   std::shared_ptr<const KdopSet> directions_ = default_directions();
 };
 
-/// Estimates a bounding sphere: the smallest one unless another method is set. See fit_sphere().
+/// Estimates a bounding sphere, by default the smallest bounding sphere. See fit_sphere().
 template <typename PointT>
 class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
  public:
@@ -190,7 +195,8 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   void setMethod(SphereMethod method) { options_.method = method; }
   SphereMethod getMethod() const { return options_.method; }
 
-  /// Sets how spheres of the methods ritter and epos* grow; SphereGrowth::deferred by default.
+  /// Sets how the methods SphereMethod::ritter and SphereMethod::epos* enlarge the first sphere;
+  /// SphereGrowth::deferred by default.
   void setGrowth(SphereGrowth growth) { options_.growth = growth; }
   SphereGrowth getGrowth() const { return options_.growth; }
 
@@ -212,8 +218,8 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   SphereOptions options_;
 };
 
-/// Estimates an oriented box: the smallest box found, unless another method is set. Boxes of the upright
-/// methods have axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
+/// Estimates an oriented box, by default the smallest box that the search finds. Boxes of the upright methods
+/// have axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
 template <typename PointT>
 class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
  public:
@@ -224,8 +230,9 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
   void setMethod(ObbMethod method) { options_.method = method; }
   ObbMethod getMethod() const { return options_.method; }
 
-  /// Sets the direction against gravity for the upright methods; z by default. It may have any length:
-  /// compute() throws std::invalid_argument unless its largest component is from 1e-30 to 1e30 in magnitude.
+  /// Sets the direction against gravity for the upright methods; z by default. The length of `up` does not
+  /// matter, but compute() throws std::invalid_argument unless the largest component of `up` is from 1e-30 to
+  /// 1e30 in magnitude.
   void setUpAxis(const Eigen::Vector3d& up) { options_.up = up; }
   const Eigen::Vector3d& getUpAxis() const { return options_.up; }
 
@@ -246,7 +253,8 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
   using ConstPtr = pcl::shared_ptr<const EllipsoidEstimation>;
   using BoundingVolumeEstimation<PointT, Ellipsoid>::compute;
 
-  /// Fits the ellipsoid and a proof of how much larger than the smallest ellipsoid it is at most.
+  /// Fits the ellipsoid and stores in `certificate` a proven bound of how much larger it is than the smallest
+  /// ellipsoid.
   EstimationResult compute(Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) const {
     return fit_ellipsoid(this->input(), ellipsoid, certificate, this->execution());
   }
@@ -266,7 +274,7 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
   using ConstPtr = pcl::shared_ptr<const BestEstimation>;
 
   /// Sets the methods to choose from, by name; best_candidates() by default. Throws std::invalid_argument for
-  /// an unknown name and for `best` itself (the message contains the name), and for an empty list.
+  /// an unknown name, for the name `best` and for an empty list. The message contains the wrong name.
   void setMethods(const std::vector<std::string>& names) {
     std::vector<const Method*> candidates;
     for (const std::string& name : names) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Conversion of volumes to the pcl::ModelCoefficients of PCL's visualizer and sample consensus models. An
-// empty volume gives NaN for all coefficients except its radius, which is -1.
+// Conversion of volumes to the pcl::ModelCoefficients of PCL's visualizer and sample consensus models. All
+// coefficients of an empty volume are NaN, except the radius, which is -1.
 #pragma once
 
 #include <pcl/ModelCoefficients.h>
@@ -29,8 +29,8 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
 }  // namespace estimation_internal
 
 /// Returns the coefficients for PCLVisualizer::addCube(): translation x y z, rotation as a quaternion x y z
-/// w, and the sizes along axes 0, 1 and 2 of the box (for an upright box: length, width, height). They are
-/// rounded to float, so the result need not enclose the box.
+/// w, and the sizes along axes 0, 1 and 2 of the box (for an upright box: length, width, height). The
+/// coefficients are rounded to float, so the model may not enclose the box.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
   const FloatEnvironment environment;
   const Eigen::Vector3d& c = box.center();
@@ -40,7 +40,7 @@ inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
       {c.x(), c.y(), c.z(), q.x(), q.y(), q.z(), q.w(), size.x(), size.y(), size.z()});
 }
 
-/// Returns the coefficients for PCLVisualizer::addSphere() and SACMODEL_SPHERE: centre and radius of
+/// Returns the coefficients for PCLVisualizer::addSphere() and SACMODEL_SPHERE, namely centre and radius of
 /// Sphere::cast_float(), which encloses the sphere.
 inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
   const FloatEnvironment environment;
@@ -50,9 +50,10 @@ inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
   return estimation_internal::as_floats({f.center.x(), f.center.y(), f.center.z(), f.radius});
 }
 
-/// Returns the coefficients for PCLVisualizer::addCylinder() and SACMODEL_CYLINDER, a cylinder without ends:
-/// a point on the axis (the centre), the direction of the axis, the radius. The radius is inflated by how far
-/// rounding to float moves the axis between the ends, so the model encloses the cylinder.
+/// Returns the coefficients for PCLVisualizer::addCylinder() and SACMODEL_CYLINDER: a point on the axis (the
+/// centre), the direction of the axis, the radius. The model is an infinite cylinder, without ends. Rounding
+/// to float moves the axis; the radius is inflated by the largest movement between the ends, so the model
+/// encloses the cylinder.
 inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
   const FloatEnvironment environment;
   const Eigen::Vector3d& c = cylinder.center();

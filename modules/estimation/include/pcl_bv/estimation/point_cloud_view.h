@@ -12,14 +12,14 @@
 namespace pcl_bv {
 
 /// Returns a view of all points of a cloud. PointT is any type with members x, y, z that are adjacent in
-/// memory, all float or all double. The cloud must outlive the view.
+/// memory and either all float or all double. The cloud must outlive the view.
 template <typename PointT>
 PointView point_view(const pcl::PointCloud<PointT>& cloud) {
   return view_records(cloud.points.data(), cloud.size());
 }
 
-/// Returns a view of the points with these indices, in the order of `indices`, which must outlive the view.
-/// Throws std::out_of_range for an index outside the cloud; the message contains the index.
+/// Returns a view of the points with these indices, in the order of `indices`. The cloud and `indices` must
+/// outlive the view. Throws std::out_of_range for an index outside the cloud; the message contains the index.
 template <typename PointT>
 PointView point_view(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
   static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes around a cloud that comes in parts, on many machines or in many files.
+// Fits volumes around a cloud that is divided into parts, on many machines or in many files.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,16 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct PartialState;
 
-/// The contribution of some points of a cloud to volumes around the whole cloud. Up to kMaxStored points are
-/// all stored. Of more points it stores the extreme ones (the vertices of their convex hull), the support
-/// points along the 26 directions, and sums for the covariance. Copies share their data.
+/// The contribution of some points of a cloud to volumes around the whole cloud. If there are at most
+/// kMaxStored points, all are stored. Of more points a Partial stores the extreme points (the vertices of
+/// their convex hull), the support points along the 26 directions, and sums for the covariance. Copies share
+/// their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
-/// the serialised bytes. The volumes have the bits of a fit to the whole cloud. There are two exceptions, for
-/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These
-/// determine both volumes, but in a fit to all points, points within rounding of the extreme ones can change
-/// the last bits.
+/// the serialised bytes. The volumes have the same bits as a fit to the whole cloud. There are two
+/// exceptions: for more than kMaxStored points, sphere-exact and obb-yaw are fitted to the extreme points
+/// only. Without rounding, the extreme points determine these two volumes. With rounding, other points very
+/// near to them can change the last bits of a fit to all points.
 class Partial {
  public:
   /// Maximum number of points that are all stored.
@@ -34,38 +35,38 @@ class Partial {
   /// Holds no points.
   Partial();
 
-  /// Holds the points of a view. In the whole cloud they have the numbers from `first` + PointView::first on.
-  /// The view may have no points, or no valid ones. Takes the time of fit_hull() and summarize() together,
-  /// and no memory beyond theirs. Throws std::invalid_argument for a view with an index list; other errors as
-  /// for fit_hull().
+  /// Holds the points of a view. The i-th point of the view has the number `first` + PointView::first + i in
+  /// the whole cloud. The view may have no valid points. Takes the time of fit_hull() and summarize()
+  /// together, and no more memory than these. Throws std::invalid_argument for a view with an index list.
+  /// Other errors are as for fit_hull().
   explicit Partial(const PointView& points, std::size_t first = 0, const Execution& execution = {});
 
   /// Adds the points of `other`. Associative and commutative. O(m log m) for m extreme points. Throws
-  /// std::invalid_argument, and changes nothing, if a point is in both, or if one has float and the other
-  /// double coordinates.
+  /// std::invalid_argument, and changes nothing, if the same point is in both Partials, or if one Partial has
+  /// float and the other double coordinates.
   void merge(const Partial& other);
 
-  /// Returns whether the method can be fitted to parts. The exceptions are the spheres that grow and
-  /// obb-lshape: points deep inside the cloud can change these.
+  /// Returns whether the method can be fitted to parts. All methods can, except obb-lshape and all spheres
+  /// but sphere-exact, because points deep inside the cloud can change these volumes.
   static bool can_fit(const Method& method);
 
-  /// Fits the volume around all points; returns their status, rank and counts. O(m log m) for m extreme
+  /// Fits the volume around all points. Returns their status, rank and counts. O(m log m) for m extreme
   /// points. Throws std::invalid_argument unless can_fit(method), and if Execution::supports is set.
   EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
                        const MethodOptions& options = {}) const;
 
-  /// Fits the smallest sphere of all points, which stay where they are and are queried through `farthest`.
-  /// The result has the bits of pcl_bv::fit_smallest_sphere() for the whole cloud, whatever the number of
-  /// points. For this, `farthest` must answer for the same points, with the numbers that they have here. It
-  /// is not called if all points are stored. Exceptions of `farthest` are passed on.
+  /// Fits the smallest sphere of all points. Points that are not stored here are queried through `farthest`.
+  /// The result has the same bits as pcl_bv::fit_smallest_sphere() for the whole cloud, for any number of
+  /// points. This requires that `farthest` answers for the same points, with their numbers in the whole cloud
+  /// as indices. `farthest` is not called if all points are stored. Exceptions of `farthest` are passed on.
   EstimationResult fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
                                        const FarthestQuery& farthest, const Execution& execution = {}) const;
 
   /// Number of points, valid or not.
   std::size_t size() const;
 
-  /// Returns the state as bytes for a file or a message: some 2 kB, and 32 bytes for each extreme or stored
-  /// point, with a version and a checksum. The bytes are the same on every machine.
+  /// Returns the state as bytes for a file or a message, with a version and a checksum. They are about 2 kB,
+  /// plus 32 bytes for each extreme or stored point. The bytes are the same on every machine.
   std::vector<std::byte> to_bytes() const;
 
   /// Restores a Partial from the bytes of to_bytes(). Throws std::invalid_argument, with the reason, for any

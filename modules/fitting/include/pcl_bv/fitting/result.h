@@ -13,27 +13,28 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 enum class EstimationStatus : std::uint8_t {
   ok,               ///< The points span three dimensions.
   degenerate,       ///< The points lie in a plane, on a line or in one point: rank < 3.
-  no_valid_points,  ///< There is no valid point: the volume is empty.
-  failed            ///< A library that the fit uses failed: the volume is empty.
+  no_valid_points,  ///< There is no valid point, and the volume is empty.
+  failed            ///< A library that the fit uses failed, and the volume is empty.
 };
 
 /// Status, rank and point counts of a fit.
 ///
-/// `rank` is the number of dimensions that the points span: 0 for one point, 1 on a line, 2 in a plane, 3
-/// otherwise, all to within 2^-36 of the extent. It does not depend on the fitted volume or on the order of
-/// the points, and flat points are recognised in any orientation.
+/// `rank` is the number of dimensions that the points span, to within 2^-36 of the extent: 0 for one point, 1
+/// for points on a line, 2 for points in a plane, otherwise 3. The rank does not depend on the fitted volume
+/// or on the order of the points. Flat points are recognised in any orientation.
 ///
-/// The exact definition: p0 is the first valid point in lexicographic order of (x, y, z). p1 is the point
-/// farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the plane
-/// p0 p1 p2; of equally far points the first in lexicographic order. The rank is the number of these three
-/// distances before the first that is at most 2^-36. The unit is the longest side of the points' box, rounded
-/// down to a power of two (2^-1000 if that side is 2^-1000 or less). Consequently, points within 2^-41 units
-/// of a plane have rank 2 or less, and points of rank 2 are within 2^-36 units of a plane.
+/// The exact definition is as follows. p0 is the first valid point in lexicographic order of (x, y, z). p1 is
+/// the point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
+/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. The rank is the number of
+/// these three distances before the first that is at most 2^-36 units. The unit is the longest side of the
+/// points' box, rounded down to a power of two (2^-1000 if that side is 2^-1000 or less). Consequently,
+/// points within 2^-41 units of a plane have rank 2 or less, and points of rank 2 are within 2^-36 units of a
+/// plane.
 struct EstimationResult {
   EstimationStatus status = EstimationStatus::no_valid_points;
   int rank = 0;               ///< 0 to 3, as defined above.
   std::size_t used = 0;       ///< Number of valid points, which the volume encloses.
-  std::size_t dropped = 0;    ///< Number of points with a coordinate not finite (double: or beyond 1e100).
+  std::size_t dropped = 0;    ///< Number of points that are not valid (is_valid() in coordinates.h).
   std::string_view reason{};  ///< Reason of a failure, a string with static lifetime; otherwise empty.
 };
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest sphere of points that are only queried: points in a file, in a tree or on many machines. For
-// points in memory or of a PointSource use fit_smallest_sphere() (fit.h).
+// Computes the smallest sphere of points that are not in memory but can be queried, for example points in a
+// file, in a tree or on many machines. For points in memory or of a PointSource use fit_smallest_sphere()
+// (fit.h).
 #pragma once
 
 #include <array>
@@ -15,35 +16,35 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A point outside a sphere; squared_distance < 0 if there is none.
+/// A point outside a sphere. If squared_distance < 0, there is no such point.
 struct FarPoint {
-  double squared_distance = -1;  ///< From the centre: squared_distance() of kernels/distances.h.
+  double squared_distance = -1;  ///< From the centre, as squared_distance() (kernels/distances.h) returns it.
   std::size_t index = 0;         ///< Index of the point in the cloud.
   Coordinates point{};           ///< Coordinates of the point.
 };
 
-/// The farthest point in each octant() around a centre; of equally far points the one with the smallest
+/// The farthest point in each octant() around a centre. Of equally far points it is the one with the smallest
 /// index.
 using OctantPoints = std::array<FarPoint, 8>;
 
-/// Replaces `best` by `other` if that is farther, or as far with a smaller index; for OctantPoints in each
-/// octant.
+/// Replaces `best` by `other` if `other` is farther, or equally far with a smaller index. The overload for
+/// OctantPoints does this in each octant.
 void update_farthest(const FarPoint& other, FarPoint& best);
 void update_farthest(const OctantPoints& other, OctantPoints& best);
 
-/// A query: finds, among the valid points with a squared distance of at least `limit`, the farthest in each
-/// octant, and overwrites `found` with them. Returns whether there is any such point.
+/// A query that overwrites `found` with the farthest point in each octant, among the valid points with a
+/// squared distance of at least `limit`. Returns whether there is any such point.
 using FarthestQuery = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
 
-/// Answers the query of FarthestQuery for the points of a view; the indices are those of PointView::index().
-/// One pass over the points. Throws std::invalid_argument for a view with an index list.
+/// Answers a FarthestQuery for the points of a view. The indices are those of PointView::index(). Takes one
+/// pass over the points. Throws std::invalid_argument for a view with an index list.
 bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution = {});
 
 /// Computes the smallest sphere of the points that `supports` describes and `farthest` answers for. The
-/// supports must be along dop26, with points. The result has the bits of fit_smallest_sphere(), however the
-/// queries are answered. Without a valid point the sphere is empty. Calls `farthest` certificate.passes
-/// times. Throws std::invalid_argument for other supports; exceptions of `farthest` are passed on.
+/// supports must be along dop26, with points. The result has the same bits as that of fit_smallest_sphere().
+/// Without a valid point the sphere is empty. Calls `farthest` certificate.passes times. Throws
+/// std::invalid_argument for other supports. Exceptions of `farthest` are passed on.
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate);
 

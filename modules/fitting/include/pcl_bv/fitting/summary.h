@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Extents, centroid and covariance of a cloud in one pass over its memory.
+// Computes extents, centroid and covariance of a cloud in one pass over its memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,22 +18,23 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Supports, centroid and covariance of a cloud, in the points' unit and frame. Without a valid point,
 /// centroid and covariance are zero and the volumes are empty.
 struct CloudSummary {
-  /// Along the 26 directions, with points. Also holds the counts `used` and `dropped`.
+  /// Supports along the 13 directions of dop26, with points. Also holds the counts `used` and `dropped`.
   Supports supports;
 
-  /// Mean of the valid points; it is inside their box. For at most 2^b blocks of 1024 points, the error is at
-  /// most (175 + 30 b) 2^-53 of the extent, plus one rounding of the coordinate itself.
+  /// Mean of the valid points, which is inside their box. For at most 2^b blocks of 1024 points, the error of
+  /// a coordinate is at most (175 + 30 b) 2^-53 of the extent, plus one rounding of the coordinate.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
-  /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric, and the
-  /// population covariance: divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b)
-  /// 2^-53 of the product of the extents along i and j: 6e-14 for one block, 2e-13 for 30 million points (and
-  /// 2^-1073 more if it underflows). Exactly 0 along an axis on which all points agree.
+  /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric. It is the
+  /// population covariance, divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b)
+  /// 2^-53 of the product of the extents along i and j, plus 2^-1073 if the entry underflows. This factor is
+  /// 6e-14 for one block, 2e-13 for 30 million points. Entries of an axis on which all points agree are
+  /// exactly 0.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
-  /// whose largest extent is below 1e-99: their squares could underflow, so it is a larger power of two. The
-  /// eigenvectors of the covariance do not depend on it.
+  /// whose largest extent is below 1e-99. For these it is a larger power of two, because their squares could
+  /// underflow. The eigenvectors of the covariance do not depend on this factor.
   double covariance_scale = 1;
 
   /// Returns the axis-aligned box of the points.
@@ -47,11 +48,12 @@ struct CloudSummary {
 };
 
 /// Computes the supports, the centroid and the covariance of all valid points. O(n). Each chunk is read from
-/// memory once: it is still in the cache when its moments are computed after its supports. The same bits for
-/// every execution. Another order of the points may round centroid and covariance differently.
+/// memory once, because it is still in the cache when its moments are computed after its supports. The bits
+/// are the same for every execution. Another order of the points may round centroid and covariance
+/// differently.
 ///
-/// The covariance uses the shifted formula in blocks of 1024 points: sums of squares about a point of the
-/// block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
+/// The covariance uses the shifted formula in blocks of 1024 points, with sums of squares about a point of
+/// the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

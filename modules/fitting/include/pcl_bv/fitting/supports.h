@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Exact minimum and maximum projections of a cloud along directions, and the points that attain them. Boxes,
-// k-DOPs and the first balls of spheres are made of these.
+// k-DOPs and the first balls of spheres are computed from them.
 #pragma once
 
 #include <array>
@@ -20,19 +20,19 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Minimum and maximum projection n . p of all points p along one direction n, in the unit of the coordinates
-/// if n has unit length.
+/// Minimum and maximum projection n . p of all points p along one direction n. The unit is that of the
+/// coordinates times the length of n.
 struct Support {
   double low = 0;           ///< Exact minimum of n . p, rounded down to a double; never -0.
   double high = 0;          ///< Exact maximum of n . p, rounded up to a double; never -0.
-  SupportPoint low_point;   ///< Point with the minimum n . p; of several the one with the smallest index.
-  SupportPoint high_point;  ///< Point with the maximum n . p; of several the one with the smallest index.
+  SupportPoint low_point;   ///< The point with the minimum n . p and, of several, the smallest index.
+  SupportPoint high_point;  ///< The point with the maximum n . p and, of several, the smallest index.
 };
 
 /// What to find along each direction.
 enum class SupportDetail {
-  bounds,  ///< Minimum and maximum only. Enough for a box; four times as fast if along the axes alone.
-  points   ///< Also the points that attain them.
+  bounds,  ///< Minimum and maximum only. Along the coordinate axes this is four times as fast as `points`.
+  points   ///< Also the points with the minimum and maximum projection.
 };
 
 struct LocalHull;
@@ -44,45 +44,46 @@ struct Supports {
   SupportDetail detail = SupportDetail::bounds;  ///< Whether the support points are stored, too.
   std::size_t used = 0;                          ///< Number of valid points.
   std::size_t dropped = 0;                       ///< Number of points that are not valid (is_valid()).
-  int rank = 0;                                  ///< Rank of the points, as result.h defines it.
-  /// Only the first direction_count(set) elements are used. Element k is along the k-th direction of the set:
-  /// number cube_direction(set, k) of kCubeDirections.
+  int rank = 0;                                  ///< Rank of the points, as EstimationResult defines it.
+  /// Only the first direction_count(set) elements are used. Element k is along the k-th direction of the set,
+  /// kCubeDirections[cube_direction(set, k)].
   std::array<Support, kMaxDirections> along{};
-  PointView points;                       ///< The view that was searched: only compared, never read again.
+  PointView points;                       ///< The searched view, only for comparison with other views.
   std::shared_ptr<const LocalHull> hull;  ///< The convex hull, if share_supports() computed it; else null.
-  /// Usually null. Set if `points` are a few points that represent a whole cloud (partial.h): the moments of
-  /// the whole cloud. `used` and `dropped` then count the whole cloud, too.
+  /// The moments of the whole cloud if `points` are only a few points that represent it (partial.h), else
+  /// null. If not null, `used` and `dropped` count the whole cloud, too.
   std::shared_ptr<const Moments> moments;
 };
 
 /// Finds the supports of all valid points along the directions of `set`. Without a valid point, `used` is 0
-/// and `along` stays zero. The same bits for every execution.
+/// and all values of `along` are 0. The bits are the same for every execution.
 ///
-/// One SIMD pass over the points in chunks; the few points of each chunk that can be extreme are compared
-/// exactly (docs/numerics.md). No pass if Execution::supports already has the supports; throws
-/// std::invalid_argument if these were found for other points. The rank takes up to five more passes if the
-/// points are flat to 2^-30 of their extent, unless their plane is perpendicular to a coordinate axis.
+/// Takes one SIMD pass over the points in chunks. The few points of each chunk that can be extreme are
+/// compared exactly (docs/numerics.md). If Execution::supports already has the supports, no pass is needed.
+/// Throws std::invalid_argument if Execution::supports were found for other points. The rank takes up to five
+/// more passes if the points are flat to 2^-30 of their extent, unless their plane is perpendicular to a
+/// coordinate axis.
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const Execution& execution);
 
-/// Returns the axis-aligned box, and the k-DOP of all directions, of the supports; empty without a valid
-/// point.
+/// Returns the volume that the supports bound: the axis-aligned box or the k-DOP of all directions. It is
+/// empty without a valid point.
 Aabb aabb_of(const Supports& supports);
 Kdop kdop_of(const Supports& supports);
 
-/// Returns the status, the rank and the counts, as result.h defines them.
+/// Returns the status, the rank and the counts of the points.
 EstimationResult result_of(const Supports& supports);
 
-/// Supports of a cloud along directions of your own.
+/// Supports of a cloud along user-defined directions.
 struct CustomSupports {
   std::size_t used = 0;        ///< Number of valid points.
   std::size_t dropped = 0;     ///< Number of points that are not valid (is_valid()).
-  std::vector<Support> along;  ///< In the order of the directions; empty if no point is valid.
+  std::vector<Support> along;  ///< Supports in the order of the directions; empty if no point is valid.
 };
 
-/// Finds the supports along directions of any length and any signs, repeated or not. O(points * directions).
-/// If the extent of a float cloud is below 1e-43 or above 1e38, all points are compared exactly, which takes
-/// 50 ns for each point and direction.
+/// Finds the supports along directions of any length. Directions may repeat and may be opposite.
+/// O(points * directions). If the extent of a float cloud is below 1e-43 or above 1e38, all points are
+/// compared exactly, which takes 50 ns for each point and direction.
 ///
 /// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
 /// between 1e-30 and 1e30 in magnitude, and if Execution::supports were found for other points.

@@ -14,27 +14,28 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct SmallBall {
   /// Centre, in the coordinates of the points.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double squared_radius = -1;  ///< The largest squared distance of a point, as computed; negative: no point.
-  int support_size = 0;        ///< Number of support points: 1 to 4 points that alone require this radius.
+  double squared_radius = -1;  ///< The computed largest squared distance of a point; negative if no point.
+  int support_size = 0;        ///< Number of support points, 1 to 4. They alone require this radius.
   std::array<std::size_t, 4> support{};  ///< Positions of the support points in the input.
-  std::array<double, 4> weights{};       ///< Not negative, sum 1: the centre is the support's weighted mean.
-  /// Lower bound of the squared radius of any enclosing ball, up to rounding: with c = sum w_i p_i, the sum
-  /// of w_i |p_i - c|^2.
+  /// Weights w_i of the support points p_i, not negative, with sum 1. The centre is the weighted mean.
+  std::array<double, 4> weights{};
+  /// Lower bound of the squared radius of any enclosing ball, up to rounding. With c = sum w_i p_i, it is
+  /// sum w_i |p_i - c|^2.
   double squared_lower_bound = 0;
 };
 
 /// Computes the smallest ball around the points. squared_radius and squared_lower_bound agree to about 1e-15.
-/// Duplicate, collinear, coplanar and cospherical points are allowed; no point gives an empty ball.
-/// Magnitudes should be from 1e-50 to 1e50, and coordinates relative to one of the points. O(count) in
-/// practice; no allocation.
+/// Duplicate, collinear, coplanar and cospherical points are allowed. No point gives an empty ball.
+/// Magnitudes should be from 1e-50 to 1e50, and coordinates should be relative to one of the points. O(count)
+/// in practice, without allocation.
 ///
 /// In each step the farthest point joins the support of at most four points (the pivoting of Gaertner 1999).
 /// Of the balls that two, three or four of these five points span, the next ball is the one from which the
-/// five points stick out least. No tolerance decides which points are flat: if a support is too flat to be
-/// solved for accurately, points stick out further from its ball, and another ball is taken.
+/// five points stick out least. No tolerance for flatness is needed. If a support is too flat for an accurate
+/// solution, points stick out further from its ball, and another ball is taken.
 ///
-/// `start`, if not null, is the ball that this function returned for the first of these points; it saves the
-/// steps to that ball.
+/// `start`, if not null, is the ball that smallest_ball() returned for the first points of this array. It
+/// saves the steps to that ball.
 SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const SmallBall* start = nullptr);
 
 }  // namespace pcl_bv

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory for the bytes of clouds. It is not zeroed, and large blocks use huge pages: zeroing and a page fault
-// for each 4 KiB would take longer than reading the file.
+// Memory for the bytes of clouds. It is not zeroed, and large blocks use huge pages, because zeroing and a
+// page fault for each 4 KiB would take longer than reading the file.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,9 @@ void* allocate_buffer(std::size_t bytes);
 void free_buffer(void* memory, std::size_t bytes) noexcept;
 }  // namespace internal
 
-/// Standard allocator that leaves value-initialised elements (as of resize()) uninitialised. Blocks of 4 MiB
-/// and more are aligned to 2 MiB, and the system is asked for huge pages of 2 MiB.
+/// Standard allocator that leaves value-initialised elements uninitialised, such as the new elements of
+/// std::vector::resize(). Blocks of 4 MiB or more are aligned to 2 MiB, and the operating system is advised
+/// to use huge pages of 2 MiB for them.
 template <typename T>
 class BufferAllocator {
  public:
@@ -35,12 +36,12 @@ class BufferAllocator {
   /// Frees memory that allocate(n) returned.
   void deallocate(T* memory, std::size_t n) noexcept { internal::free_buffer(memory, n * sizeof(T)); }
 
-  /// Leaves a trivial element uninitialised.
+  /// Leaves the element uninitialised if it is of a trivial type.
   template <typename U>
   void construct(U* at) noexcept {
     ::new (static_cast<void*>(at)) U;
   }
-  /// Constructs an element from the values.
+  /// Constructs an element from these values.
   template <typename U, typename... Values>
   void construct(U* at, Values&&... values) {
     ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
@@ -50,7 +51,7 @@ class BufferAllocator {
   friend bool operator!=(const BufferAllocator&, const BufferAllocator&) { return false; }
 };
 
-/// Vector of bytes. resize() leaves new bytes uninitialised: write them before reading them.
+/// Vector of bytes. resize() leaves the new bytes uninitialised. Write them before reading them.
 using ByteBuffer = std::vector<std::byte, BufferAllocator<std::byte>>;
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds that stay in their file: a fit loads one chunk of points per thread at a time.
+// Clouds whose points stay in the file. A fit loads one chunk of points per thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -13,34 +13,38 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An open binary .pcd or .bin file, whose points are read on demand. Reads are positional, so that several
-/// threads can read and fit at the same time; the system is asked to read 8 MiB ahead.
+/// An open binary .pcd or .bin file, whose points are read on demand. Each read gives its own position in the
+/// file, so several threads can read and fit at the same time. The operating system is asked to read 8 MiB
+/// ahead.
 ///
 /// A file that changes while it is read causes an IoError instead of a volume of mixed content. Two checks
-/// detect changes. The file's size and times are compared after each read. Checksums, stored at the first
-/// read of each block of 1024 points, detect what a writer can hide from the times (st_mtim restored together
-/// with a new link, or a late write through a mapping). A checksum covers one byte in 64: it detects that the
-/// cloud was replaced, but not every edit of a single point. A block that is read only partly is not checked.
+/// detect changes:
+/// - The file's size and times are compared after each read.
+/// - A checksum for each block of 1024 points is stored when the block is read first, and compared when it is
+///   read again. It detects changes that a writer can hide from the times, such as st_mtim restored together
+///   with a new link, or a late write through a mapping. A checksum covers one byte in 64. It therefore
+///   detects that the cloud was replaced, but not every edit of a single point. A block that is only partly
+///   read is not checked.
 class CloudFile final : public PointSource {
  public:
   /// Opens the file and reads only its header. Returns null if the points can only be read from first to last
-  /// (ascii, binary_compressed, .ply, .las), or if there are at most kChunkPoints points: use read_cloud()
-  /// for them. `bin_fields` as in read_bin(). Throws as read_cloud() does.
+  /// (ascii, binary_compressed, .ply, .las), or if there are at most kChunkPoints points. Use read_cloud()
+  /// for such files. `bin_fields` is as in read_bin(). Throws as read_cloud() does.
   static std::unique_ptr<CloudFile> open(const std::filesystem::path& path, std::size_t bin_fields = 0);
   ~CloudFile() override;
 
-  /// Returns fields, size and viewpoint, without points.
+  /// Returns the cloud's fields, size and viewpoint, without points.
   const RawCloud& header() const;
 
-  /// Returns a view of all points, in file coordinates. It is valid as long as this object.
+  /// Returns a view of all points, in file coordinates. The view is valid as long as this object.
   PointView xyz() const;
 
   /// Throws IoError if the file has been cut or changed since it was opened. Call it when all results of the
   /// file have been computed.
   void require_unchanged() const;
 
-  /// Reads points [first, first + count) into `buffer` and returns a view of them; see PointSource::load().
-  /// Throws IoError, also if the file has been cut or changed since it was opened.
+  /// Reads points [first, first + count) into `buffer` and returns a view of them (see PointSource::load()).
+  /// Throws IoError if they cannot be read, or if the file has been cut or changed since it was opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:

@@ -17,20 +17,20 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// One field of a point record; types and sizes as in the .pcd format.
+/// One field of a point record. Its type and size are as in the .pcd format.
 struct PointField {
-  std::string name;         ///< Without white space; "_" marks padding and may occur more than once.
+  std::string name;         ///< Name without white space. "_" marks padding and may occur more than once.
   char type = 'F';          ///< 'F' floating point, 'I' signed integer, 'U' unsigned integer.
   std::uint32_t size = 4;   ///< Bytes of one element: 1, 2, 4 or 8.
   std::uint32_t count = 1;  ///< Elements per point.
   std::size_t offset = 0;   ///< Bytes from the start of the record.
 
-  /// Returns the field's number of bytes per point: all its elements.
+  /// Returns the number of bytes of all elements of one point.
   std::size_t bytes() const { return std::size_t{size} * count; }
 };
 
-/// Points as records of `point_step` bytes, row by row; organised clouds have height > 1. The fields follow
-/// each other without gaps and fill the record.
+/// Points as records of `point_step` bytes, row by row. Organised clouds have height > 1. The fields of a
+/// record follow each other without gaps and fill it.
 struct RawCloud {
   std::vector<PointField> fields;  ///< Fields of a record, in the order of their offsets.
   std::size_t width = 0;           ///< Points per row.
@@ -38,30 +38,32 @@ struct RawCloud {
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; stored, never applied.
   std::size_t point_step = 0;                            ///< Bytes per record.
   ByteBuffer data;  ///< width * height * point_step bytes, little-endian.
-  /// x y z of all points, all float32 or all float64. Empty if the records have x, y and z adjacent, in this
-  /// order, as one floating-point type.
+  /// Coordinates x y z of all points, all float32 or all float64. Empty if the records have x, y and z
+  /// adjacent, in this order, as one floating-point type.
   ByteBuffer packed_xyz;
 
-  /// Warnings of the reader about the file, one line for the user; usually empty.
+  /// Warnings of the reader about the file, as one line for the user. Usually empty.
   std::string note;
 
-  /// Names of the fields with values that could not be read as numbers of their type and were replaced by 0
-  /// or NaN; `note` has the details.
+  /// Names of the fields with values that were not numbers of the field's type and were replaced by 0 or NaN.
+  /// `note` has the details.
   std::vector<std::string> invalid_fields;
 
   /// Returns the number of points.
   std::size_t size() const { return width * height; }
 
-  /// Returns a view of the coordinates of all points, in their order: the fields x, y and z, or X, Y and Z
-  /// where the lower-case name is missing (see coordinate_names()). Integers and mixed types are float32 if
-  /// float32 represents all values of their types exactly, else float64. The view refers to `data` or
-  /// `packed_xyz`, so it is valid as long as the cloud. Returns an empty view for an empty cloud, and if one
-  /// of the three fields is missing or has more than one element.
+  /// Returns a view of the coordinates of all points, in the order of the points. The coordinates are the
+  /// fields x, y and z, or X, Y and Z where the lower-case name is missing (see coordinate_names()). If their
+  /// types differ or are integers, the view has float32 if float32 represents all values of these types
+  /// exactly, else float64. The view refers to `data` or `packed_xyz` and is valid as long as the cloud.
+  /// Returns an empty view if the cloud is empty, or if one of the three fields is missing or has more than
+  /// one element.
   PointView xyz() const;
 };
 
-/// Returns the names of the coordinate fields x, y and z; works for any field type with a member `name`. The
-/// name is "x", or "X" if there is a field X but no field x; y and z likewise. The fields need not exist.
+/// Returns the names of the fields with the coordinates x, y and z. The first name is "X" if there is a field
+/// X but no field x, else "x". The same holds for y and z. The fields need not exist. `Fields` is any range
+/// of elements with a member `name`.
 template <typename Fields>
 std::array<std::string_view, 3> coordinate_names(const Fields& fields) {
   std::array<std::string_view, 3> names{"x", "y", "z"};
@@ -77,16 +79,17 @@ std::array<std::string_view, 3> coordinate_names(const Fields& fields) {
   return names;
 }
 
-/// Returns a view of the coordinates of `count` records, `point_step` bytes apart, as in a message of type
-/// sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4; FLOAT64 is 'F', 8). Nothing is copied; the view is valid as
-/// long as the data. x, y and z (or X, Y and Z, see coordinate_names()) must be adjacent in this order, all
-/// float32 or all float64, in this machine's byte order. They may be anywhere in the record and need no
-/// alignment; other fields are ignored. 0 records give an empty view. Throws std::invalid_argument for any
-/// other layout, for coordinates beyond the end of the record, and for records without data (null).
+/// Returns a view of the coordinates of `count` records, which are `point_step` bytes apart, as in a message
+/// of type sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4; FLOAT64 is 'F', 8). Nothing is copied. The view is
+/// valid as long as the data. The fields x, y and z (or X, Y and Z, see coordinate_names()) must be adjacent
+/// in this order, all float32 or all float64, in this machine's byte order. They may be anywhere in the
+/// record and need no alignment. Other fields are ignored. If `count` is 0, the view is empty. Throws
+/// std::invalid_argument for any other layout, for coordinates beyond the end of the record, and if `data` is
+/// null but `count` is not 0.
 PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t point_step,
                          const std::vector<PointField>& fields);
 
-/// A view of one number per record.
+/// View of one number per record.
 struct FieldView {
   const std::byte* data = nullptr;  ///< Address of the first record's number.
   std::size_t stride = 0;           ///< Bytes from one record to the next.
@@ -96,9 +99,10 @@ struct FieldView {
   float at(std::size_t record) const;  ///< Returns the record's number, rounded to the nearest float32.
 };
 
-/// Returns a view of the intensity of each point, in the sensor's own unit: the field named intensity,
-/// Intensity, INTENSITY, intensities, reflectivity or i (the first of these names that is a field with one
-/// element). Returns nullopt if there is no such field. The view is valid as long as the records.
+/// Returns a view of the intensity of each point, in the sensor's own unit. Field names of the intensity are,
+/// in order of preference, intensity, Intensity, INTENSITY, intensities, reflectivity and i. The field must
+/// have one element of a supported type. Returns nullopt if there is no such field. The view is valid as long
+/// as the records.
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step);
 

@@ -12,16 +12,18 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Returns the extension of a path in lower case with the dot, such as ".ply", or an empty string.
+/// Returns the extension of a path in lower case with the dot, such as ".ply". Returns an empty string if the
+/// path has no extension.
 std::string lower_case_extension(const std::filesystem::path& path);
 
-/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (Reading a .laz
-/// file fails with an error that says why.)
+/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (.laz files
+/// cannot be read. The error of read_cloud() says why.)
 bool is_cloud_name(const std::filesystem::path& path);
 
-/// Reads a cloud with the reader for its extension: .ply with read_ply(), .bin with read_bin() and
-/// `bin_fields`, .las with read_las(), all others with read_pcd(). The policy's threads read text. Throws
-/// IoError with the reason; extensions of known other formats (meshes, recordings) are refused with advice.
+/// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() with `bin_fields` for
+/// .bin, read_las() for .las and .laz, and read_pcd() for all others. The policy's threads read text. Throws
+/// IoError with the reason. For extensions of other known formats (meshes, recordings) the reason includes
+/// advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{},
                     std::size_t bin_fields = 0);
 
@@ -29,11 +31,11 @@ RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& pol
 struct CloudHeader {
   RawCloud cloud;                           ///< The cloud without its points.
   ScalarType scalar = ScalarType::float32;  ///< Type of the coordinates in RawCloud::xyz().
-  bool random_access = false;               ///< Whether any point can be read on its own (CloudFile).
+  bool random_access = false;               ///< Whether any point can be read on its own (see CloudFile).
 };
 
-/// Reads the header of a cloud file. The points are not read, so a later read can still find that the file is
-/// cut or damaged. Throws as read_cloud().
+/// Reads the header of a cloud file. The points are not read. A later read can therefore still find that the
+/// file is cut or damaged. Throws as read_cloud().
 CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields = 0);
 
 }  // namespace pcl_bv

@@ -11,32 +11,33 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Replaces the content of the file by `content` atomically: writes a new file in the same folder and renames
-/// it to `path`. At every moment, and after an error, `path` has either its old content (or does not exist)
-/// or the whole new content.
+/// Replaces the content of the file by `content` atomically. Writes a new file in the same folder and renames
+/// it to `path`. At every moment, also after an error, `path` is either unchanged (possibly missing) or has
+/// the whole new content.
 ///
-/// A new file gets mode 0644 less the umask. An existing file keeps its mode; if this process may not write
-/// it, it stays unchanged and IoError is thrown. A symbolic link stays, and its target is replaced; a
-/// dangling link is replaced itself. Anything other than a regular file (a device, a pipe) and any path in
-/// /dev or /proc (such as /dev/stdout, even if it leads to a file) is opened and written directly, not
-/// atomically.
+/// A new file gets mode 0644 without the bits of the umask. An existing file keeps its mode. If this process
+/// may not write the existing file, the file stays unchanged and IoError is thrown. If `path` is a symbolic
+/// link, the link stays and its target is replaced. A dangling link is replaced itself. Anything other than a
+/// regular file (a device, a pipe) and any path in /dev or /proc (such as /dev/stdout, even if it leads to a
+/// file) is opened and written directly, not atomically.
 ///
-/// Returns when the file and its name are on the disk (fsync of the file and the folder, some milliseconds).
-/// Throws IoError with the reason, also for errors that the disk reports at fsync. If only the fsync of the
-/// folder failed, the new content is in place but may be lost at a power failure.
+/// Returns when the file and its name are on the disk (fsync of the file and of the folder, some
+/// milliseconds). Throws IoError with the reason, also for errors that the disk reports at fsync. If only the
+/// fsync of the folder fails, `path` has the new content, but may lose it at a power failure.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// Writes the pieces (such as a header and a body) one after another without joining them in memory;
-/// otherwise like the overload for one text.
+/// Writes the pieces (such as a header and a body) one after another without joining them in memory.
+/// Otherwise like the overload for one text.
 void write_file_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
-/// Writes the pieces one after another; like the overload for an initializer list.
+/// Like the overload for an initializer list.
 void write_file_atomically(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 
 /// Creates the missing parent folders of a file. Throws IoError with the reason.
 void create_parent_folders(const std::filesystem::path& file);
 
-/// Removes the unfinished files of all write_file_atomically() calls of other threads. For a process that is
-/// about to end: from now on every such call throws IoError and leaves the existing file unchanged.
+/// Removes the temporary files of all write_file_atomically() calls that are running in other threads. Call
+/// it in a process that is about to end. Afterwards every write_file_atomically() of a regular file throws
+/// IoError and leaves the existing file unchanged.
 void remove_temporary_files() noexcept;
 
 }  // namespace pcl_bv

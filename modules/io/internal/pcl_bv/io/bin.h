@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reader of .bin sweeps, which have no header: the format of KITTI and nuScenes.
+// Reader of .bin sweeps. They have no header. KITTI and nuScenes use this format.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads a .bin file: each point is `fields` (3 to 32) little-endian float32. The values become the fields x,
-/// y, z, intensity, ring, field6, field7 and so on. 0 means 5 fields for names that end in .pcd.bin
-/// (nuScenes) and 4 for all others (KITTI).
+/// Reads a .bin file, in which each point is `fields` (3 to 32) little-endian float32 values. The values
+/// become the fields x, y, z, intensity, ring, field6, field7 and so on. If `fields` is 0, files whose name
+/// ends in .pcd.bin (nuScenes) have 5 fields, and all others (KITTI) have 4.
 ///
-/// The file does not state its number of fields. With `fields` 0, the number is checked for plausibility:
-/// successive points of a scan are close to each other, so each value should differ little from the value one
-/// record later. The file is refused if another number of fields fits clearly better (the error names this
-/// number), or if most values are not coordinates (NaN, above 1e7, or below 1e-20 but not 0).
+/// The file does not state its number of fields. If `fields` is 0, the number is checked for plausibility.
+/// Successive points of a scan are close to each other, so each value should differ little from the value one
+/// record later. The file is refused if another number of fields fits clearly better (the error names the
+/// other number), or if most values are not coordinates (NaN, above 1e7, or below 1e-20 but not 0).
 ///
 /// Throws IoError with the reason for an implausible number of fields and for a file that is missing,
 /// unreadable, empty or of a size that is not a multiple of a record ("truncated"). Throws

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reader of the ASPRS LAS format, versions 1.0 to 1.5, the format of surveys and national scans.
+// Reader of the ASPRS LAS format, versions 1.0 to 1.5. Surveys and national scans use this format.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,26 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads the points of a .las file, point formats 0 to 10. x, y and z are doubles, X * scale + offset with
-/// each operation rounded once, in the file's unit and coordinate system (mostly metres, UTM). The other
-/// fields are intensity, return_number, number_of_returns, scan_direction_flag, edge_of_flight_line,
-/// classification (without its flags), synthetic, key_point, withheld, in formats 6 to 10 also overlap and
-/// scanner_channel, then point_source_id, and gps_time, red, green and blue where the format has them. Extra
-/// bytes, waveforms and variable length records are left out.
+/// Reads the points of a .las file, point formats 0 to 10. The fields of the cloud are:
+/// - x, y and z: doubles, X * scale + offset with each operation rounded once, in the file's unit and
+///   coordinate system (mostly metres, UTM);
+/// - intensity, return_number, number_of_returns, scan_direction_flag, edge_of_flight_line, classification
+///   (without its flags), synthetic, key_point and withheld;
+/// - overlap and scanner_channel in formats 6 to 10;
+/// - point_source_id;
+/// - gps_time, red, green and blue in the formats that have them.
 ///
-/// From version 1.4 on, the 64-bit count is the number of points. A legacy count that differs is reported in
-/// RawCloud::note; it is used only if the 64-bit count is 0 and the format is 0 to 5. Bytes after the last
-/// point that could be further points are reported in the note; if the header says 0 points, they are an
-/// error. The bounding box of the header is ignored.
+/// All other values of the points are left out, such as scan angles, user data, near infrared, extra bytes
+/// and waveforms. Variable length records are not read.
+///
+/// Files of version 1.4 or later have a 64-bit count and a legacy count of points. The 64-bit count decides.
+/// The legacy count is used only if the 64-bit count is 0 and the format is 0 to 5. A legacy count that is
+/// neither 0 nor the 64-bit count is reported in RawCloud::note. Bytes after the last point that could be
+/// further points are reported in the note, too. They are an error if the header says 0 points. The bounding
+/// box of the header is ignored.
 ///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent
-/// (points overlap extended records), of another version or point format, or compressed (LAZ).
+/// (points overlap extended records), compressed (LAZ), or of another version or point format.
 RawCloud read_las(const std::filesystem::path& path);
 
 }  // namespace pcl_bv

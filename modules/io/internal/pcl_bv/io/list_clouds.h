@@ -10,15 +10,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Returns whether `a` comes before `b` in natural order: runs of digits compare as integers of any length,
-/// everything else byte by byte, so that frame2 comes before frame10. Names that differ only in leading zeros
-/// (frame01, frame1) compare byte by byte.
+/// Returns whether `a` comes before `b` in natural order. In this order, runs of digits compare as integers
+/// of any length, and all other characters byte by byte. For example, frame2 comes before frame10. Names that
+/// differ only in leading zeros (frame01, frame1) compare byte by byte.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// Returns the cloud files (see is_cloud_name()) directly in a folder, each as folder/name, in natural order
-/// of their names. Subfolders and hidden files (names starting with a dot) are left out. `subfolders`, if
-/// given, receives the number of subfolders that are not hidden. Returns an empty list for a folder without
-/// clouds. Throws IoError if the folder cannot be listed.
+/// Returns the cloud files (see is_cloud_name()) directly in a folder. Each path is folder/name. The paths
+/// are in natural order of the names. Subfolders and hidden files (names starting with a dot) are left out.
+/// `subfolders`, if given, receives the number of subfolders that are not hidden. Returns an empty list for a
+/// folder without clouds. Throws IoError if the folder cannot be listed.
 std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& folder,
                                                std::size_t* subfolders = nullptr);
 

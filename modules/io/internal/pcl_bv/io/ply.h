@@ -12,15 +12,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads the element `vertex` of a .ply file: ascii, binary_little_endian or binary_big_endian, with elements
-/// and properties in any order. x, y and z (or X, Y and Z) may be of any type. Every property except lists
-/// becomes a field, in the order of the file, with little-endian values. Lists and other elements are left
-/// out. The cloud has height 1 and the identity as viewpoint.
+/// Reads the element `vertex` of a .ply file. The file can be ascii, binary_little_endian or
+/// binary_big_endian, with elements and properties in any order. x, y and z (or X, Y and Z) may be of any
+/// type. Every property except lists becomes a field, in the order of the file, with little-endian values.
+/// Lists and other elements are left out. The cloud has height 1 and the identity as viewpoint.
 ///
-/// The header may have up to 1 MiB. Its sizes are checked against the size of the file before anything is
-/// allocated. Data after the vertices is ignored, with two exceptions for files without further elements:
-/// further rows of an ascii file are an error, and further vertices of a binary file are reported in
-/// RawCloud::note. Numbers, threads and errors are as in read_pcd().
+/// The header may have at most 1 MiB. The sizes in it are checked against the size of the file before
+/// anything is allocated. Data after the vertices is ignored, with two exceptions for files whose last
+/// element is `vertex`. Further rows of an ascii file are an error. Further vertices of a binary file are
+/// reported in RawCloud::note. Numbers, threads and errors are as in read_pcd().
 RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

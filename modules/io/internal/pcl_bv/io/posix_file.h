@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// POSIX files: an owned file descriptor, and positional reads.
+// POSIX files, namely a class that owns a file descriptor, and a class for positional reads.
 #pragma once
 
 #include <sys/stat.h>
@@ -16,22 +16,22 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Returns the system's message for an errno value, starting in lower case: "permission denied".
+/// Returns the system's message for an errno value. It starts in lower case, such as "permission denied".
 std::string system_reason(int error);
 
 /// Text of the IoError for a file that changed while it was read.
 inline constexpr char kChangedWhileRead[] = "the file was changed while it was read";
 
-/// Owns an open file descriptor; closes it at destruction.
+/// Owns an open file descriptor and closes it at destruction.
 class FileDescriptor {
  public:
-  /// Opens the file as open(2) does, close-on-exec. Throws IoError with `context` and the system's reason.
+  /// Opens the file as open(2) does, with O_CLOEXEC. Throws IoError with `context` and the system's reason.
   FileDescriptor(const std::filesystem::path& path, int flags, unsigned mode, const std::string& context);
   ~FileDescriptor() { close(); }
   FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   FileDescriptor& operator=(FileDescriptor&&) = delete;
 
-  /// Returns the descriptor's number, -1 if closed.
+  /// Returns the descriptor's number, or -1 if it is closed.
   int get() const { return fd_; }
 
   /// Closes the descriptor now. Returns false and sets errno if written data may be lost.
@@ -41,18 +41,19 @@ class FileDescriptor {
   int fd_;
 };
 
-/// A regular file open for reading. It uses pread, not mmap: a file that is cut while it is read must cause
-/// an error, not SIGBUS.
+/// A regular file open for reading. InputFile uses pread instead of mmap, because a file that is cut while it
+/// is read must cause an error, not SIGBUS.
 class InputFile {
  public:
   /// Opens the file. Throws IoError if it cannot be opened, is a folder, is not a regular file or is empty.
   explicit InputFile(const std::filesystem::path& path);
 
-  /// Returns the file's size in bytes when it was opened; > 0.
+  /// Returns the file's size in bytes at the time it was opened. The size is > 0.
   std::size_t size() const { return size_; }
 
-  /// Reads `bytes` bytes from `offset` on into `to`. Throws IoError if the file is too short, and if it has
-  /// changed since it was opened: earlier and later reads would belong to different clouds.
+  /// Reads `bytes` bytes from `offset` on into `to`. Throws IoError if the file is too short. Also throws
+  /// IoError if the file has changed since it was opened, because bytes read before and after could belong to
+  /// different clouds.
   void read(std::size_t offset, void* to, std::size_t bytes) const;
 
   /// Tells the system that these bytes will be read soon.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parses untrusted JSON; all such text must come through here. Objects are nlohmann's default sorted maps:
-// ordered_json would compare each new key with all keys before it, which is quadratic.
+// Parses untrusted JSON. All JSON from outside must be parsed by these functions. Objects are nlohmann's
+// default sorted maps, because ordered_json compares each new key with all keys before it, in quadratic time.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,9 @@ namespace pcl_bv {
 
 using UntrustedJson = nlohmann::json;
 
-/// Parses the next value of a text that contains any number of JSON values; returns nullopt at its end.
-/// Throws IoError with line and column for invalid JSON and for values nested more than kMaxJsonDepth deep.
+/// Parses the next value of a text that contains any number of JSON values. Returns nullopt at the end of the
+/// text. Throws IoError with line and column for invalid JSON and for values nested more than kMaxJsonDepth
+/// deep.
 inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::size_t& at) {
   const std::string_view value = next_json_value(text, at);
   if (value.empty()) return std::nullopt;
@@ -32,7 +33,7 @@ inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::s
   }
 }
 
-/// Parses a text that must be exactly one JSON value. Throws IoError.
+/// Parses a text that must be exactly one JSON value. Throws IoError for any other text.
 inline UntrustedJson read_json(std::string_view text) {
   std::size_t at = 0;
   std::optional<UntrustedJson> value = read_next_json(text, at);
@@ -48,8 +49,8 @@ inline const UntrustedJson& member(const UntrustedJson& object, const char* key)
   return *found;
 }
 
-/// Returns a value as text for an error message: its first 40 characters, or only the length of an array or
-/// object that is long or nested.
+/// Returns a value as text for an error message. The text is the first 40 characters of the value. For an
+/// array or object that is long or nested, it is only the length.
 inline std::string abbreviated(const UntrustedJson& value) {
   constexpr std::size_t few = 8;
   const auto is_long = [](const UntrustedJson& part) { return part.is_structured() || part.is_string(); };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads untrusted text. Checks its size and nesting depth before any library parses it.
+// Reads untrusted text. Checks the text's size and nesting depth before any library parses it.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +14,27 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 inline constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;  ///< Settings as YAML.
-/// metadata.yaml of rosbag2: large, since it may contain the definitions of message types.
+/// Maximum for metadata.yaml of rosbag2. It is large, because the file may contain the definitions of message
+/// types.
 inline constexpr std::size_t kMaxMetadataBytes = std::size_t{16} << 20;
 inline constexpr std::size_t kMaxVolumesBytes = std::size_t{1} << 30;         ///< JSON with volumes.
 inline constexpr std::size_t kMaxPartialHeaderBytes = std::size_t{64} << 20;  ///< Header of partial results.
 inline constexpr std::size_t kMaxPosesBytes = std::size_t{1} << 30;           ///< Poses and calibrations.
-/// Maximum nesting of JSON, small enough for recursive functions over a value. Our reports nest 8 deep.
+/// Maximum nesting depth of JSON, small enough for recursive functions over a value. pcl_bv's reports nest 8
+/// deep.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Returns the content of a file or a pipe. Throws IoError "cannot be read" or, for example, "has more than
-/// 1048576 bytes"; it never reads more than `max_bytes` + 1 bytes.
+/// Returns the content of a file or a pipe. Never reads more than `max_bytes` + 1 bytes. Throws IoError, such
+/// as "cannot be read" or "has more than 1048576 bytes".
 std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Returns the text of the JSON value that begins at `text[at]` or after white space there, and moves `at` to
-/// its end. Only quotes and brackets are inspected, so that the value may be invalid JSON. Returns an empty
-/// text at the end. Throws IoError if the value is nested more than kMaxJsonDepth deep. O(n), allocates
-/// nothing.
+/// the end of the value. Only quotes and brackets are inspected, so the value may be invalid JSON. Returns an
+/// empty text at the end of `text`. Throws IoError if the value is nested more than kMaxJsonDepth deep. Takes
+/// linear time and allocates nothing.
 std::string_view next_json_value(std::string_view text, std::size_t& at);
 
-/// Returns the position of byte `at` as "line 2, column 7", both counted from 1.
+/// Returns the position of byte `at` such as "line 2, column 7". Lines and columns are counted from 1.
 std::string position_in(std::string_view text, std::size_t at);
 
 }  // namespace pcl_bv

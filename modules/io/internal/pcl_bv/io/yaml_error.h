@@ -11,8 +11,8 @@
 
 namespace pcl_bv {
 
-/// Returns the message for an error of yaml-cpp: "line 2: invalid YAML: ... (column 7)". yaml-cpp itself
-/// refuses nesting deeper than 500 levels, before its recursion can overflow the stack.
+/// Returns the message for an error of yaml-cpp, such as "line 2: invalid YAML: ... (column 7)". yaml-cpp
+/// itself refuses nesting deeper than 500 levels, before its recursion can overflow the stack.
 inline std::string yaml_error_message(const YAML::Exception& error) {
   const YAML::Mark& at = error.mark;
   std::string what = "a key or value has the wrong type";

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A bounding volume hierarchy of axis-aligned boxes over packets of points, and ball and nearest-neighbour
-// queries on it. It has no pointers: the index of a box follows from the number of items per level.
+// queries on it. The hierarchy has no pointers, because the index of a box follows from the number of
+// children per level.
 #pragma once
 
 #include <array>
@@ -17,54 +18,57 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Number of points in a packet, and of boxes in a group.
+/// Number of points in a packet, and number of boxes in a group.
 inline constexpr std::size_t kTreeWidth = 16;
 
-/// Neighbouring boxes as structure of arrays. Unused boxes of a group are empty: low is +infinity, high
-/// -infinity.
+/// Neighbouring boxes as structure of arrays. Unused boxes of a group are empty, that is, `low` is +infinity
+/// and `high` is -infinity.
 struct alignas(64) BoxGroup {
   float low[3][kTreeWidth];
   float high[3][kTreeWidth];
 };
 
-/// Neighbouring points in the layout of PointOrder::groups: one group of floats or two groups of doubles.
-/// Unused points of a packet are NaN.
+/// Neighbouring points in the layout of PointOrder::groups. A packet is one group of floats or two groups of
+/// doubles. Unused points of a packet are NaN.
 template <typename T>
 struct alignas(64) PointPacket {
   static constexpr std::size_t kLanes = kGroupBytes / sizeof(T);
 
   T lanes[3 * kTreeWidth];
 
-  /// Returns the address of coordinate `axis` (0 to 2) of point k. The same coordinate of the next points, up
-  /// to the next multiple of kLanes, follows in memory.
+  /// Returns the address of coordinate `axis` (0 to 2) of point k. The same coordinate of points k + 1, k +
+  /// 2, ... follows in memory, up to the next multiple of kLanes.
   const T* at(std::size_t axis, std::size_t k) const {
     return lanes + (k / kLanes * 3 + axis) * kLanes + k % kLanes;
   }
   T* at(std::size_t axis, std::size_t k) { return lanes + (k / kLanes * 3 + axis) * kLanes + k % kLanes; }
 };
 
-/// Groups of boxes around a sequence of items, level by level. Box k of group g contains item 16 g + k on
-/// level 0 and group 16 g + k of level n - 1 on level n. The topmost level is one group.
+/// Groups of boxes around a sequence of items, such as the packets of a PackedTree. The groups are stored
+/// level by level. On level 0, box k of group g contains item 16 g + k. On level n, it contains group 16 g +
+/// k of level n - 1. The topmost level has one group.
 ///
-/// The boxes are in a frame of their own, in which all coordinates are between -1 and 1: a point p of the
-/// items is at (p - origin) * scale there. The boxes are rounded outward.
+/// In the frame of the boxes, all coordinates are between -1 and 1. A point p of an item has the coordinates
+/// (p - origin) * scale in this frame. The boxes are rounded outward.
 struct BoxLevels {
   static constexpr std::size_t kMaxLevels = 9;
 
   std::vector<BoxGroup> groups;
-  /// For each group, squared and in this frame: the radius of the smallest ball that contains a whole side of
-  /// one of its boxes and so certainly one of its points. Only a PackedTree has it; else empty.
+  /// For each group: the squared radius, in the frame of the boxes, of the smallest ball that contains a
+  /// whole side of one of the group's boxes. Such a ball certainly contains a point of that box. Empty if the
+  /// items are not the packets of a PackedTree.
   std::vector<float> min_side_radius;
   std::array<std::size_t, kMaxLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
-  /// Number of children on each level: of items on level 0, of groups of level n - 1 on level n.
+  /// Number of children on each level. The children are the items on level 0, and the groups of level n - 1
+  /// on level n.
   std::array<std::size_t, kMaxLevels + 1> child_counts{};
   std::size_t levels = 0;  ///< 0 if there are no items.
   Coordinates origin{};
   double scale = 1;  ///< A power of two.
 };
 
-/// The valid points of a cloud in the order of a k-d tree's leaves, 16 to a packet, and boxes around the
-/// packets.
+/// The valid points of a cloud in the order of the leaves of a k-d tree, in packets of 16 points, and boxes
+/// around the packets.
 struct PackedTree {
   BoxLevels boxes;
   std::vector<PointPacket<float>> floats;    ///< Packets of a float cloud.
@@ -73,7 +77,8 @@ struct PackedTree {
   std::size_t count = 0;                     ///< Number of points.
   ScalarType scalar = ScalarType::float32;
 
-  /// Returns the points in the order of the tree; index() is the position in that order.
+  /// Returns a view of the points in the order of the tree. PointView::index() of this view gives the
+  /// position in `indices`, not the index in the cloud.
   PointView view() const {
     PointView points;
     points.data = scalar == ScalarType::float32 ? reinterpret_cast<const std::byte*>(floats.data())
@@ -85,14 +90,14 @@ struct PackedTree {
   }
 };
 
-/// A point of a cloud and its squared distance from a query point: (dx dx + dy dy) + dz dz, with d the
-/// difference to the query point, in double, each step rounded.
+/// A point of a cloud and its squared distance from a query point. The squared distance is (dx dx + dy dy) +
+/// dz dz, where d is the point minus the query point. Each step is rounded to double.
 struct Neighbor {
   std::int32_t index;
   double squared_distance;
 };
 
-/// Orders by distance, equal distances by index.
+/// Orders neighbours by distance. Neighbours at equal distances are ordered by index.
 inline bool operator<(const Neighbor& a, const Neighbor& b) {
   return a.squared_distance < b.squared_distance ||
          (a.squared_distance == b.squared_distance && a.index < b.index);
@@ -100,21 +105,22 @@ inline bool operator<(const Neighbor& a, const Neighbor& b) {
 
 /// Returns whether any point has a squared distance (see Neighbor) of at most `limit` from `center`.
 ///
-/// This function and the three below give the same result for every `isa`; an empty tree has no such points.
-/// `center` must be valid (is_valid()). The caller must hold a FloatEnvironment.
+/// This function and the three functions below give the same result for every `isa`. They find no point in an
+/// empty tree. `center` must be valid (is_valid()). The caller must hold a FloatEnvironment.
 bool any_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit);
 
-/// Appends all points that have a squared distance of at most `limit`, in the order of the tree.
+/// Appends to `found` all points whose squared distance from `center` is at most `limit`, in the order of the
+/// tree.
 void list_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit,
                   std::vector<Neighbor>& found);
 
-/// Returns the nearest point if its squared distance is at most `limit`, else nothing. Of equally near points
-/// the one with the smallest index is returned.
+/// Returns the nearest point if its squared distance is at most `limit`, else nothing. If several points are
+/// equally near, the one with the smallest index is returned.
 std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center,
                                      double limit);
 
 /// Replaces the contents of `found` by the `most` nearest points that have a squared distance of at most
-/// `limit` (or by all of them if there are fewer), in the order of Neighbor.
+/// `limit` (or by all such points if there are fewer), in the order of Neighbor.
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found);
 

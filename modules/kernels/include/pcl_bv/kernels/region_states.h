@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tells which points are inside at least one of several convex regions, in the points' own scalar type. Only
-// points within rounding error of a surface stay undecided.
+// Tests which points are inside at least one of several convex regions, in the scalar type of the points. A
+// point stays undecided only if it is within the error bound of a surface, or if it is in the box of a region
+// whose coordinates are too large to be summed without overflow.
 #pragma once
 
 #include <array>
@@ -23,17 +24,17 @@ enum class RegionShape : std::uint8_t {
   box,      ///< The whole box, exactly.
   slabs,    ///< |axes[i] . q| <= slab[i] for each i.
   ball,     ///< |q| <= radius.
-  rounded,  ///< As slabs; and the sum of (weight[i] max(0, |axes[i] . q| - core[i]))^2 is at most radius^2.
+  rounded,  ///< As `slabs`, and the sum of (weight[i] max(0, |axes[i] . q| - core[i]))^2 is <= radius^2.
   planes    ///< n . q <= limit for each half-space.
 };
 
-/// A convex region: a shape within a box. RegionShape says which members a shape uses.
+/// A convex region, which is a shape within a box. RegionShape says which members each shape uses.
 struct ConvexRegion {
   RegionShape shape = RegionShape::box;
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// Error bound of the surface: it may be off by this much plus 2^-43 of |q|_1 and of the radius.
+  /// Error bound of the surface. The error of the surface is at most surface_error + 2^-43 (|q|_1 + radius).
   double surface_error = 0;
 
   std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11, like the normals of planes.
@@ -41,12 +42,13 @@ struct ConvexRegion {
                                 std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::infinity()};
   std::array<double, 3> core{};
-  std::array<double, 3> weight = {1, 1, 1};  ///< If one is infinite, no point is certainly inside.
+  std::array<double, 3> weight = {1, 1, 1};  ///< If a weight is infinite, no point is certainly inside.
   double radius = 0;
   std::vector<HalfSpace> planes;
 };
 
-/// Regions prepared for tests in float and in double arithmetic. Cheap to copy: copies share the data.
+/// Regions prepared for tests in float and in double arithmetic. Copies are cheap, because they share the
+/// data.
 class RegionTests {
  public:
   explicit RegionTests(const std::vector<ConvexRegion>& regions);
@@ -66,9 +68,8 @@ enum class RegionState : std::uint8_t {
 };
 
 /// Writes the RegionState of each visited point to states[0] ... states[points.count - 1]. The states are the
-/// same for every `isa`. O(points * regions) at worst; regions whose boxes are far from the points cost
-/// little. The caller must hold a FloatEnvironment. Throws std::invalid_argument if the points are not in
-/// memory.
+/// same for every `isa`. O(points * regions) at worst. Points outside the box around all regions cost little.
+/// The caller must hold a FloatEnvironment. Throws std::invalid_argument if the points are not in memory.
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states);
 
 /// A subset of the regions of a RegionTests, given by their indices.
@@ -77,7 +78,7 @@ struct ChosenRegions {
   std::size_t count;
 };
 
-/// As above, but only for the chosen regions.
+/// As region_states() above, but tests only the chosen regions.
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
                    const ChosenRegions& chosen, std::uint8_t* states);
 

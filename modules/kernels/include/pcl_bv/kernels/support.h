@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FIND-k-DOP (Karlsson, Winberg and Larsson 2010): the support points of a chunk, which are the points with
-// the largest projections on given directions. Floating-point vectors reject nearly all points; the few that
-// remain are compared exactly.
+// Finds the support points of a chunk, which are the points with the largest projections on given directions
+// (FIND-k-DOP of Karlsson, Winberg and Larsson 2010). Floating-point vectors reject nearly all points. The
+// remaining points are compared exactly.
 #pragma once
 
 #include <array>
@@ -18,31 +18,34 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Maximum number of directions in one call: KdopSet::max_size, half the number of points of EPOS-98.
+/// Maximum number of directions of chunk_supports(). It equals KdopSet::max_size, which is half the number of
+/// points of EPOS-98.
 inline constexpr std::size_t kMaxSupportDirections = 49;
 inline constexpr std::size_t kMaxSupports = 2 * kMaxSupportDirections;
 
-/// The directions of a call. Each direction k has two supports: number 2k is the minimum of the projections
-/// on it, number 2k + 1 the maximum. Each support is the maximum of the projections on its
-/// support_direction(), which for a minimum is the opposite direction.
+/// The directions of chunk_supports(). Each direction k has two supports. Support 2k is the minimum of the
+/// projections on direction k, and support 2k + 1 is the maximum. Each support is the maximum of the
+/// projections on its support_direction(). For a minimum this is the direction opposite to direction k.
 struct SupportDirections {
   std::size_t count = 0;
   std::array<Direction, kMaxSupportDirections> exact{};
   /// `exact` times a power of two, so that the largest component is in [1, 2) in magnitude. (Tiny components
   /// may be rounded.)
   std::array<Direction, kMaxSupportDirections> scaled{};
-  std::optional<DirectionSet> cube;  ///< Set if these are its directions, which need no multiplications.
+  /// The DirectionSet that has exactly these directions, if any. Its projections need no multiplications.
+  std::optional<DirectionSet> cube;
 
   /// Returns the directions of a DirectionSet.
   static const SupportDirections& of(DirectionSet set);
 
-  /// Appends a direction. Throws std::invalid_argument if there are kMaxSupportDirections already, and unless
-  /// the direction is finite with its largest component from 1e-30 to 1e30 in magnitude.
+  /// Appends a direction. It must be finite, and its largest component must be from 1e-30 to 1e30 in
+  /// magnitude. Throws std::invalid_argument for other directions, and if there are kMaxSupportDirections
+  /// already.
   void add(const Direction& direction);
-  /// Returns the direction whose maximum projection is the given support: exact[support / 2] or
-  /// its opposite.
+  /// Returns the direction whose maximum projection is the given support. This is exact[support / 2] for an
+  /// odd support number, and the opposite of it for an even one.
   Direction support_direction(std::size_t support) const;
-  /// The same for `scaled`.
+  /// Returns the same direction, but taken from `scaled`.
   Direction scaled_support_direction(std::size_t support) const;
 };
 
@@ -53,16 +56,16 @@ struct SupportPoint {
   std::size_t index = 0;  ///< Index of the point in the cloud.
 };
 
-/// Sets `best` to `other` if the exact projection of `other` on the direction is larger, or if it is equal
-/// and the index smaller.
+/// Sets `best` to `other` if the exact projection of `other` on the direction is larger than that of `best`,
+/// or if both projections are equal and the index of `other` is smaller.
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best);
 
-/// Known lower bounds of a cloud's supports: for each support a value that the projection of another point on
-/// the scaled direction certainly equals or exceeds; -infinity if none is known. Points with smaller
-/// projections need not be found.
+/// Known lower bounds of a cloud's supports, one per support. The projection of some other point on the
+/// scaled_support_direction() is certainly at least the bound. So points with smaller projections need not be
+/// found. The bound is -infinity if no such point is known.
 using SupportBounds = std::array<double, kMaxSupports>;
 
-/// Returns the bounds if nothing is known: -infinity for each support.
+/// Returns -infinity for each support, which means that no bound is known.
 inline constexpr SupportBounds no_support_bounds() {
   SupportBounds bounds{};
   for (double& bound : bounds)
@@ -73,20 +76,21 @@ inline constexpr SupportBounds no_support_bounds() {
 /// Returns a lower bound of the exact projection of a point, for use in SupportBounds.
 double projection_lower_bound(const SupportDirections& set, std::size_t support, const Coordinates& point);
 
-/// The supports of a chunk. Only the first 2 * count of them are used.
+/// The supports of a chunk. Only the first 2 * SupportDirections::count elements of `supports` are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found: no point is valid or exceeds the bound.
+  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if no valid point exceeds the bound.
   std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
 };
 
-/// Finds the support points of at most kChunkPoints points: the points with the largest exact projections; of
-/// equal projections the smallest index. A support that cannot exceed its bound in `bounds` may or may not
-/// be found, depending on `isa`; every support that is found is the same for all `isa`.
+/// Finds the support points of at most kChunkPoints points, which are the points with the largest exact
+/// projections. If several points have the largest projection, the one with the smallest index is the support
+/// point. A support that is at least its bound in `bounds` is found and is the same for every `isa`. Whether
+/// another support is found depends on `isa`.
 ///
-/// O(n * count). For directions other than the cube's, all points are compared exactly if floats over- or
-/// underflow (extents above 1e38 or below 1e-43), which is slow. Needs up to 220 KiB of stack. The caller
-/// must hold a FloatEnvironment. Throws std::invalid_argument for more points or directions, and if the
-/// points are not in memory.
+/// O(n * count). All points are compared exactly, which is slow, if floats overflow (extents above 1e38) or,
+/// for directions other than the cube's, underflow (extents below 1e-43). Needs at most 220 KiB of stack. The
+/// caller must hold a FloatEnvironment. Throws std::invalid_argument for more than kChunkPoints points or
+/// kMaxSupportDirections directions, and if the points are not in memory.
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                     const SupportBounds& bounds, ChunkSupports& out);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The axis-aligned bounding box of a cloud, without the points that touch it.
+// Finds the axis-aligned bounding box of a cloud, but not the points that touch it.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Minimum and maximum coordinates of the valid points, exactly; +infinity and -infinity without valid
-/// points. Never -0.
+/// Exact minimum and maximum coordinates of the valid points. Without valid points `low` is +infinity and
+/// `high` is -infinity. No coordinate is -0.
 struct AxisExtents {
   std::array<double, 3> low;
   std::array<double, 3> high;

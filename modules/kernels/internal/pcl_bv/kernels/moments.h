@@ -12,7 +12,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Sums over the valid points p of q = (p - origin) * 2^exponent.
+/// Sums over the valid points p of a block, computed from q = (p - origin) * 2^exponent.
 struct Moments {
   std::size_t count = 0;            ///< Number of valid points.
   Coordinates origin{};             ///< The first valid point.
@@ -24,13 +24,15 @@ struct Moments {
 /// Returns the moments of at most kBlockPoints points, summed in double. The result has the same bits for
 /// every `isa`. Without valid points the count and all sums are 0.
 ///
-/// The sums are made in 8 lanes, by the point's position modulo 8; then the lanes are added in order. So each
-/// sum is off by at most 140 rounding errors of the sum of magnitudes (128 points a lane, 8 lanes, the
-/// subtraction and the product). The exponent keeps squares of doubles from vanishing: it is the smallest
-/// with which the sum of all squares is at least 2^-660, or 1000 if there is none. For floats it is 0.
+/// Each sum has 8 lanes. The point at position i of the block is added to lane i modulo 8; then the lanes are
+/// added in order. So the error of each sum is at most 140 rounding errors of the sum of magnitudes (128
+/// points per lane, 8 lanes, the subtraction and the product).
 ///
-/// O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for more points, and if the
-/// points are not in memory.
+/// The exponent keeps squares of doubles from underflowing. It is the smallest of 0, 500 and 1000 with which
+/// the sum of all squares is at least 2^-660, or 1000 if none is sufficient. For floats the exponent is 0.
+///
+/// O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for more than kBlockPoints
+/// points, and if the points are not in memory.
 Moments block_moments(UsableIsa isa, const PointView& block);
 
 }  // namespace pcl_bv

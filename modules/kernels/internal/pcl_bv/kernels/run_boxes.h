@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Boxes around runs of consecutive points. Consecutive points of a sensor are mostly neighbours.
+// Boxes around runs of consecutive points. Consecutive points of a sensor are mostly neighbours, so these
+// boxes are small.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Number of points in a run: four AVX-512 vectors of floats.
+/// Number of points in a run. One coordinate of a run of floats fills four AVX-512 vectors.
 inline constexpr std::size_t kRunPoints = 64;
 
 /// Minimum and maximum of each coordinate of a run, rounded outward to float for double points. low is
@@ -21,8 +22,8 @@ struct RunBox {
 };
 
 /// Sets boxes[r] to the box around the visited points 64 r to 64 r + 63. Only NaN coordinates are ignored;
-/// the point's other coordinates and infinities count. `boxes` needs one element per 64 points begun. The
-/// boxes are the same for every `isa`. O(n). The caller must hold a FloatEnvironment. Throws
+/// the point's other coordinates and infinities count. `boxes` needs points.count / 64 elements, rounded up.
+/// The boxes are the same for every `isa`. O(n). The caller must hold a FloatEnvironment. Throws
 /// std::invalid_argument if the points are not in memory.
 void run_boxes(UsableIsa isa, const PointView& points, RunBox* boxes);
 

@@ -14,8 +14,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// For each axis n the minimum and maximum of (nx qx + ny qy) + nz qz with q = p - origin, each step rounded
-/// to double. The points p are the valid points and the origin, whose value is 0. Never -0.
+/// For each axis n: the minimum and maximum of the projection (nx qx + ny qy) + nz qz with q = p - origin,
+/// each step rounded to double. The points p are the valid points and the origin, whose projection is 0. No
+/// extent is -0.
 struct SlabExtents {
   std::array<double, 3> low{};
   std::array<double, 3> high{};

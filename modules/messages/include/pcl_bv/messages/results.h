@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages about objects: vision_msgs 4, visualization_msgs of Humble and later, and Foxglove's scenes. See
-// types.h for each_field().
+// Messages about objects, of vision_msgs 4, visualization_msgs of Humble and later, and Foxglove's scenes.
+// types.h describes each_field().
 #pragma once
 
 #include "pcl_bv/messages/types.h"
@@ -42,7 +42,7 @@ struct ObjectHypothesisWithPose {
 /// vision_msgs/msg/BoundingBox3D.
 struct BoundingBox3D {
   Pose center;
-  Vector3 size;  ///< Full edge lengths in metres, not half of them.
+  Vector3 size;  ///< Full edge lengths in metres, not half lengths.
   template <class Self, class Visit>
   static void each_field(Self& m, Visit& visit) {
     visit(m.center, m.size);
@@ -155,7 +155,7 @@ struct SceneColor {
   }
 };
 
-/// foxglove_msgs/msg/CubePrimitive and SpherePrimitive. `size`: full lengths along the pose's axes.
+/// foxglove_msgs/msg/CubePrimitive and SpherePrimitive. `size` has the full lengths along the pose's axes.
 struct SolidPrimitive {
   Pose pose;
   Vector3 size;
@@ -169,7 +169,7 @@ struct SolidPrimitive {
 /// foxglove_msgs/msg/CylinderPrimitive.
 struct CylinderPrimitive {
   Pose pose;
-  Vector3 size;  ///< Full lengths; z is along the cylinder's axis.
+  Vector3 size;  ///< Full lengths. z is along the cylinder's axis.
   double bottom_scale = 1, top_scale = 1;
   SceneColor color;
   template <class Self, class Visit>

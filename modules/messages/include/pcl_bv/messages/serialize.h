@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads and writes messages as bytes, in CDR as ROS 2 (OMG DDSI-RTPS, "plain CDR" after an encapsulation
-// header of four bytes) and in ROS 1's encoding. Both visit the fields through each_field() of types.h.
+// Reads and writes messages as bytes, in CDR as in ROS 2 (OMG DDSI-RTPS, "plain CDR" after an encapsulation
+// header of four bytes) or in ROS 1's encoding. Readers and writers visit the fields through each_field() of
+// types.h.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +20,13 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Error: the bytes are not a message of the requested type. what() is the reason in one line.
+/// Error thrown if bytes are not a message of the requested type. what() is the reason in one line.
 class MessageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Encodings of messages: CDR of ROS 2, and ROS 1's.
+/// Encodings of messages, which are ROS 2's CDR and ROS 1's encoding.
 enum class MessageEncoding : std::uint8_t { cdr, ros1 };
 
 /// Appends a message to a vector of bytes, little-endian.
@@ -89,8 +90,8 @@ class MessageWriter {
   std::size_t begin_ = 0;
 };
 
-/// Reads a message. Never reads beyond its end, and allocates no list that is longer than the remaining
-/// bytes.
+/// Reads a message. Never reads beyond the end of the message, and allocates no list that is longer than the
+/// remaining bytes.
 template <MessageEncoding encoding>
 class MessageReader {
  public:
@@ -116,8 +117,8 @@ class MessageReader {
     (read(fields), ...);
   }
 
-  /// Throws MessageError if bytes are left (in CDR: more than the padding of up to 7 bytes that middleware
-  /// adds), which means that the type is another one.
+  /// Throws MessageError if bytes remain after the last field, because the message then has another type. CDR
+  /// messages may end with up to 7 bytes, because some middleware adds padding.
   void finish() const {
     if (size_ - at_ >= (ros1 ? 1 : 8))
       throw MessageError(std::to_string(size_ - at_) +
@@ -206,7 +207,7 @@ void read_cdr(const std::byte* data, std::size_t size, Message& message) {
   reader(message);
   reader.finish();
 }
-/// Reads a message in ROS 1's encoding; otherwise like read_cdr().
+/// Reads a message in ROS 1's encoding. Otherwise like read_cdr().
 template <class Message>
 void read_ros1(const std::byte* data, std::size_t size, Message& message) {
   MessageReader<MessageEncoding::ros1> reader(data, size);

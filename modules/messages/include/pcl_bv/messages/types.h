@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ROS messages that are read or written, and the types of their fields, with ROS's own names, as in Humble
-// and later. Each struct has each_field(message, visit), which calls visit(a, b, ...) with its fields in
-// their order (if Visit::ros1 is true, with those of ROS 1); the readers and writers of serialize.h use it.
+// ROS messages that are read or written, and the types of their fields. The names are those of ROS Humble and
+// later. Each struct has each_field(message, visit), which calls visit(a, b, ...) with the fields of the
+// message in their order. If Visit::ros1 is true, the fields are those of ROS 1. The readers and writers of
+// serialize.h use each_field().
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace msg {
 
-/// A non-owning view of a uint8[], so that clouds are read and written without a copy.
+/// A non-owning view of a uint8[]. With it clouds are read and written without a copy.
 struct Bytes {
   const std::byte* data = nullptr;
   std::size_t size = 0;
@@ -86,7 +87,7 @@ struct Pose {
 /// geometry_msgs/msg/PoseWithCovariance.
 struct PoseWithCovariance {
   Pose pose;
-  std::array<double, 36> covariance{};  ///< Row-major, of x, y, z and the rotations about these axes.
+  std::array<double, 36> covariance{};  ///< Row-major, for x, y, z and the rotations about these axes.
   template <class Self, class Visit>
   static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.covariance);

@@ -10,7 +10,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Largest relative error of one rounding to double (unit roundoff); the U of the error bounds in
+/// Largest relative error of one rounding to double (unit roundoff). It is the U of the error bounds in
 /// docs/numerics.md.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 

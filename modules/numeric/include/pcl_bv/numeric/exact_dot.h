@@ -13,12 +13,12 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A direction of any length.
 using Direction = std::array<double, 3>;
 
-/// Returns the sign (-1, 0 or 1) of n . p - n . q, exactly, even if intermediate results would over- or
+/// Returns the exact sign (-1, 0 or 1) of n . p - n . q, even if intermediate results would overflow or
 /// underflow. All components must be at most 1e150 in magnitude.
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q);
 
-/// Returns the largest double <= n . p or the smallest double >= n . p; n . p itself if it is a double. Never
-/// returns -0. All components must be at most 1e150 in magnitude.
+/// Returns the largest double <= n . p or the smallest double >= n . p. Never returns -0. All components must
+/// be at most 1e150 in magnitude.
 double project_down(const Direction& n, const Coordinates& p);
 double project_up(const Direction& n, const Coordinates& p);
 

@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A guard against hosts that set flush-to-zero, which would turn a coordinate of 1e-41 into 0. Every public
-// fit, every member function of a volume that computes, and every worker thread holds one.
+// fit function, every member function of a volume that computes, and every worker thread holds a
+// FloatEnvironment.
 #pragma once
 
 #include <cstdint>
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Sets the calling thread's floating-point environment to the IEEE default while the object lives: denormals
-/// are preserved (no FTZ, no DAZ), rounding is to nearest, no exception traps. The destructor restores the
-/// previous environment. If the environment is the default already, the control register is only read, and
-/// exception flags raised meanwhile stay raised.
+/// Sets the calling thread's floating-point environment to the IEEE default while the object lives. Denormals
+/// are preserved (no FTZ, no DAZ), rounding is to nearest, and no exception traps. The destructor restores
+/// the previous environment. If the environment is the default already, the control register is only read,
+/// and exception flags that are raised while the object lives stay raised.
 class FloatEnvironment {
  public:
   FloatEnvironment();

@@ -15,12 +15,11 @@ struct ExactSum {
 /// Returns x + y + z exactly. Each term must be at most 1e100 in magnitude.
 ExactSum exact_sum(double x, double y, double z);
 
-/// Returns the largest double <= the sum or the smallest double >= the sum; the sum itself if it is a double.
-/// Never returns -0.
+/// Returns the largest double <= the sum or the smallest double >= the sum. Never returns -0.
 double round_down(const ExactSum& sum);
 double round_up(const ExactSum& sum);
 
-/// Returns the sign (-1, 0 or 1) of a - b, exactly.
+/// Returns the exact sign (-1, 0 or 1) of a - b.
 int compare(const ExactSum& a, const ExactSum& b);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of many terms without rounding error. They add up the bounds of volumes.
+// Sums of many terms without rounding error. The bounds of volumes are computed with them.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An exact sum of doubles and of products of doubles, whose results are rounded only at the end.
 ///
-/// Holds 44 terms (a product is two terms); when it is full, terms are merged without loss into at most 41.
-/// Most results come from a sum of twice the precision of a double with an error bound; where that does not
-/// decide, from a non-overlapping expansion (Shewchuk 1997).
+/// Holds at most 44 terms (a product is two terms). When it is full, the terms are merged without loss into
+/// at most 41. Most results are decided by a sum of twice the precision of a double, with an error bound. A
+/// non-overlapping expansion (Shewchuk 1997) decides the others.
 ///
-/// There is one inexact case: a product below 2^-960 in magnitude may lose about 2^-1074. Then is_lossless()
-/// returns false, and up() and down() move outward by the smallest normal double where the loss could matter.
+/// There is one inexact case. A product below 2^-960 in magnitude may lose about 2^-1074. Then is_lossless()
+/// returns false, and up() and down() move outward by the smallest normal double if the loss could matter.
 /// The caller must hold a FloatEnvironment.
 class Expansion {
  public:
-  static constexpr std::size_t capacity = 44;  ///< Terms.
+  static constexpr std::size_t capacity = 44;  ///< Maximum number of terms.
 
   /// Adds x, or a * b.
   Expansion& add(double x);
   Expansion& add_product(double a, double b);
 
-  /// Adds a . b, which is six terms. Takes the vector types that dot3() takes.
+  /// Adds a . b, which is six terms. The arguments may have any type that dot3() takes.
   template <typename A, typename B>
   Expansion& add_dot(const A& a, const B& b) {
     return add_product(a[0], b[0]).add_product(a[1], b[1]).add_product(a[2], b[2]);
@@ -38,10 +38,11 @@ class Expansion {
   double down() const;
   double magnitude_up() const;  ///< Smallest double >= the magnitude of the sum.
 
-  /// Returns the sum with an error below one unit in the last place; the sum itself if it is a double.
+  /// Returns the sum with an error below one unit in the last place. If the sum is a double, it is returned
+  /// exactly.
   double value() const;
 
-  /// Returns the sign of the sum: -1, 0 or 1. It is exact if is_lossless().
+  /// Returns the sign (-1, 0 or 1) of the sum. It is exact if is_lossless().
   int sign() const;
 
   /// Whether no product was so small (below 2^-960 in magnitude) that digits may be lost.

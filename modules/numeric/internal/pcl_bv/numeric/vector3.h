@@ -18,8 +18,8 @@ namespace numeric_internal {
 template <typename Vector>
 using ScalarOf = std::decay_t<decltype(std::declval<Vector>()[0])>;
 
-// The type in which a result for a Vector can be returned: for an Eigen expression its plain matrix type,
-// else Vector itself.
+// The type in which a result for a Vector can be returned. For an Eigen expression it is the plain matrix
+// type, for other types Vector itself.
 template <typename Vector, typename = void>
 struct Plain {
   using Type = Vector;
@@ -46,7 +46,7 @@ inline auto norm3(const Vector& v) {
   return std::sqrt(dot3(v, v));
 }
 
-/// Returns |v|_1, the sum of magnitudes. Error bounds are stated in terms of it.
+/// Returns |v|_1, the sum of the magnitudes of the components. Error bounds are multiples of this norm.
 template <typename Vector>
 inline auto taxicab3(const Vector& v) {
   return (std::abs(v[0]) + std::abs(v[1])) + std::abs(v[2]);
@@ -58,7 +58,7 @@ inline numeric_internal::PlainOf<A> cross3(const A& a, const B& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Returns v / |v|. The length should be about 1 or more: squares of small components may underflow.
+/// Returns v / |v|. The length should be about 1 or more, because squares of small components may underflow.
 template <typename Vector>
 inline numeric_internal::PlainOf<Vector> unit3(const Vector& v) {
   const auto length = norm3(v);

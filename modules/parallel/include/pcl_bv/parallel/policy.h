@@ -14,20 +14,21 @@ struct Serial {};
 
 /// Runs on OpenMP's thread pool, which the rest of the program may use as well.
 ///
-/// `threads` 0 means all processors that the calling thread may use. A call returns when all threads have
-/// arrived, so on a busy machine it waits until the last thread gets a processor. Do not use it in a forked
-/// child whose parent has used OpenMP: GNU's libgomp then waits for ever.
+/// `threads` 0 means all processors that the calling thread may use. A parallel region ends when all threads
+/// have arrived, so on a busy machine it waits until the last thread gets a processor. Do not use this policy
+/// in a forked child whose parent has used OpenMP, because GNU's libgomp then waits forever.
 struct OpenMP {
   unsigned threads = 0;
 };
 
-/// Runs on the library's own thread pool. Its threads sleep between calls, and a call waits only for threads
-/// that have begun to work: on a busy machine it is never much slower than one thread.
+/// Runs on the library's own thread pool. The threads of the pool sleep between parallel regions. A region
+/// waits only for threads that have begun to work, so on a busy machine it is never much slower than on one
+/// thread.
 ///
-/// `threads` 0 means all processors that the process's main thread may use. A forked child has a pool of its
-/// own. Whichever thread calls first, a pool thread starts with the processors, scheduling policy and nice
-/// value that the main thread has at that time. Pool threads are never real-time and block signals, so that
-/// the host's threads handle them. Programs that need other threads pass an Executor.
+/// `threads` 0 means all processors that the process's main thread may use. A forked child gets a new pool. A
+/// pool thread starts with the processors, scheduling policy and nice value that the process's main thread
+/// has at that time, whichever thread starts it. Pool threads are never real-time. They block signals, so
+/// that the host's threads handle signals. Programs that need other threads pass an Executor.
 struct Threads {
   unsigned threads = 0;
 };
@@ -39,23 +40,23 @@ struct Threads {
 /// many as `Threads{}` uses. With TBB: `[](std::size_t tasks, const auto& task) {
 /// tbb::parallel_for(std::size_t{0}, tasks, task); }`.
 ///
-/// `run` may also omit tasks, or copy `task` and call it later: the calling thread does the remaining work.
-/// An exception from `run` is rethrown once the tasks that have begun have ended; some of the work may then
-/// be undone.
+/// `run` may also omit tasks, or copy `task` and call it later. The thread that called `run` then does the
+/// remaining work. An exception from `run` is rethrown when all tasks that have begun have ended. In this
+/// case some of the work may not have been done.
 struct Executor {
   unsigned threads = 0;
   std::function<void(std::size_t tasks, const std::function<void(std::size_t)>& task)> run;
 };
 
-/// Which threads a parallel call runs on.
+/// Selects the threads on which a parallel region runs.
 using ParallelPolicy = std::variant<Serial, OpenMP, Threads, Executor>;
 
 /// Returns the number of threads that the policy would use, at least 1. Throws std::invalid_argument for an
 /// Executor without `run`.
 unsigned thread_count(const ParallelPolicy& policy);
 
-/// Returns the same policy with at most `threads` threads (0 is treated as 1); Serial for one thread. Throws
-/// like thread_count().
+/// Returns the same policy with at most `threads` threads (0 is treated as 1). For one thread this is Serial.
+/// Throws like thread_count().
 ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 
 }  // namespace pcl_bv

@@ -24,9 +24,9 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 /// when all calls have returned.
 ///
 /// Runs on the calling thread alone if the policy has one thread, if there is one chunk, or inside another
-/// parallel call or an OpenMP region (no oversubscription). If bodies throw, the remaining chunks are still
-/// run; then the exception of the lowest failed chunk is rethrown. A body may fork. The child may make
-/// parallel calls of its own, but must never return from the body.
+/// parallel region (of pcl_bv or of OpenMP), to avoid oversubscription. If bodies throw, the remaining chunks
+/// are still run; then the exception of the lowest failed chunk is rethrown. A body may fork. The child may
+/// start parallel regions itself, but must never return from the body.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   internal::run_chunks(policy, chunks, std::ref(body));
@@ -41,12 +41,12 @@ void for_each_range(const ParallelPolicy& policy, std::size_t items, std::size_t
   });
 }
 
-/// Keeps the library's threads spinning between parallel calls while the object lives, so that they need not
-/// be woken: waking a thread that sleeps takes about 25 us.
+/// Keeps the library's threads spinning between parallel regions while the object lives, so that they need
+/// not be woken. Waking a sleeping thread takes about 25 us.
 ///
 /// Each thread spins for at most 2 ms at a time and occupies its processor meanwhile. Use it around a
 /// sequence of short parallel stages. It has an effect only for the policy Threads, outside of parallel
-/// calls.
+/// regions.
 class SpinningThreads {
  public:
   explicit SpinningThreads(const ParallelPolicy& policy);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cuts a sequence of points into parts, one task each. For stages that need more than a merge of chunk
-// results.
+// Cuts a sequence of points into parts, each of which is one task. Used by stages that need more than a merge
+// of chunk results.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 template <typename Part>
 class PointParts {
  public:
-  /// Sets `begin` and `end` of each part. A part has at least 8192 points (or all points): a smaller one
-  /// would be done before another thread has started. There are two parts per thread, so that a thread that
-  /// starts late still finds work; a policy with one thread gets one part. Zero points give one empty part.
+  /// Sets `begin` and `end` of each part. A part has at least 8192 points (or all points), because a smaller
+  /// part would be done before another thread has started. There are two parts per thread, so that a thread
+  /// that starts late still finds work; a policy with one thread gets one part. Zero points give one empty
+  /// part.
   void cut(std::size_t count, const ParallelPolicy& policy) {
     const std::size_t threads = thread_count(policy);
     used_ = std::clamp<std::size_t>(count / 8192, 1, threads == 1 ? 1 : 2 * threads);
@@ -38,7 +39,7 @@ class PointParts {
   Part& front() { return parts_.front(); }
   const Part& front() const { return parts_.front(); }
 
-  /// Calls work(part) for each part, in parallel. No call may depend on another. Throws like
+  /// Calls work(part) for each part, in parallel. No call of `work` may depend on another. Throws like
   /// for_each_chunk().
   template <typename Work>
   void for_each(const ParallelPolicy& policy, const Work& work) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A copy of points as structure of arrays (Karlsson, Winberg and Larsson 2010, Figure 1), in the order in
-// which vector registers load them. Useful if several volumes are fitted to one cloud.
+// which vector registers load them. The copy is useful if several volumes are fitted to one cloud.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,19 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An owning copy of points in groups: 64 bytes of x, 64 of y, 64 of z (16 float or 8 double points),
-/// repeated. The memory is aligned to 64 bytes. The last group is padded with a valid point, if there is one.
+/// An owning copy of points in groups. A group has 64 bytes of x, 64 bytes of y and 64 bytes of z (16 float
+/// points or 8 double points). The memory is aligned to 64 bytes. The last group is padded with a valid
+/// point, if there is one.
 ///
-/// Coordinates keep their bits, NaN and infinity included, and points keep their order: point i of view() is
-/// the i-th point visited by the assigned view. So index() of view() is the index in the cloud if a whole
-/// cloud was assigned, else the position in the slice or index list (whose element gives the index in the
-/// cloud).
+/// Coordinates keep their bits, NaN and infinity included, and points keep their order. Point i of view() is
+/// the i-th point visited by the assigned view. So PointView::index() of view() is the index in the cloud if
+/// a whole cloud was assigned. Otherwise it is the position in the slice or in the index list, whose element
+/// at this position is the index in the cloud.
 ///
 /// Every kernel and fit accepts view() and returns the same bits as for the assigned view. For an index list
-/// that is not ascending this holds for boxes and k-DOPs only: of equal projections the smallest index()
-/// wins, which is then another point, and spheres start from these points.
+/// that is not ascending, only boxes and k-DOPs have the same bits. Other results may differ, because of
+/// points with equal projections the one with the smallest PointView::index() is the support point. In the
+/// copy this may be another point, and spheres start from the support points.
 class PointGroups {
  public:
   PointGroups() = default;
@@ -36,8 +38,8 @@ class PointGroups {
   /// or empty.
   void assign(const PointView& points, UsableIsa isa = {});
 
-  /// Returns a view of all points; of none after a move. It is valid until the next assign(), a move or
-  /// destruction.
+  /// Returns a view of all points, or an empty view after a move. The view is valid until the next assign(),
+  /// a move or destruction.
   PointView view() const;
 
   std::size_t size() const { return groups_.empty() ? 0 : size_; }  // groups_ is empty after a move
@@ -49,7 +51,7 @@ class PointGroups {
 
  private:
   struct alignas(kGroupBytes) Group {
-    Group() {}  // leaves the memory uninitialised: assign() writes all of it
+    Group() {}  // leaves the memory uninitialised, because assign() writes all of it
     std::byte lanes[3 * kGroupBytes];
   };
 

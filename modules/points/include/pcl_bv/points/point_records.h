@@ -42,8 +42,8 @@ PointView view_records(const Record* records, std::size_t count) {
 
 /// Returns a view of the points of a cloud that an index list selects, in the order of the list. The cloud
 /// must be whole and in memory; the list must outlive the view. Throws std::out_of_range, naming the index,
-/// if one is not in the cloud, and std::invalid_argument if the cloud is a slice, has an index list or has a
-/// source.
+/// if an index is outside the cloud, and std::invalid_argument if the cloud is a slice, has an index list or
+/// has a source.
 inline PointView select_points(const PointView& cloud, const std::int32_t* indices, std::size_t count) {
   if (cloud.source != nullptr || cloud.indices != nullptr || cloud.first != 0)
     throw std::invalid_argument("select_points: the cloud must be whole and in memory");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points that are not in memory but, for example, in a file. Fits load them part by part, as often as they
-// pass over them.
+// Points that are not in memory but, for example, in a file. Fits load the points part by part, once for
+// every pass over the points.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +20,10 @@ class PointSource {
  public:
   virtual ~PointSource() = default;
 
-  /// Loads points [first, first + count) and returns a view of them, whose index() is the index in the
-  /// source. The view refers to `buffer`, which may be resized, or to memory that lives as long as the
-  /// source. `count` is at most kChunkPoints. Called concurrently by several threads, each with its own
-  /// buffer. May throw.
+  /// Loads points [first, first + count) and returns a view of them. PointView::index() of this view must be
+  /// the index in the source. The view refers to `buffer`, which may be resized, or to memory that lives as
+  /// long as the source. `count` is at most kChunkPoints. Called concurrently by several threads, each with
+  /// its own buffer. May throw.
   virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
 };
 
@@ -44,8 +44,8 @@ class LoadedPoints {
   /// not have these points.
   ///
   /// For a view of a source, `count` is at most kChunkPoints. Then the constructor throws what the source
-  /// throws, and std::invalid_argument for more points, if the view has indices as well, or if the source
-  /// returns other points than requested.
+  /// throws. It throws std::invalid_argument for more than kChunkPoints points, if the view has indices as
+  /// well, or if the source returns other points than requested.
   LoadedPoints(const PointView& points, std::size_t begin, std::size_t count) {
     if (begin > points.count || count > points.count - begin)
       throw std::out_of_range("LoadedPoints: the requested points are outside the view");

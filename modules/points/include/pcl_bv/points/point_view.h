@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The input of all kernels: a non-owning view that fits every layout of points.
+// The input of all kernels, which is a non-owning view that fits every layout of points.
 #pragma once
 
 #include <cstddef>
@@ -23,20 +23,21 @@ constexpr std::size_t size_of(ScalarType scalar) {
 /// How the coordinates are laid out in memory.
 enum class PointOrder : std::uint8_t {
   records,  ///< One record per point, with x, y, z adjacent.
-  groups    ///< 64 bytes of x, 64 of y, 64 of z, repeated (see point_groups.h).
+  groups    ///< 64 bytes of x, 64 bytes of y, 64 bytes of z, repeated (see point_groups.h).
 };
 
-/// Bytes of each coordinate in a group: 16 floats or 8 doubles, a cache line and the widest vector of x86.
+/// Number of bytes of each coordinate in a group. They hold 16 floats or 8 doubles, and are as long as a
+/// cache line and as the widest vector of x86.
 inline constexpr std::size_t kGroupBytes = 64;
 
 class PointSource;
 
-/// A read-only view of points: of all points of an array, or of those that an index list selects. It does not
-/// own the memory, which must outlive it. Kernels and segmentation take points that are in memory; fits and
-/// verify() also take points of a PointSource.
+/// A read-only view of points, either of all points of an array or of those that an index list selects. The
+/// view does not own the memory, which must outlive the view. Kernels and segmentation take points that are
+/// in memory; fits and verify() also take points of a PointSource.
 ///
 /// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records they need
-/// no alignment. They may be NaN or infinite: functions that read them drop such points.
+/// no alignment. They may be NaN or infinite. Functions that read the coordinates drop such points.
 struct PointView {
   const std::byte* data = nullptr;        ///< Address of x of the first point.
   std::size_t stride = 0;                 ///< Records: bytes from one point's x to the next point's x.
@@ -73,7 +74,8 @@ struct PointView {
     return indices ? static_cast<std::size_t>(indices[i]) : first + i;
   }
 
-  /// Returns the address of x of the i-th visited point. y is step() bytes after x, z step() bytes after y.
+  /// Returns the address of x of the i-th visited point. y is step() bytes after x, and z is step() bytes
+  /// after y.
   const std::byte* address(std::size_t i) const {
     if (order == PointOrder::records) {
       return data + stride * (indices ? static_cast<std::size_t>(indices[i]) : i);
@@ -86,7 +88,8 @@ struct PointView {
   /// Returns the number of bytes from a point's x to its y, and from its y to its z.
   std::size_t step() const { return order == PointOrder::records ? size_of(scalar) : kGroupBytes; }
 
-  /// Returns a view of the visited points [begin, begin + n). Its index() is still the index in the cloud.
+  /// Returns a view of the visited points [begin, begin + n). index() of the returned view is still the index
+  /// in the cloud.
   PointView slice(std::size_t begin, std::size_t n) const {
     PointView part = *this;
     part.count = n;
@@ -101,7 +104,7 @@ struct PointView {
 };
 
 /// Returns a view of `count` points whose coordinates x, y, z follow one another without gaps. `first` is the
-/// index of the first one in its cloud.
+/// index of the first point in its cloud.
 inline PointView packed_points(const std::byte* xyz, ScalarType scalar, std::size_t count,
                                std::size_t first = 0) {
   PointView view;

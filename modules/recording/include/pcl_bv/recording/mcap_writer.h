@@ -14,14 +14,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Writes an MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) chunk by chunk, each with its
-/// message indexes and CRC. If the process ends unexpectedly, all chunks except the unfinished one can be
-/// read. close() adds the summary: schemas, channels, statistics, and an index of chunks and attachments.
+/// Writes an MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) chunk by chunk. Each chunk
+/// has a CRC and is followed by its message indexes. If the process ends unexpectedly, all chunks except the
+/// unfinished one can be read. close() adds the summary, which has schemas, channels, statistics, and an
+/// index of chunks and attachments.
 class McapWriter final : public RecordingWriter {
  public:
   struct Options {
     Compression compression = Compression::zstd;  ///< Compression of the chunks.
-    /// Uncompressed size in bytes at which a chunk ends; the message that reaches it is included.
+    /// Uncompressed size in bytes at which a chunk ends. The message that reaches this size is in the chunk.
     std::size_t chunk_bytes = 1U << 20U;
   };
 
@@ -31,16 +32,16 @@ class McapWriter final : public RecordingWriter {
   /// Like the other constructor, with options.
   McapWriter(const std::filesystem::path& file, const Options& options);
 
-  /// Calls close() if a message or attachment was written, and ignores errors. Otherwise the file keeps its
-  /// old content, or is removed if this object created it.
+  /// Calls close() if a message or attachment was written, and ignores errors of close(). Otherwise the file
+  /// keeps its old content. A file that this object created is then removed.
   ~McapWriter() override;
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
   std::size_t add_topic(const WrittenTopic& topic) override;
 
-  /// Adds a message to the current chunk. Negative times become 0, since MCAP's times are unsigned. If a
-  /// chunk cannot be written, its messages are lost; all chunks before it stay readable.
+  /// Adds a message to the current chunk. Negative times become 0, because MCAP's times are unsigned. If a
+  /// chunk cannot be written, its messages are lost, but all chunks before it stay readable.
   void write(std::size_t topic, std::int64_t log_time_ns, std::int64_t publish_time_ns, const std::byte* data,
              std::size_t size) override;
   void attach(const std::string& name, const std::string& media_type, const std::string& content,

@@ -12,11 +12,11 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A topic to be written.
 struct WrittenTopic {
-  std::string name;        ///< Such as "/bv/objects".
-  std::string type;        ///< Such as "vision_msgs/msg/Detection3DArray".
+  std::string name;        ///< Name, such as "/bv/objects".
+  std::string type;        ///< Type, such as "vision_msgs/msg/Detection3DArray".
   std::string definition;  ///< schema_of(type), for formats that store it.
-  /// Further properties by name. All formats store "offered_qos_profiles" (in rosbag2's YAML form), which is
-  /// empty if it is missing here.
+  /// Further properties by name. All formats store "offered_qos_profiles" (in rosbag2's YAML form). If it is
+  /// missing here, an empty text is stored.
   std::map<std::string, std::string> metadata;
 };
 
@@ -25,20 +25,21 @@ class RecordingWriter {
  public:
   virtual ~RecordingWriter() = default;
 
-  /// Adds a topic and returns its index for write(). Throws IoError; std::length_error after 65 535 topics.
+  /// Adds a topic and returns its index for write(). Throws IoError. Throws std::length_error if there
+  /// are 65535 topics already.
   virtual std::size_t add_topic(const WrittenTopic& topic) = 0;
 
-  /// Writes a message. Times are nanoseconds since 1970. Throws std::out_of_range for an unknown topic, and
-  /// IoError if this message or buffered ones before it cannot be written; the file stays readable.
+  /// Writes a message. Times are nanoseconds since 1970. Throws std::out_of_range for an unknown topic.
+  /// Throws IoError if this message or earlier buffered messages cannot be written. The file stays readable.
   virtual void write(std::size_t topic, std::int64_t log_time_ns, std::int64_t publish_time_ns,
                      const std::byte* data, std::size_t size) = 0;
 
-  /// Adds a file with this content to the recording. Throws IoError.
+  /// Adds a file with this name and content to the recording. Throws IoError.
   virtual void attach(const std::string& name, const std::string& media_type, const std::string& content,
                       std::int64_t log_time_ns) = 0;
 
-  /// Finishes the recording; nothing can be written afterwards. Throws IoError if it could not be written
-  /// completely.
+  /// Finishes the recording. Nothing can be written afterwards. Throws IoError if the recording could not be
+  /// written completely.
   virtual void close() = 0;
 };
 

@@ -10,17 +10,18 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Writes a folder NAME like rosbag2 of Humble: NAME_0.db3 (SQLite) and, at close(), metadata.yaml. Messages
-/// are committed by the first write() that comes 50 ms or more after the first uncommitted one, and by
-/// close(); committed messages survive a crash of the process. attach() writes a file into the folder.
+/// Writes a folder NAME as rosbag2 of Humble does, with NAME_0.db3 (SQLite) and metadata.yaml. close() writes
+/// metadata.yaml. Messages are committed by close() and by the first write() that comes 50 ms or more after
+/// the first uncommitted message. Committed messages survive a crash of the process. attach() writes a file
+/// into the folder.
 class Rosbag2Writer final : public RecordingWriter {
  public:
-  /// Creates the folder if it does not exist. An existing database and metadata.yaml of these names are
+  /// Creates the folder if it does not exist. An existing database and metadata.yaml in the folder are
   /// replaced only at the first message or attachment, or at close(). Throws IoError.
   explicit Rosbag2Writer(const std::filesystem::path& folder);
 
-  /// Calls close() if a message or attachment was written, and ignores errors. Otherwise the folder's content
-  /// stays unchanged.
+  /// Calls close() if a message or attachment was written, and ignores errors of close(). Otherwise the
+  /// folder's content stays unchanged.
   ~Rosbag2Writer() override;
   Rosbag2Writer(const Rosbag2Writer&) = delete;
   Rosbag2Writer& operator=(const Rosbag2Writer&) = delete;

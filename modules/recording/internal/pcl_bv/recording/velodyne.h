@@ -14,7 +14,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A LiDAR return, in metres in the sensor's frame: z up, y at azimuth 0, x at azimuth 90 degrees.
+/// A LiDAR return, in metres in the sensor's frame. z is up, y is at azimuth 0, x is at azimuth 90 degrees.
 struct VelodynePoint {
   float x = 0, y = 0, z = 0;
   float intensity = 0;        ///< 0 to 255.
@@ -26,28 +26,31 @@ struct VelodynePoint {
 struct VelodyneSweep {
   std::int64_t stamp_ns = 0;  ///< Capture time of the first packet, nanoseconds since 1970.
   std::vector<VelodynePoint> points;
-  std::size_t sensor = 0;  ///< Number of the sensor in the capture, in the order of their first packets.
+  std::size_t sensor = 0;  ///< Number of the sensor. Sensors are numbered by their first packets.
 };
 
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns.
 RawCloud raw_cloud_of(const VelodyneSweep& sweep);
 
-/// Returns whether the file is a capture of packets (.pcap, .pcapng), by its first bytes.
+/// Returns whether the first bytes of the file are those of a capture of packets (.pcap, .pcapng).
 bool is_capture(const std::filesystem::path& file);
 
 /// Reads the sweeps in the packets of a VLP-16, HDL-32E or VLP-32C, with single or dual returns (two
-/// identical returns give one point). A sweep is one revolution; the first and the last one may be
-/// incomplete. Late or repeated packets go to their own revolution; packets may be lost.
+/// identical returns give one point). A sweep is one revolution. The first and the last sweep may be
+/// incomplete. Late or repeated packets go to the revolution in which they were measured. Lost packets are
+/// tolerated.
 ///
-/// Sensors are distinguished by address, port and model; several sensors at one address also by azimuths that
-/// do not continue one another. Each sensor has its own sweeps, in the order of their ends. Azimuths are as
-/// in PCL's grabbers: one for each block; the second firing of a VLP-16 is interpolated between two blocks.
-/// Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
+/// Sensors are distinguished by address, port and model. Several sensors at one address are also
+/// distinguished by azimuths that do not continue one another. Each sensor has its own sweeps. The sweeps of
+/// all sensors come in the order in which they are completed. Azimuths are as in PCL's grabbers. There is one
+/// azimuth per block, and the second firing of a VLP-16 is interpolated between two blocks. Sources: the
+/// sensors' manuals (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
   /// Opens a capture. `sensor` (source address and destination port, such as "192.168.1.201:2368") restricts
-  /// it to the packets of one sensor. Throws IoError if the file is not a capture or has no packet of a
-  /// supported sensor, and std::invalid_argument, naming the existing sensors, if none of them is `sensor`.
+  /// the reader to the packets of one sensor. Throws IoError if the file is not a capture or has no packet of
+  /// a supported sensor. Throws std::invalid_argument, naming the existing sensors, if none of them is
+  /// `sensor`.
   explicit VelodyneReader(const std::filesystem::path& file, const std::string& sensor = {});
   ~VelodyneReader();
   VelodyneReader(const VelodyneReader&) = delete;
@@ -58,10 +61,10 @@ class VelodyneReader {
   /// Restarts next() at the beginning of the capture.
   void rewind();
 
-  /// Reads the next sweep. Returns false at the end. Throws IoError if the file cannot be read any more.
+  /// Reads the next sweep. Returns false at the end. Throws IoError if the file can no longer be read.
   bool next(VelodyneSweep& sweep);
 
-  /// Returns the warnings so far, a line each: damaged packets, and that the capture has several sensors.
+  /// Returns the warnings found until now, one line each. They are about damaged packets and several sensors.
   std::vector<std::string> warning_lines() const;
 
  private:

@@ -25,15 +25,15 @@ struct FrameReport {
   std::size_t points = 0;     ///< Number of all points, valid or not.
   Counts counts;              ///< Numbers of dropped points by reason.
   std::vector<ClusterEntry> clusters;
-  std::vector<std::pair<std::string, double>> ms;  ///< Milliseconds by stage, in order.
+  std::vector<std::pair<std::string, double>> ms;  ///< Milliseconds of each stage, in the stages' order.
   std::optional<std::string> error;                ///< Reason of the failure, if any.
 };
 
-/// Returns the frame as one JSON object on one line, without a line end. Numbers are as in report_json();
+/// Returns the frame as one JSON object on one line, without a line end. Numbers are as in report_json().
 /// `track` is null for a cluster without a track.
 std::string frame_json(const FrameReport& report);
 
-/// Like the other overload, with these clusters instead of the report's.
+/// Like the other overload, with the clusters of `clusters` instead of report.clusters.
 std::string frame_json(const FrameReport& report, const ClusterSource& clusters);
 
 }  // namespace pcl_bv

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes volumes as meshes for viewers: .ply for CloudCompare and MeshLab, .vtp and .pvd for ParaView.
+// Writes volumes as meshes for viewers. CloudCompare and MeshLab read .ply files. ParaView reads .vtp and
+// .pvd files.
 #pragma once
 
 #include <cstdint>
@@ -17,34 +18,41 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// File formats of meshes: PLY, and VTK PolyData.
+/// File formats of meshes. ply is the Polygon File Format, vtp is VTK PolyData.
 enum class MeshFormat { ply, vtp };
 
-/// Returns the format of a path's extension (.ply or .vtp in any case); nullopt for all others.
+/// Returns the format of a path's extension (.ply or .vtp in any case). Returns nullopt for all other
+/// extensions.
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
 
 /// Returns the meshes of all volumes (see mesh() of each shape) as the content of one binary_little_endian
-/// .ply file with double coordinates. Vertices have the colour of their cluster or, if there is only one
-/// cluster, of their method, as in pictures. Faces have the id of the cluster and the number of the method;
-/// comments name the methods. A degenerate volume without faces is written as edges, a single point as a
-/// vertex. Empty volumes are left out. Without volumes the file has no vertices.
+/// .ply file with double coordinates. Vertices have the colour of their cluster. If there is only one
+/// cluster, they have the colour of their method, as in pictures. Faces have the id of the cluster and the
+/// number of the method. Comments of the file name the methods. A degenerate volume without faces is written
+/// as edges, and a single point as a vertex. Empty volumes are left out. A file without volumes has no
+/// vertices.
 ///
-/// Throws std::domain_error if a coordinate is not finite, which does not occur in fitted volumes, and
-/// std::length_error for more than 2147483647 vertices.
+/// Throws std::length_error for more than 2147483647 vertices. Throws std::domain_error if a coordinate is
+/// not finite, which does not occur in fitted volumes.
 std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 
-/// Returns the meshes as a VTK PolyData file (XML, ascii); every number has the digits that read back
-/// exactly. Each cell (polygon, line or vertex) has `cluster` (the id), `method` (a number from 0 on, in
-/// order of appearance), `points` and `volume`; if `tracked`, also `track` (-1 without a track), `age` and
-/// `velocity`. The field data `methods` has the methods' names. Throws as volumes_ply().
+/// Returns the meshes as a VTK PolyData file (XML, ascii). Every number has the digits that read back
+/// exactly. Each cell (polygon, line or vertex) has these values:
+/// - `cluster`: the id of the cluster;
+/// - `method`: the number of the method, counted from 0 in order of appearance;
+/// - `points`: the number of points of the cluster;
+/// - `volume`: the volume of the shape;
+/// - if `tracked`, also `track` (the id of the track, -1 without a track), `age` and `velocity`.
+///
+/// The field data `methods` has the names of the methods. Throws as volumes_ply().
 std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked = false);
 
-/// Returns the valid points as a VTK PolyData file with one cell. Each point has its `label`, which is
-/// labels[index of the point].
+/// Returns the valid points as a VTK PolyData file with one cell. The `label` of each point is labels[index
+/// of the point].
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);
 
-/// Writes volumes_ply() or volumes_vtp() to a file through write_file_atomically(). Throws IoError if that
-/// fails.
+/// Writes volumes_ply() or volumes_vtp() to a file through write_file_atomically(). Throws IoError if the
+/// file cannot be written.
 void write_volumes(const std::filesystem::path& path, const std::vector<ClusterEntry>& clusters,
                    MeshFormat format);
 
@@ -55,7 +63,8 @@ struct PvdEntry {
   int part = 0;      ///< Number of the file among those that are shown at the same time.
 };
 
-/// Beginning of a .pvd file, the index of a ParaView time series: kPvdBegin, entries, kPvdEnd.
+/// Beginning of a .pvd file, which is the index of a ParaView time series. The file is kPvdBegin, all
+/// entries, and kPvdEnd.
 inline constexpr std::string_view kPvdBegin =
     "<?xml version=\"1.0\"?>\n"
     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"

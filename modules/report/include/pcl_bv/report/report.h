@@ -22,24 +22,25 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A fitted volume of a cluster.
 struct VolumeEntry {
-  std::string method;  ///< Canonical name, never an alias, such as "dop26".
+  std::string method;  ///< Canonical name of the method, such as "dop26"; never an alias.
   AnyVolume volume;
   std::optional<std::size_t> outside;  ///< Number of points outside by exact arithmetic, if verified.
-  std::string failed{};                ///< Reason if the fit failed (the volume is then empty); else empty.
+  std::string failed{};                ///< Reason if the fit failed (then `volume` is empty), else empty.
 };
 
 /// A tracked object.
 struct TrackEntry {
-  std::uint32_t id = 0;  ///< Unique: never reused for another object.
-  std::size_t age = 0;   ///< Frames since the first detection, that frame included.
-  /// In units of the points per second: in the fixed frame if the sensor's pose is known, else relative to
-  /// the sensor, in the sensor's frame.
+  std::uint32_t id = 0;  ///< Unique. It is never reused for another object.
+  std::size_t age = 0;   ///< Number of frames since the first detection, including the first frame.
+  /// Velocity in units of the points per second. It is in the fixed frame if the sensor's pose is known.
+  /// Otherwise it is relative to the sensor, in the sensor's frame.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  bool moving = false;  ///< Moving over ground if the sensor's motion is known; else relative to the sensor.
+  bool moving = false;  ///< Moving over ground if the sensor's motion is known, else relative to the sensor.
   /// x, y, z of the centre, and the heading (yaw) in radians, in the frame of `velocity`. The yaw is the
-  /// direction of motion over ground; before the object has moved, that of its longer side.
+  /// direction of motion over ground. Before the object has moved, the yaw is the direction of the longer
+  /// side.
   std::array<double, 4> pose{};
-  /// Covariance of x, y, z, yaw, vx, vy, a positive definite matrix: its upper triangle, row by row.
+  /// Covariance of x, y, z, yaw, vx, vy. It is the upper triangle of a positive definite matrix, row by row.
   std::array<double, 21> covariance{};
 
   friend bool operator==(const TrackEntry& a, const TrackEntry& b) {
@@ -53,8 +54,8 @@ struct ClusterEntry {
   std::size_t id = 0;
   std::size_t points = 0;  ///< Number of valid points.
   std::vector<VolumeEntry> volumes;
-  std::optional<std::int64_t> class_value{};  ///< Class of its points, if points are segmented by class.
-  std::optional<TrackEntry> track{};          ///< Its track, if tracking is on and the track is confirmed.
+  std::optional<std::int64_t> class_value{};  ///< Class of the points, if points are segmented by class.
+  std::optional<TrackEntry> track{};          ///< Track, if tracking is on and the track is confirmed.
 };
 
 /// Wall-clock time of each stage in seconds.
@@ -73,7 +74,7 @@ struct CloudInfo : CloudStatistics {
 
 /// The result of one input. If `error` is set, the input failed, and only `file` and `error` are valid.
 struct Report {
-  std::string file;                       ///< As the user named it. Writers replace invalid UTF-8.
+  std::string file;                       ///< Path as the user named it. Writers replace invalid UTF-8.
   std::optional<std::size_t> parts;       ///< Number of inputs, if several inputs are merged into one cloud.
   std::size_t points = 0;                 ///< Number of all points of the input, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
@@ -84,35 +85,38 @@ struct Report {
   std::optional<std::string> error;  ///< Reason of the failure, if any.
 };
 
-/// A sequence of clusters that are created on demand: a vector of a million clusters takes 500 MB.
+/// A sequence of clusters that are created on demand, because a vector of a million clusters takes 500 MB.
 struct ClusterSource {
   std::size_t count = 0;
   std::function<const ClusterEntry&(std::size_t)> at;  ///< Returns a cluster, valid until the next call.
 };
 
-/// Returns a source for the clusters of a vector, which must outlive the source.
+/// Returns a source with the clusters of a vector, which must outlive the source.
 ClusterSource vector_source(const std::vector<ClusterEntry>& clusters);
 
-/// Receives a text piece by piece. It may modify or move from `piece`; its content is not used afterwards.
+/// Receives a text piece by piece. A sink may modify or move from `piece`, whose content is not used
+/// afterwards.
 using TextSink = std::function<void(std::string& piece)>;
 
 /// Returns the report as one JSON object on one line, without a line end.
 ///
-/// Every number has the fewest digits that read back as exactly the same double, so that the volume that is
-/// read back contains the same points. There is no null, NaN or -0. An empty volume has `"empty":true`, and a
-/// volume whose fit failed has `"failed"` with the reason; both have no numbers. Throws std::domain_error if
-/// a number is not finite, which does not occur in fitted volumes.
+/// Every number has the fewest digits that read back as exactly the same double. A volume that is read back
+/// therefore contains the same points. There is no null, NaN or -0. An empty volume has `"empty":true`. A
+/// volume whose fit failed has `"failed"` with the reason. Such volumes have no numbers. Throws
+/// std::domain_error if a number is not finite, which does not occur in fitted volumes.
 std::string report_json(const Report& report);
 
-/// Writes the same text in pieces of about a megabyte, with these clusters instead of the report's.
+/// Writes the text of report_json() to `take` in pieces of about a megabyte, with the clusters of `clusters`
+/// instead of report.clusters.
 void write_report_json(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
-/// Returns the report as a table of at most 120 columns: a line about the file, then a row for each volume
-/// with its centre, size and volume in the unit of the points. Upright boxes have length, width, height and
-/// the yaw (Obb::yaw()) in radians. Numbers are rounded for reading; use JSON for exact values. Returns an
-/// empty text for a failed report.
+/// Returns the report as a table of at most 120 columns. The table is a line about the file, then a row for
+/// each volume with its centre, size and volume in the unit of the points. Upright boxes have length, width,
+/// height and the yaw (Obb::yaw()) in radians. Numbers are rounded for reading. Use JSON for exact values.
+/// Returns an empty text for a failed report.
 std::string report_text(const Report& report);
-/// Writes the same text in pieces, with these clusters instead of the report's.
+/// Writes the text of report_text() to `take` in pieces, with the clusters of `clusters` instead of
+/// report.clusters.
 void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 }  // namespace pcl_bv

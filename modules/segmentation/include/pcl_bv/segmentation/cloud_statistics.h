@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Extent, point spacing and invalid points of a cloud.
+// Box, point spacing and number of invalid points of a cloud.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +17,19 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct CloudStatistics {
   /// Box around the valid points that are not exactly at (0, 0, 0); empty if there are none.
   Aabb box;
-  /// Typical distance from a point to the nearest other point.
+  /// Typical distance from a point to its nearest neighbour, in the unit of the points.
   std::optional<double> spacing;
   /// Number of points that are not valid (is_valid()).
   std::size_t nonfinite = 0;
-  /// Number of points exactly at (0, 0, 0), most likely rays without a return.
+  /// Number of points exactly at (0, 0, 0). Such points are most likely rays without a return.
   std::size_t zero = 0;
 };
 
 /// Computes the statistics of a cloud, with three passes over all points.
 ///
-/// The box and the spacing ignore invalid points and points at (0, 0, 0). The spacing is the median of the
-/// exact distances to the nearest other point, over up to 1000 evenly selected points. It is missing if there
-/// are fewer than two such points. O(n) if spacings do not differ by much.
+/// The box and the spacing ignore invalid points and points at (0, 0, 0). The spacing is the median, over at
+/// most 1000 evenly selected points, of the exact distance to the nearest other point. It is missing if fewer
+/// than two points are left. The cost is O(n) if the spacing is similar in all parts of the cloud.
 CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Euclidean clusters of a PointView, without PCL: the same partition as pcl::EuclideanClusterExtraction.
+// Euclidean clusters of a PointView, without PCL. The partition is that of pcl::EuclideanClusterExtraction.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 enum class Oversized : std::uint8_t {
   drop,  ///< They are dropped.
   keep,  ///< They stay; max_size is ignored.
-  /// Their points are clustered again with half the tolerance and half of tolerance_per_metre, up to three
-  /// times. Clusters that are then still too large are dropped as large, parts below min_size as small.
+  /// The points of such a cluster are clustered again with half the tolerance and half of
+  /// tolerance_per_metre, up to three times. Clusters that are then still too large are dropped and counted
+  /// as large. Parts with fewer than min_size points are dropped and counted as small.
   split
 };
 
@@ -32,24 +33,24 @@ struct ClusterSettings {
   std::size_t min_size = 1;
   /// Clusters with more points are treated as `oversized` says.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
-  /// Smallest number of points, itself included, nearer than the tolerance to a core point (DBSCAN); >= 1.
-  /// With 1 every point is a core point.
+  /// Core condition of DBSCAN, >= 1. A core point has at least this number of points, itself included, nearer
+  /// than the tolerance. With 1 every point is a core point.
   std::size_t min_points = 1;
   /// Growth of the tolerance for each unit of distance from the origin, for sensors whose points are sparser
   /// farther out. Finite and >= 0; must be 0 if min_points is above 1.
   ///
-  /// A point at the distance d has the tolerance tolerance * 2^(i/4), where i is the largest integer for
-  /// which this is at most tolerance + tolerance_per_metre * d. Two points are linked if they are nearer than
-  /// the smaller tolerance.
+  /// A point at the distance d has the tolerance tolerance * 2^(i/4). Here i is the largest integer for which
+  /// this value is at most tolerance + tolerance_per_metre * d. Two points are linked if their distance is
+  /// below the smaller of their tolerances.
   float tolerance_per_metre = 0;
   /// Treatment of clusters with more than max_size points.
   Oversized oversized = Oversized::drop;
 };
 
-/// The clusters of a cloud: the largest first, among equal sizes the one with the smallest point index.
-/// Reusing an object reuses its memory.
+/// The clusters of a cloud. The largest cluster is first; clusters of equal size are ordered by their
+/// smallest point index. Reusing an object reuses its memory.
 struct Clusters {
-  /// Point indices of all clusters, concatenated; ascending within a cluster.
+  /// Point indices of all clusters, concatenated. Within a cluster they are ascending.
   std::vector<std::int32_t> indices;
   std::vector<std::size_t> offsets{0};  ///< Start of each cluster in `indices`; size() + 1 entries.
   std::size_t small_points = 0;         ///< Number of points in clusters with fewer than min_size points.
@@ -65,25 +66,28 @@ struct Clusters {
   const std::int32_t* cluster(std::size_t i) const { return indices.data() + offsets[i]; }
 };
 
-/// Finds Euclidean clusters: the connected components of the graph that links two points if their distance is
-/// below the tolerance.
+/// Finds Euclidean clusters. These are the connected components of the graph that links two points if their
+/// distance is below the tolerance.
 ///
-/// The decision for a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2, where d2 = (dx*dx + dy*dy) +
-/// dz*dz and r2 = tolerance * tolerance are rounded to the scalar type of the points after each operation. So
+/// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2, where d2 = (dx*dx + dy*dy) + dz*dz
+/// and r2 = tolerance * tolerance are rounded to the scalar type of the points after each operation. So
 /// points at exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even
 /// duplicates are linked.
 ///
 /// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996). Linked core points are in one
-/// cluster. A border point, which is linked to core points but is none itself, belongs to the nearest core
-/// point (by d2; among equals to the one with the smallest index), so the result does not depend on the order
-/// of the points. All other points are noise. The size of a cluster includes border points.
+/// cluster. A border point is linked to core points but is not a core point. It belongs to the core point
+/// with the smallest d2, among equals to the one with the smallest index, so the result does not depend on
+/// the order of the points. All other points are noise. The size of a cluster includes border points.
 ///
-/// Method: exact grid DBSCAN (Gunawan 2013, Gan and Tao 2015). Points of a cell of side just under tolerance
-/// / sqrt(3) are always linked; union-find joins cells that are at most two cells apart. O(n) for usual
-/// sensor data, whatever the number of neighbours; O(n^1.5) if dense sheets are just farther apart than the
-/// tolerance. With min_points > 1 there are at most O(n * min_points) more distance tests. A growing
-/// tolerance takes one pass for each factor of 2^(1/4), over the points that reach it: from 0.3 m with 0.01 m
-/// a metre, nine passes within 110 m.
+/// The method is exact grid DBSCAN (Gunawan 2013, Gan and Tao 2015). Points in the same cell are always
+/// linked, because the side of a cell is just under tolerance / sqrt(3). Union-find joins cells that are at
+/// most two cells apart. The cost is O(n) for usual sensor data, whatever the number of neighbours. It is
+/// O(n^1.5) if dense sheets are just farther apart than the tolerance. With min_points > 1 there are at most
+/// O(n * min_points) more distance tests.
+///
+/// With a growing tolerance there is one pass for each factor of 2^(1/4), over the points with at least the
+/// tolerance of the pass. For example, a tolerance of 0.3 m that grows by 0.01 m per metre takes nine passes
+/// for points within 110 m.
 class EuclideanClusterer {
  public:
   /// Allocates nothing until the first extract().
@@ -92,14 +96,16 @@ class EuclideanClusterer {
   EuclideanClusterer(EuclideanClusterer&&) noexcept;
   EuclideanClusterer& operator=(EuclideanClusterer&&) noexcept;
 
-  /// Replaces `clusters` by the clusters of `points`. A point without neighbours is a cluster of one. Points
-  /// that are not valid (is_valid()) are ignored, and a point that is twice in the index list counts once.
+  /// Replaces `clusters` by the clusters of `points`. A point without neighbours is a cluster of size one.
+  /// Points that are not valid (is_valid()) are ignored. A point that is twice in the index list counts once.
   /// Without valid points there are no clusters.
   ///
-  /// The number of threads never changes the result; fewer than 16 384 points or 512 blocks of 64 cells use
-  /// one thread. The memory is retained for later calls: about 50 bytes a point and 150 a block of 64 cells;
-  /// with min_points > 1, 9 and 16 bytes more. From 2^18 blocks on, most memory of the blocks is freed at
-  /// once.
+  /// The number of threads never changes the result. Steps over points use one thread for fewer than 16 384
+  /// points. Steps over blocks of 64 cells use one thread for at most 256 blocks.
+  ///
+  /// The object retains its memory for later calls: about 50 bytes per point and 150 bytes per block. With
+  /// min_points > 1 it retains 10 bytes per point and 16 bytes per block more. For 2^18 or more blocks, each
+  /// call frees most of the memory for blocks before it returns.
   ///
   /// Throws std::invalid_argument if a setting is outside its range or min_size > max_size, and
   /// std::length_error if a point index exceeds 2^31 - 1.

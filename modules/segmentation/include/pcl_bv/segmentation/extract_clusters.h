@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Euclidean clusters as a PCL class: a drop-in replacement of pcl::EuclideanClusterExtraction.
+// Euclidean clusters as a PCL class, a drop-in replacement of pcl::EuclideanClusterExtraction.
 #pragma once
 
 #include <pcl/PointIndices.h>
@@ -25,13 +25,16 @@ class Search;
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Drop-in replacement of pcl::EuclideanClusterExtraction: the same partition (see EuclideanClusterer),
+/// Drop-in replacement of pcl::EuclideanClusterExtraction, with the same partition (see EuclideanClusterer),
 /// setters and defaults. Takes any point type whose x, y, z are consecutive floats or doubles, without
 /// instantiation.
 ///
-/// Differences from PCL: points that are not finite are ignored instead of being undefined behaviour.
-/// Clusters of equal size are in the order of their smallest index. extract() replaces the vector's contents,
-/// where PCL appends. No search tree is needed or used. Errors are exceptions.
+/// Differences from PCL:
+/// - Points that are not finite are ignored. In PCL they are undefined behaviour.
+/// - Clusters of equal size are in the order of their smallest index.
+/// - extract() replaces the vector's contents. In PCL it appends.
+/// - No search tree is needed or used.
+/// - Errors are exceptions.
 template <typename PointT>
 class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
  public:
@@ -42,7 +45,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   using KdTreePtr = std::shared_ptr<KdTree>;
 
   /// Restricts the clusters to the points with these indices. A null pointer of any of these types removes
-  /// the restriction (PCL's base class dereferences some null pointers).
+  /// the restriction. (PCL's base class dereferences some null pointers.)
   void setIndices(const pcl::IndicesPtr& indices) override { indices_ = indices; }
   void setIndices(const pcl::IndicesConstPtr& indices) override {
     indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
@@ -53,25 +56,26 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setIndices(std::nullptr_t) { indices_.reset(); }
   using pcl::PCLBase<PointT>::setIndices;
 
-  /// Ignored; stored only for getSearchMethod(), so that code written for PCL compiles.
+  /// Stores the search tree for getSearchMethod(), so that code written for PCL compiles. extract() ignores
+  /// it.
   void setSearchMethod(const KdTreePtr& tree) { tree_ = tree; }
   KdTreePtr getSearchMethod() const { return tree_; }
 
-  /// Sets the tolerance: points nearer to each other than this are linked. Unit of the points; converted to
-  /// float as in PCL.
+  /// Sets the tolerance. Points nearer to each other than the tolerance are linked. It is in the unit of the
+  /// points and is converted to float as in PCL.
   void setClusterTolerance(double tolerance) { tolerance_ = tolerance; }
   double getClusterTolerance() const { return tolerance_; }
 
-  /// Sets the smallest size: clusters with fewer points are dropped. Default 1.
+  /// Sets the smallest size. Clusters with fewer points are dropped. Default 1.
   void setMinClusterSize(pcl::uindex_t size) { min_size_ = size; }
   pcl::uindex_t getMinClusterSize() const { return min_size_; }
 
-  /// Sets the largest size: clusters with more points are dropped. Default: no limit.
+  /// Sets the largest size. Clusters with more points are dropped. By default there is no limit.
   void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
   pcl::uindex_t getMaxClusterSize() const { return max_size_; }
 
-  /// Sets the number of points of DBSCAN's core condition (ClusterSettings::min_points). Default 1: every
-  /// point is a core point.
+  /// Sets the number of points of DBSCAN's core condition (ClusterSettings::min_points). With the default of
+  /// 1 every point is a core point.
   void setMinPoints(pcl::uindex_t points) { min_points_ = points; }
   pcl::uindex_t getMinPoints() const { return min_points_; }
 
@@ -80,22 +84,22 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setToleranceGrowth(double per_metre) { per_metre_ = per_metre; }
   double getToleranceGrowth() const { return per_metre_; }
 
-  /// Sets the treatment of clusters above the largest size. Default Oversized::drop.
+  /// Sets the treatment of clusters above the largest size. The default is Oversized::drop.
   void setOversized(Oversized rule) { oversized_ = rule; }
   Oversized getOversized() const { return oversized_; }
 
-  /// Sets the number of threads of extract(). 0 means all processors; default 1, the calling thread. Never
-  /// changes the result.
+  /// Sets the number of threads of extract(). 0 means all processors. The default of 1 means the calling
+  /// thread. The number never changes the result.
   void setNumberOfThreads(unsigned threads) { policy_ = Threads{threads}; }
 
-  /// Replaces `clusters` by the clusters of the input cloud, or of its points in setIndices(). The largest
-  /// are first; indices are ascending; each has the header of the cloud. Without finite points there are no
-  /// clusters.
+  /// Replaces `clusters` by the clusters of the input cloud, or of its points given to setIndices(). The
+  /// largest clusters are first. The indices of each cluster are ascending. Each cluster has the header of
+  /// the cloud. Without finite points there are no clusters.
   ///
-  /// Throws std::logic_error without an input cloud and std::out_of_range for an index outside of it. Throws
-  /// std::invalid_argument if the tolerance is not finite and > 0 as a float, if the smallest size exceeds
-  /// the largest, and if the growth is not finite and >= 0, or not 0 with more than one point in
-  /// setMinPoints().
+  /// Throws std::logic_error without an input cloud and std::out_of_range for an index outside of the cloud.
+  /// Throws std::invalid_argument if the tolerance is not finite and > 0 as a float, if the smallest size
+  /// exceeds the largest, if the growth is not finite and >= 0, or if the growth is not 0 and setMinPoints()
+  /// was given more than 1.
   void extract(std::vector<pcl::PointIndices>& clusters) {
     const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_, min_points_,
                                    static_cast<float>(per_metre_), oversized_};

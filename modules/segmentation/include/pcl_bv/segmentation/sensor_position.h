@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Estimates where the sensor of a cloud is. Ground zones, ranges and growing tolerances start at the sensor,
-// which may be far from the origin if the cloud is in the frame of a map.
+// Estimates where the sensor of a cloud is. Ground zones, the ranges of points and growing tolerances are
+// measured from the sensor. If the cloud is in the frame of a map, the sensor may be far from the origin.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,19 +13,23 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Checks whether a sensor at the position `assumed` may have recorded the cloud, and estimates the position
-/// otherwise.
+/// Checks whether a sensor at the position `assumed` may have recorded the cloud. If not, estimates the
+/// position of the sensor.
 ///
-/// The check uses a sample of 1024 valid points, without those at (0, 0, 0), which are rays without a return.
-/// Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR are near: in
-/// recorded sweeps at least 72 % are within 12.5 m of the sensor, and at most 3 % are within 12.5 m of a
-/// position 30 m away from it. So the points lie around `assumed` if 5 % of them are within 12.5 m of it.
-/// They also do if 5 % are within 25 m, as for a sensor that is high up or looks far ahead, and no other
-/// position has half of the points within 12.5 m. Fewer than 100 points lie around any position.
+/// The check uses a sample of at most 1024 valid points, without the points at (0, 0, 0), which are rays
+/// without a return. Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR
+/// are near the sensor: in recorded sweeps at least 72 % of the points are within 12.5 m of the sensor, and
+/// at most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points lie around `assumed`
+/// if one of these holds:
+/// - At least 5 % of the points are within 12.5 m of `assumed`.
+/// - At least 5 % are within 25 m of `assumed`, as for a sensor that is high up or looks far ahead, and no
+///   other position has half of the points within 12.5 m.
+/// - The sample has fewer than 100 points.
 ///
 /// Returns `assumed` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of
 /// the densest position, at the height of `assumed`. The same points give the same bits. O(1) for points in
-/// memory. Throws std::invalid_argument if `up` is 0 or not finite, or `assumed` is not finite.
+/// memory. Throws std::invalid_argument if `up` is 0 or not finite, or if a coordinate of `assumed` is not
+/// from -1e100 to 1e100.
 SensorPosition find_sensor(const PointView& points, const Eigen::Vector3d& up, const Eigen::Vector3d& assumed,
                            GroundScratch& scratch);
 
@@ -36,15 +40,19 @@ struct OtherUp {
 };
 /// Searches another up direction, in which many more points of the cloud are ground.
 ///
-/// The directions are z, -y (a camera's frame), y, -z, x, -x and (0, -1, -1) (a camera that looks down), in
-/// this order, with the distance and slope of `settings`. A direction is accepted if it has a ground plane at
-/// least 0.2 m below `sensor` with at most a tenth as many points below it as near it, and if the share of
-/// points near it is at least 3 % and three times `found`, and at most 95 % (a cloud of one plane has no
-/// clear up direction). If `found` is above 0, only the direction opposite to settings.up is tried, as a wall
-/// may be larger than the ground. Directions close to settings.up are skipped.
+/// The directions are z, -y (a camera's frame), y, -z, x, -x and (0, -1, -1) (a camera that looks down). They
+/// are tried in this order, with the distance and slope of `settings`. Directions close to settings.up are
+/// skipped. `found` is the share of ground points for settings.up. If it is above 0, only the direction
+/// opposite to settings.up is tried, because a wall may be larger than the ground. A direction is accepted if
+/// all of these hold:
+/// - It has a ground plane at least 0.2 m below `sensor`.
+/// - At most a tenth as many points are below the plane as near it.
+/// - The share of points near the plane is at least 3 % and at least three times `found`.
+/// - This share is at most 95 %, because a cloud of one plane has no clear up direction.
 ///
-/// Returns the first accepted direction; nothing if there is none. Takes at most seven plane searches among
-/// 2048 points, some milliseconds each. Throws as split_ground().
+/// Returns the first accepted direction. If there is none, returns nothing. Takes at most seven plane
+/// searches among 2048 points, some milliseconds each. Throws std::invalid_argument if settings.up is 0 or
+/// not finite. The other settings are not checked.
 std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneSettings& settings,
                                      const Eigen::Vector3d& sensor, double found);
 

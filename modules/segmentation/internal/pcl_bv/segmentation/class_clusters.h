@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clusters of points with class labels: points of different classes are never in one cluster.
+// Clusters of points with class labels. Points of different classes are never in the same cluster.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,29 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct ClassSettings {
   /// Value of the class.
   std::int64_t value = 0;
-  /// Settings of its clusters.
+  /// Settings of the clusters of this class.
   ClusterSettings clusters;
   /// Whether the points of this class are left out of all clusters; Clusters::class_points counts them.
   bool drop = false;
 };
 
-/// Runs EuclideanClusterer for each class.
+/// Runs an EuclideanClusterer for the points of each class.
 class ClassClusterer {
  public:
-  /// Replaces `clusters` by the clusters of all classes: the largest first, among equal sizes the one with
-  /// the smallest point index. Sets class_of[i] to the class of cluster i. classes[i] is the class of the
-  /// point with index i. Classes without an entry in `class_settings` use `defaults`.
+  /// Replaces `clusters` by the clusters of all classes. The largest cluster is first; clusters of equal size
+  /// are ordered by their smallest point index. Sets class_of[i] to the class of cluster i. classes[i] is the
+  /// class of the point with index i. Classes without an entry in `class_settings` use `defaults`.
   ///
   /// Without valid points there are no clusters. O(points * log(classes)) in addition to the clustering.
-  /// Throws as EuclideanClusterer does, and std::invalid_argument if `class_settings` has a class twice or a
-  /// point has no entry in `classes`.
+  /// Throws as EuclideanClusterer::extract() does. Throws std::invalid_argument if `class_settings` has a
+  /// class twice or a point has no entry in `classes`.
   void extract(const PointView& points, const std::vector<std::int64_t>& classes,
                const ClusterSettings& defaults, const std::vector<ClassSettings>& class_settings,
                Clusters& clusters, std::vector<std::int64_t>& class_of,
                const ParallelPolicy& policy = Serial{});
 
  private:
-  // The points of a class: numbers_[end - count] to numbers_[end - 1].
+  // The points of a class. Their indices are numbers_[end - count] to numbers_[end - 1].
   struct Group {
     std::int64_t value;
     std::size_t count, end;
@@ -48,7 +48,7 @@ class ClassClusterer {
 
   EuclideanClusterer clusterer_;
   std::vector<Group> groups_;          // ascending by value
-  std::vector<std::int32_t> numbers_;  // point indices, class by class
+  std::vector<std::int32_t> numbers_;  // point indices, ordered by class
   Clusters found_, all_;
   std::vector<std::int64_t> found_class_;
   std::vector<std::size_t> order_;

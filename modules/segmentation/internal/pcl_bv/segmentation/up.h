@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The direction against gravity: parsing, formatting and normalising.
+// Parsing, formatting and normalising of the up direction, the direction against gravity.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +10,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Parses a direction against gravity: `x`, `y`, `z`, `-x`, `-y` or `-z`, or three numbers `X,Y,Z`, finite
-/// and not all 0, which are not normalised. Throws std::invalid_argument for other text, with the text and
-/// what is allowed.
+/// Parses an up direction. `text` is `x`, `y`, `z`, `-x`, `-y` or `-z`, or three finite numbers `X,Y,Z` that
+/// are not all 0. The numbers are not normalised. Throws std::invalid_argument for other text, with the text
+/// and what is allowed.
 Eigen::Vector3d parse_up(std::string_view text);
 
-/// Returns a text that parse_up() reads as this vector: the name of an axis for a unit vector along it, else
-/// `X,Y,Z` with the fewest digits that read back exactly. For a vector that is no direction, parse_up()
-/// rejects the text.
+/// Returns a text that parse_up() reads as this vector. For a unit vector along an axis it is the name of the
+/// axis, else `X,Y,Z` with the fewest digits that read back exactly. parse_up() rejects the text of a vector
+/// that is 0 or not finite.
 std::string format_up(const Eigen::Vector3d& up);
 
 /// Returns the unit vector along `up`, which may have any length above 0. It is exact along an axis, and has

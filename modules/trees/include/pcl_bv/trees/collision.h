@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Collision checks between point clouds and volumes, one of which has moved.
+// Collision checks between point clouds and volumes. One of the two may be moved by a pose.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,17 +17,17 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Volumes that move together, such as the links of an arm in one posture, prepared for collision checks.
 ///
-/// Preparing takes about 50 us for each k-DOP and hull, less for other types. Volumes are identified by their
-/// index in the list. Empty volumes touch nothing. Copies are cheap and share the data.
+/// Preparing takes about 50 us per k-DOP or hull, and less per volume of another type. Volumes are identified
+/// by their index in the list. Empty volumes touch nothing. Copies are cheap because they share the data.
 class MovingVolumes {
  public:
   /// Prepares the volumes.
   explicit MovingVolumes(std::vector<AnyVolume> volumes);
 
-  /// Returns the volumes as given.
+  /// Returns the volumes passed to the constructor.
   const std::vector<AnyVolume>& volumes() const;
 
-  // Internal: the prepared volumes.
+  // Internal. The prepared volumes.
   struct State;
   const State& state() const { return *state_; }
 
@@ -37,33 +37,34 @@ class MovingVolumes {
 
 /// Returns whether any point of one cloud is within `margin` of a point of the other.
 ///
-/// `pose` transforms `others` to the frame of `points`. The result is never false for a point p and the image
-/// of a point q that are within the margin by exact arithmetic on the stored matrix. It may be true for
-/// points that are farther apart by about 1e-15 of the coordinates. It is false if either tree has no points.
-/// All functions here throw std::invalid_argument unless the margin is from 0 to 1e100 and the pose is
-/// finite.
+/// `pose` transforms `others` to the frame of `points`. The result is never false if, by exact arithmetic on
+/// the stored matrix, a point p and the image of a point q are within the margin. It may be true for points
+/// that are farther apart than the margin by about 1e-15 of the coordinates. It is false if either tree has
+/// no points. All functions in this header throw std::invalid_argument unless the margin is from 0 to 1e100
+/// and the pose is finite.
 bool within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
 /// Returns whether any point is within `margin` of a volume that `pose` has moved.
 ///
-/// The distance of a near point is distance() from the moved ConvexBody. So the result is never false for a
-/// point within the margin, and it may be true for a point that is farther by the rounding that
+/// The distance of a point is distance() of the point from the moved ConvexBody. So the result is never false
+/// for a point within the margin. It may be true for a point that is farther by the rounding error that
 /// pair_queries.h states.
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// Replaces `indices` by the indices of the volumes within `margin` of a point, ascending.
+/// Replaces `indices` by the indices of the volumes that are within `margin` of any point, ascending.
 void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
                  double margin, std::vector<std::int32_t>& indices);
 
 /// Returns whether a volume of `volumes` is within `margin` of a volume of `others` that `pose` has moved.
-/// within() of their ConvexBodies decides; it is never false for two volumes within the margin.
+/// The result for a pair is that of within() of the two ConvexBodies. It is never false for two volumes
+/// within the margin.
 bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// Replaces `pairs` by the pairs of indices (in `volumes`, in `others`) of all volumes within `margin`,
-/// ascending.
+/// Replaces `pairs` by the index pairs (in `volumes`, in `others`) of all volumes within `margin` of each
+/// other, ascending.
 void list_within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                  double margin, std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Search trees over points that arrive batch by batch, e.g. a growing map or the last sweeps.
+// A set of search trees over points that arrive in batches, e.g. a growing map or the last sweeps.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A point of a forest and its squared distance, computed as in Neighbor.
+/// A point of a forest and its squared distance from the query point, computed as in Neighbor.
 struct ForestNeighbor {
   /// Number of the point in the forest.
   std::uint64_t number;
@@ -31,30 +31,30 @@ inline bool operator<(const ForestNeighbor& a, const ForestNeighbor& b) {
 
 /// How the batches of a PointForest are stored.
 enum class ForestTrees : std::uint8_t {
-  merged,  ///< O(log n) trees (Bentley, Saxe 1980): successive batches share a tree.
-  kept     ///< One tree for each batch; drop_oldest() removes the oldest.
+  merged,  ///< In O(log n) trees (Bentley, Saxe 1980); successive batches share a tree.
+  kept     ///< In one tree per batch; drop_oldest() removes the oldest.
 };
 
-/// Several PointTrees that are queried as one; queries give the same results as one PointTree of all points.
+/// Several PointTrees that are queried as one. Queries give the same results as one PointTree of all points.
 ///
-/// Points are numbered from 0 in the order of insertion, including invalid points; the indices of the views
+/// Points are numbered from 0 in the order of insertion, including invalid points. The indices of the views
 /// are ignored. Numbers are never reused.
 ///
-/// `merged`: insert() rebuilds the newest trees and the new batch as one tree until each tree has at least
-/// twice as many points as the next. So there are at most log2(n) + 1 trees. A rebuild puts the points of an
-/// older tree into a tree at least 1.5 times as large. `kept`: there are as many trees as batches, and a
-/// query visits them all.
+/// With ForestTrees::merged, insert() rebuilds the newest trees and the new batch as one tree until each tree
+/// has at least twice as many points as the next. So there are at most log2(n) + 1 trees. A rebuild puts the
+/// points of an older tree into a tree at least 1.5 times as large. With ForestTrees::kept, there are as many
+/// trees as batches, and a query visits them all.
 ///
-/// Const member functions may be called from several threads at once.
+/// Const member functions may be called from several threads at the same time.
 class PointForest {
  public:
-  /// A forest without points.
+  /// Makes a forest without points.
   explicit PointForest(ForestTrees trees = ForestTrees::merged) : kind_(trees) {}
 
-  /// Adds the n visited points of a view, with or without an index list, and builds a tree of them. With
-  /// `merged`, each of N points is rebuilt O(log N) times in all. Throws std::invalid_argument, and changes
-  /// nothing, as the constructor of PointTree does, and if a merged tree would have more than 2^31 - 1
-  /// points.
+  /// Adds the n visited points of a view, with or without an index list, and builds a tree of these points.
+  /// With ForestTrees::merged, each of N points is rebuilt O(log N) times in all. Throws
+  /// std::invalid_argument, and changes nothing, in the cases in which the constructor of PointTree throws,
+  /// and if a merged tree would have more than 2^31 - 1 points.
   void insert(const PointView& points, const Execution& execution = {});
 
   /// Removes the oldest batch, if there is one. Throws std::logic_error for ForestTrees::merged.
@@ -65,7 +65,7 @@ class PointForest {
   /// Number of trees.
   std::size_t trees() const { return trees_.size(); }
 
-  /// As the PointTree member functions of the same name, with forest numbers instead of indices.
+  /// Like the PointTree member functions of the same name, with forest numbers instead of indices.
   std::optional<ForestNeighbor> nearest(const Eigen::Vector3d& place,
                                         double max_distance = std::numeric_limits<double>::infinity()) const;
   void nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<ForestNeighbor>& found,
@@ -75,7 +75,7 @@ class PointForest {
 
  private:
   struct Tree {
-    PointTree tree;       // with its own indices from 0
+    PointTree tree;       // its point indices start at 0
     std::uint64_t first;  // forest number of its first point
     std::uint64_t count;  // number of points, including invalid ones
   };

@@ -20,15 +20,16 @@ class VolumeBoxes;
 
 /// A volume inflated by `padding` in every direction. The padding is in the unit of the points, 0 to 1e100.
 ///
-/// The inflated volume has the same type and holds, by exact arithmetic, every point within `padding` of the
-/// volume. Each number is rounded up. An empty volume stays empty.
-/// - Sphere, Capsule: the radius grows by the padding. The result holds no other points.
-/// - Aabb, Obb: the half extents grow, so corners stay sharp. Cylinder: radius and half height grow.
-/// - Kdop, Hull: each plane moves outward. The edge between two planes at an interior angle a moves by
-///   padding / sin(a / 2), so sharp edges move farther.
-/// - Ellipsoid: a radius r becomes sqrt(r^2 + padding^2 + padding (r^2 / m + m)). The m between the smallest
-///   and the largest radius is chosen so that the volume is nearly minimal (Kurzhanski, Valyi 1997). Equal
-///   radii become r + padding; unequal radii have to grow by more.
+/// The inflated volume has the same type. It holds, by exact arithmetic, every point within `padding` of the
+/// volume, because each of its numbers is rounded up. An empty volume stays empty.
+/// - Sphere and Capsule: the radius grows by the padding. The result holds no other points.
+/// - Aabb and Obb: the half extents grow by the padding, so corners stay sharp.
+/// - Cylinder: the radius and the half height grow by the padding.
+/// - Kdop and Hull: each plane moves outward by the padding. The edge between two planes at an interior angle
+///   a moves by padding / sin(a / 2), so sharp edges move farther.
+/// - Ellipsoid: a radius r becomes sqrt(r^2 + padding^2 + padding (r^2 / m + m)). The number m between the
+///   smallest and the largest radius is chosen so that the volume is nearly minimal (Kurzhanski, Valyi 1997).
+///   Equal radii become r + padding; unequal radii have to grow by more.
 struct Region {
   /// The volume before inflation.
   AnyVolume volume;
@@ -38,25 +39,25 @@ struct Region {
 
 /// Tests points against the union of inflated volumes.
 ///
-/// Const member functions may be called from several threads at once. Copies are independent.
+/// Const member functions may be called from several threads at the same time. Copies are independent.
 class RegionMask {
  public:
   /// Inflates the volumes. Without regions nothing is inside. Throws std::invalid_argument, with the value
   /// and the range, for a padding outside 0 to 1e100.
   explicit RegionMask(const std::vector<Region>& regions);
 
-  /// Returns whether contains() holds for any of the inflated volumes; with padding 0, of the volumes
-  /// themselves. Points within rounding of a surface may be taken as inside, as contains() of each type says.
-  /// Returns false if is_valid() does not hold for the point.
+  /// Returns whether contains() holds for any of the inflated volumes. With padding 0 these are the volumes
+  /// themselves. Points within rounding of a surface may be treated as inside, as contains() of each type
+  /// documents. Returns false if is_valid() does not hold for the point.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// Resizes `inside` to points.count and sets inside[i] to 1 where contains() holds for the i-th visited
-  /// point, else to 0. Points with a NaN or an infinity get 0.
+  /// Resizes `inside` to points.count. Sets inside[i] to 1 if contains() holds for the i-th visited point,
+  /// else to 0. Points with a NaN or an infinity get 0.
   ///
   /// The result is the same for every Execution; Execution::supports is ignored. Exceptions of a PointSource
-  /// pass through. Up to kFewRegions regions each point is tested against all of them, which is cheap for
-  /// those whose boxes are far away, and only `inside` is allocated. More regions are looked up in a tree for
-  /// each run of points.
+  /// pass through. With at most kFewRegions regions, each point is tested against all regions, which is cheap
+  /// for regions whose boxes are far away, and only `inside` is allocated. With more regions, the regions
+  /// near each run of points are looked up in a tree if this is cheaper.
   void mark(const PointView& points, std::vector<std::uint8_t>& inside,
             const Execution& execution = {}) const;
 

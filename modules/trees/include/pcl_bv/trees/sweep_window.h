@@ -17,46 +17,47 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A sliding window over a sensor's last sweeps, for bounding volumes of all points in the window.
 ///
-/// It stores a Partial for each sweep, not the points themselves. Adding a sweep costs a Partial of it and
-/// two merges on average, whatever the size of the window.
+/// The window stores a Partial for each sweep, not the points themselves. Adding a sweep costs one Partial of
+/// the sweep and two merges on average, whatever the size of the window.
 ///
 /// The volumes are bit by bit those of one Partial of all points in the window, with the indices that add()
-/// gives them. They are also bit by bit those of a fit of all these points, except for the methods that
-/// Partial names and the methods that begin with moments.
+/// gives to the points. They are also bit by bit those of a fit of all these points, except for the methods
+/// that Partial names and the methods that begin with moments.
 ///
-/// Not thread-safe: merged() also changes the object.
+/// Not thread-safe, because the const function merged() changes the object.
 class SweepWindow {
  public:
-  /// An empty window for the last `sweeps` sweeps. Throws std::invalid_argument for 0.
+  /// Makes an empty window for the last `sweeps` sweeps. Throws std::invalid_argument for 0.
   explicit SweepWindow(std::size_t sweeps);
 
   /// Adds the newest sweep, and drops the oldest if the window is full.
   ///
-  /// Points are numbered as they arrive: the indices continue those of the sweep before, and the indices of
-  /// the view are ignored. Throws as Partial does (for example for a view with an index list), and
-  /// std::invalid_argument if the window has points of the other scalar type. Then nothing is changed.
+  /// Points are numbered in the order of insertion: the first index of a sweep follows the last index of the
+  /// previous sweep. The indices of the view are ignored. Throws as Partial does (for example for a view with
+  /// an index list). Throws std::invalid_argument if the window has points of the other scalar type. If it
+  /// throws, nothing is changed.
   void add(const PointView& points, const Execution& execution = {});
 
-  /// Drops the oldest sweep. Without sweeps it does nothing.
+  /// Drops the oldest sweep, if there is one.
   void drop_oldest();
 
   std::size_t capacity() const { return capacity_; }                    ///< Largest number of sweeps.
   std::size_t size() const { return oldest_.size() + newest_.size(); }  ///< Number of sweeps.
-  std::size_t point_count() const { return points_; }   ///< Number of points of these sweeps, valid or not.
+  std::size_t point_count() const { return points_; }   ///< Number of points in the window, valid or not.
   std::uint64_t first_index() const { return first_; }  ///< Index of the first point in the window.
 
-  /// Returns the Partial of all points in the window: fit() takes any method for which Partial::can_fit()
-  /// holds. It has no points if there is no sweep. The first call after a change costs one merge, later calls
-  /// nothing. The reference is valid until the window changes.
+  /// Returns the Partial of all points in the window, which fit() takes for any method for which
+  /// Partial::can_fit() holds. Without sweeps the Partial has no points. The first call after a change costs
+  /// one merge. Later calls return the stored Partial. The reference is valid until the window changes.
   const Partial& merged() const;
 
  private:
-  // A queue of two stacks, as a sweep cannot be taken out of a merged Partial. add() pushes to newest_ and
-  // merges into newest_merged_. drop_oldest() pops from oldest_, in which each entry is merged with all that
-  // are newer. If oldest_ is empty, refill_oldest() moves all of newest_ there. So each sweep is merged
-  // twice.
+  // The window is a queue of two stacks, because a sweep cannot be removed from a merged Partial. add()
+  // pushes the sweep to newest_ and merges it into newest_merged_. drop_oldest() pops from oldest_, in which
+  // each entry is merged with all newer entries. If oldest_ is empty, refill_oldest() moves all of newest_
+  // there. So each sweep is merged twice.
   struct Sweep {
-    Partial merged;  // in oldest_: merged with all newer sweeps in oldest_
+    Partial merged;  // an entry of oldest_ is merged with all newer entries
     std::size_t points;
   };
 
@@ -68,7 +69,7 @@ class SweepWindow {
   Partial newest_merged_;
   std::uint64_t first_ = 0;
   std::size_t points_ = 0;
-  ScalarType scalar_ = ScalarType::float32;  // of all points in the window
+  ScalarType scalar_ = ScalarType::float32;  // scalar type of all points in the window
   mutable std::optional<Partial> merged_;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A search tree over volumes: which of them hold a point, are hit by a ray or are near another volume.
+// A search tree over volumes. It finds the volumes that hold a point, are hit by a ray or are near another
+// volume.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,17 +18,17 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Bounds of the tree's nodes. Every node has an axis-aligned box; 16 boxes are tested at a time. The other
-/// bounds are tested only where the boxes do not decide. The choice changes no result.
+/// Bounds of the tree's nodes. Every node has an axis-aligned box; 16 boxes are tested at a time. Slabs or
+/// spheres are tested in addition to the boxes and exclude more nodes. The kind of bounds changes no result.
 enum class NodeBounds : std::uint8_t {
-  aabb,  ///< Boxes only: the cheapest to build and to refit.
-  /// Boxes, and slabs along the diagonals of the cube (Klosowski et al. 1998). Building takes five times as
+  aabb,  ///< Boxes only. They are the cheapest to build and to refit.
+  /// Boxes and slabs along the diagonals of the cube (Klosowski et al. 1998). Building takes five times as
   /// long as with boxes only.
   dop14,
-  sphere  ///< Boxes, and spheres. Building takes twice as long as with boxes only.
+  sphere  ///< Boxes and spheres. Building takes twice as long as with boxes only.
 };
 
-/// A volume of a tree and the part of a ray inside of it.
+/// A volume of a tree and the part of a ray inside the volume.
 struct VolumeHit {
   /// Index of the volume.
   std::int32_t index;
@@ -41,47 +42,47 @@ struct VolumeDistance {
   double distance;
 };
 
-/// A ray: origin + t direction, t >= 0.
+/// A ray, i.e. all points origin + t direction with t >= 0.
 struct Ray {
   Eigen::Vector3d origin;
-  Eigen::Vector3d direction;  ///< Of any length; t counts multiples of it.
+  Eigen::Vector3d direction;  ///< Has any length; t is in multiples of the length.
 };
 
 /// A search tree over volumes of any types.
 ///
-/// Volumes are identified by their index in the list that the tree was built from; frame and unit are those
-/// of the volumes. Every query gives the result of calling the volumes' own member functions one after
-/// another; bounds only skip volumes that cannot change the result. Output lists are replaced and in
+/// Volumes are identified by their index in the list that the tree was built from. Frame and unit are those
+/// of the volumes. Every query gives the same result as calling the volumes' own member functions one after
+/// another; bounds only skip volumes that cannot change the result. Output lists are replaced and are in
 /// ascending order of index. Empty volumes are never found.
 ///
-/// The volumes are in the order of a balanced k-d tree of their centres. Each 16 volumes have a box, each 16
-/// boxes have a common box, and so on. Volumes without a known box, such as hulls whose planes bound no body,
-/// are tested in every query. Ellipsoids with one radius more than 2^20 times another are tested for every
-/// ray.
+/// The volumes are in the order of a balanced k-d tree of their centres. Each 16 volumes have a common box,
+/// each 16 boxes have a common box, and so on. Volumes without a known box, such as hulls whose planes bound
+/// no body, are tested in every query. Ellipsoids with a radius more than 2^20 times another are tested for
+/// every ray.
 ///
-/// Const member functions may be called from several threads at once. Copies are independent.
+/// Const member functions may be called from several threads at the same time. Copies are independent.
 class VolumeTree {
  public:
   /// A tree without volumes.
   VolumeTree();
 
-  /// Builds the tree. O(n log n): 0.2 us for each sphere with boxes only, 2.5 us for an Obb, whose aabb() is
-  /// exact. The tree is the same for every Execution. Throws std::invalid_argument for more than 2^31 - 1
-  /// volumes and unless Execution::supports is null.
+  /// Builds the tree. O(n log n). Takes 0.2 us per Sphere with boxes only. Takes 2.5 us per Obb, because its
+  /// aabb() is exact. The tree is the same for every Execution. Throws std::invalid_argument for more than
+  /// 2^31 - 1 volumes, or if Execution::supports is not null.
   explicit VolumeTree(std::vector<AnyVolume> volumes, NodeBounds bounds = NodeBounds::aabb,
                       const Execution& execution = {});
 
-  /// Replaces each volume by the volume of the same index, e.g. after they have moved. O(n).
+  /// Replaces each volume by the volume of the same index, e.g. after the volumes have moved. O(n).
   ///
-  /// Queries give the same results as on a new tree, which is faster to query if the volumes have moved far.
-  /// Throws std::invalid_argument, and changes nothing, if the number of volumes differs or
+  /// Queries give the same results as on a new tree. A new tree is faster to query if the volumes have moved
+  /// far. Throws std::invalid_argument, and changes nothing, if the number of volumes differs or
   /// Execution::supports is not null.
   void refit(std::vector<AnyVolume> volumes, const Execution& execution = {});
 
   std::size_t size() const;  ///< Number of volumes, including empty ones.
   /// Returns the volumes in the order of their indices.
   const std::vector<AnyVolume>& volumes() const;
-  /// Returns the bounds of the nodes.
+  /// Returns the kind of bounds of the nodes.
   NodeBounds node_bounds() const;
 
   /// Returns whether contains() holds for any volume.
@@ -89,8 +90,9 @@ class VolumeTree {
   /// Lists the volumes for which contains() holds.
   void all_containing(const Eigen::Vector3d& point, std::vector<std::int32_t>& indices) const;
 
-  /// Returns the volume that the ray origin + t direction, t >= 0, enters first: of the volumes for which
-  /// intersect() gives an interval the one with the smallest `enter`, and the smallest index among equals.
+  /// Returns the volume that the ray origin + t direction, t >= 0, enters first. Among the volumes for which
+  /// intersect() gives an interval, this is the one with the smallest `enter`, and among equals the one with
+  /// the smallest index.
   std::optional<VolumeHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Lists all volumes that the ray hits.
@@ -100,24 +102,24 @@ class VolumeTree {
   /// Lists the volumes whose aabb() overlaps the box.
   void all_with_box_overlapping(const Aabb& box, std::vector<std::int32_t>& indices) const;
 
-  /// Lists the volumes that overlap `volume`, as overlaps() of pair_queries.h decides. Makes a ConvexBody of
-  /// each volume whose box overlaps.
+  /// Lists the volumes that overlap `volume`, as overlaps() of pair_queries.h decides. Builds a ConvexBody of
+  /// each volume whose box overlaps the box of `volume`.
   void all_overlapping(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
 
-  /// Returns the volume nearest to the point, if its distance() is at most `max_distance`; the smallest index
-  /// among equals. Returns nothing for a point with a NaN. Throws std::invalid_argument if max_distance is
-  /// negative or NaN.
+  /// Returns the volume nearest to the point, if its distance() is at most `max_distance`. Among equally near
+  /// volumes it is the one with the smallest index. Returns nothing for a point with a NaN. Throws
+  /// std::invalid_argument if max_distance is negative or NaN.
   std::optional<VolumeDistance> nearest(const Eigen::Vector3d& point,
                                         double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Sets first[i] to the smallest index of the volumes that contain the i-th visited point, or to -1 if
-  /// there is none. Resizes `first` to points.count. The result is the same for every Execution. Exceptions
-  /// of a PointSource pass through.
+  /// Resizes `first` to points.count. Sets first[i] to the smallest index of the volumes that contain the
+  /// i-th visited point, or to -1 if there is none. The result is the same for every Execution. Exceptions of
+  /// a PointSource pass through.
   void first_containing(const PointView& points, std::vector<std::int32_t>& first,
                         const Execution& execution = {}) const;
 
-  /// Sets hits[i] to first_hit() of rays[i], with index -1 if it hits nothing. Resizes `hits`. The result is
-  /// the same for every Execution.
+  /// Resizes `hits` to the number of rays. Sets hits[i] to first_hit() of rays[i], or its index to -1 if the
+  /// ray hits nothing. The result is the same for every Execution.
   void first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,
                   const Execution& execution = {}) const;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bounds of tree nodes: minimum and maximum projections on the first directions of kCubeDirections.
+// Bounds of tree nodes, namely minimum and maximum projections on the first directions of kCubeDirections.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,40 +14,41 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A k-DOP with fixed directions: all p with min[i] <= d . p <= max[i] for the first N directions d of
-/// kCubeDirections. N = 3 is a box, 7 a 14-DOP, 13 a 26-DOP (Klosowski et al. 1998).
+/// A k-DOP with fixed directions. It is the set of all points p with min[i] <= d . p <= max[i] for the first
+/// N directions d of kCubeDirections. N = 3 is a box, 7 a 14-DOP and 13 a 26-DOP (Klosowski et al. 1998).
 ///
 /// T is float or double. Bounds are rounded outward, so the bounded object stays inside by exact arithmetic.
-/// Frame and unit are those of the bounded object. Unlike Kdop it has no pointer to a direction set;
-/// comparing two takes about 5 ns.
+/// Frame and unit are those of the bounded object. Unlike Kdop it has no pointer to a direction set, so
+/// overlaps() takes only about 5 ns.
 ///
-/// The empty bounds (the identity of merge) have min = +infinity and max = -infinity.
+/// The empty bounds (the identity of merge()) have min = +infinity and max = -infinity.
 template <std::size_t N, typename T>
 struct SlabBounds {
   static_assert(N == 3 || N == 7 || N == 13);
 
   std::array<T, N> min, max;
 
-  /// The empty bounds.
+  /// Makes the empty bounds.
   SlabBounds() {
     min.fill(std::numeric_limits<T>::infinity());
     max.fill(-std::numeric_limits<T>::infinity());
   }
 
-  /// The tightest bounds of a box.
+  /// Makes the tightest bounds of a box.
   explicit SlabBounds(const Aabb& box);
 
-  /// Bounds of a volume, by exact arithmetic on its definition. Empty for an empty volume.
+  /// Makes bounds of a volume, by exact arithmetic on its definition. They are empty for an empty volume.
   ///
-  /// They are tight to a few units in the last place of the coordinates and 1e-12 of the size; for a k-DOP or
-  /// hull to 2^-46 of the weights that prove the bound. They are infinite where the planes of a Hull prove no
-  /// bound. Takes about 1 us; 10 to 100 us for a k-DOP or hull, whose bounds are linear programs.
+  /// The bounds are tight to a few units in the last place of the coordinates and 1e-12 of the size. For a
+  /// k-DOP or hull they are tight to 2^-46 of the weights that prove the bound. They are infinite where the
+  /// planes of a Hull prove no bound. Takes about 1 us, or 10 to 100 us for a k-DOP or hull, because each of
+  /// its bounds is a linear program.
   explicit SlabBounds(const AnyVolume& volume);
 
   /// Returns whether the bounds are empty.
   bool empty() const { return !(min[0] <= max[0]); }
 
-  /// Grows to hold the other bounds: exact, commutative and associative.
+  /// Extends the bounds to hold the other bounds. The operation is exact, commutative and associative.
   SlabBounds& merge(const SlabBounds& other) {
     for (std::size_t i = 0; i < N; ++i) {
       min[i] = std::min(min[i], other.min[i]);
@@ -56,8 +57,8 @@ struct SlabBounds {
     return *this;
   }
 
-  /// Returns whether all slabs overlap those of the other bounds, by exact comparison. False proves that no
-  /// point is in both. False if either is empty.
+  /// Returns whether each slab overlaps that of the other bounds, by exact comparison. If it returns false,
+  /// no point is in both bounds. Returns false if either is empty.
   bool overlaps(const SlabBounds& other) const {
     bool all = true;
     for (std::size_t i = 0; i < N; ++i)
@@ -65,8 +66,8 @@ struct SlabBounds {
     return all;
   }
 
-  /// Returns whether the point may be inside. Points outside are taken as inside only within the rounding of
-  /// a sum of three doubles. False for empty bounds and for a point with a NaN.
+  /// Returns whether the point may be inside. Points outside are accepted only within the rounding error of a
+  /// sum of three doubles. Returns false for empty bounds and for a point with a NaN.
   bool contains(const Eigen::Vector3d& point) const;
 };
 

@@ -13,8 +13,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of an Aabb, rounded outward so that it encloses the box. Bounds beyond the range of float are
-/// rounded outward, too: to infinity if necessary.
+/// A float copy of an Aabb, rounded outward so that it encloses the box. A bound beyond the range of float
+/// becomes the largest finite float or infinity.
 struct FloatAabb {
   Eigen::Vector3f min;
   Eigen::Vector3f max;
@@ -23,9 +23,9 @@ struct FloatAabb {
 /// An axis-aligned box in the frame and unit of its points: the closed set of all p with min <= p <= max in
 /// each coordinate.
 ///
-/// The empty box has min = +infinity and max = -infinity; merging it into another box changes nothing. A flat
-/// box (min equal to max along one, two or all three axes) is a valid volume. Coordinates beyond 1e100 may
-/// overflow in functions that multiply them, such as volume().
+/// The empty box has min = +infinity and max = -infinity; merging the empty box into another box changes
+/// nothing. A flat box (min equal to max along one, two or all three axes) is a valid volume. Coordinates
+/// beyond 1e100 may overflow in functions that multiply them, such as volume().
 class Aabb {
  public:
   /// Makes the empty box.
@@ -68,8 +68,9 @@ class Aabb {
   /// Returns whether the boxes have a point in common, compared exactly. False if either box is empty.
   bool overlaps(const Aabb& other) const;
 
-  /// Returns the eight corners. Corner i has max x if bit 0 of i is set, max y if bit 1 is set and max z if
-  /// bit 2 is set, else min. The corners of an empty box are infinite and meaningless.
+  /// Returns the eight corners. Corner i has the maximum x if bit 0 of i is set, the maximum y if bit 1 is
+  /// set and the maximum z if bit 2 is set, otherwise the minimum of the coordinate. The corners of an empty
+  /// box are infinite and meaningless.
   std::array<Eigen::Vector3d, 8> corners() const;
 
   /// Returns the box itself.
@@ -79,14 +80,15 @@ class Aabb {
   Mesh mesh() const;
 
   /// Returns the axis-aligned box of the transformed box. It contains every transformed point of this box, by
-  /// exact arithmetic on the stored matrix. Each max is the smallest such double and each min the largest;
-  /// if a product is below 1e-289, the box may be larger by about 1e-307.
+  /// exact arithmetic on the stored matrix. Each max is rounded up to the next double, and each min is
+  /// rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
   Aabb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the box to contain the point. A point with a coordinate that is not finite is ignored.
   Aabb& extend(const Eigen::Vector3d& point);
 
-  /// Enlarges the box to contain the other box. Exact, commutative and associative.
+  /// Enlarges the box to contain the other box. The result is exact, so merging is commutative and
+  /// associative.
   Aabb& merge(const Aabb& other);
 
   /// Returns a float copy that encloses the box.

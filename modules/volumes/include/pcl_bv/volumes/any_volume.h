@@ -25,7 +25,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A volume of any kind.
 using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb, Cylinder, Capsule, Ellipsoid, Hull>;
 
-/// The functions below call the member function of the same name of the volume held.
+/// The functions below call the member function with the same name of the stored volume.
 bool empty(const AnyVolume& volume);
 bool contains(const AnyVolume& volume, const Eigen::Vector3d& point);
 double volume(const AnyVolume& volume);
@@ -39,8 +39,8 @@ Aabb aabb(const AnyVolume& volume);
 Mesh mesh(const AnyVolume& volume);
 AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transform);
 
-/// Returns the name of the shape in results: "aabb", "kdop", "sphere", "obb", "cylinder", "capsule",
-/// "ellipsoid" or "hull".
+/// Returns the name of the volume's type as used in results: "aabb", "kdop", "sphere", "obb", "cylinder",
+/// "capsule", "ellipsoid" or "hull".
 std::string_view shape_name(const AnyVolume& volume);
 
 }  // namespace pcl_bv

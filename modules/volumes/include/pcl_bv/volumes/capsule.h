@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A capsule in the frame and unit of its points: the closed set of all p whose distance from the segment
 /// from a to b is at most the radius.
 ///
-/// The empty capsule has radius -1 and ends NaN. A capsule with equal ends is a sphere, one with radius 0 a
-/// segment. Coordinates beyond 1e100 are not supported.
+/// The empty capsule has radius -1 and ends NaN. A capsule with equal ends is a sphere. A capsule with radius
+/// 0 is a segment. Coordinates beyond 1e100 are not supported.
 class Capsule {
  public:
   /// Makes the empty capsule.
@@ -51,19 +51,20 @@ class Capsule {
   /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the capsule; see RayInterval.
-  /// Computed by Sphere::intersect() and Cylinder::intersect(), with their error bounds.
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the capsule; see RayInterval. The
+  /// result is computed by Sphere::intersect() and Cylinder::intersect() and has their error bounds.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns the smallest box of doubles that encloses the capsule by exact arithmetic.
   Aabb aabb() const;
 
-  /// Returns two half spheres and the tube between them, with 24 sides and vertices on the surface. An empty
-  /// mesh if empty.
+  /// Returns the mesh of two half spheres and the tube between them. It has 24 sides, and its vertices are on
+  /// the surface. An empty mesh if empty.
   Mesh mesh() const;
 
   /// Returns the transformed capsule. It contains every transformed point of this capsule, by exact
-  /// arithmetic. The radius grows by the rounding error of the ends and by the stretch of the stored matrix.
+  /// arithmetic. The radius grows by the rounding error of the ends and by the scaling error of the stored
+  /// matrix.
   Capsule transformed(const Eigen::Isometry3d& transform) const;
 
  private:

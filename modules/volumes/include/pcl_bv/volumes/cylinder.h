@@ -16,16 +16,17 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A cylinder in the frame and unit of its points: the closed set of all p = center + q with
 /// |q x axis| <= radius |axis| and |q . axis| <= half_height |axis|. The axis has length 1 up to rounding.
 ///
-/// The empty cylinder has radius and half height -1 and centre NaN. A cylinder with radius 0 is a segment,
-/// one with half height 0 a disc, one with both 0 a point. Coordinates beyond 1e100 are not supported.
+/// The empty cylinder has radius and half height -1 and centre NaN. A cylinder with radius 0 is a segment, a
+/// cylinder with half height 0 is a disc, and a cylinder with both 0 is a point. Coordinates beyond 1e100 are
+/// not supported.
 class Cylinder {
  public:
   /// Makes the empty cylinder.
   Cylinder();
 
   /// Makes a cylinder. A negative radius or half height gives the empty cylinder. Otherwise throws
-  /// std::invalid_argument unless all numbers are finite and the axis is not zero. The axis is normalised
-  /// unless its squared length is 1 to 2^-50. Stores -0 as 0.
+  /// std::invalid_argument unless all numbers are finite and the axis is not zero. An axis whose squared
+  /// length is 1 to 2^-50 is stored unchanged; any other axis is normalised. Stores -0 as 0.
   Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double radius, double half_height);
 
   const Eigen::Vector3d& center() const { return center_; }  ///< Centre; NaN if empty.
@@ -56,17 +57,17 @@ class Cylinder {
   /// 2^-43 (|origin - center|_1 + radius + half_height).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns a box that encloses the cylinder by exact arithmetic; larger than the smallest such box by about
-  /// 2^-46 of the size.
+  /// Returns a box that encloses the cylinder by exact arithmetic. The box exceeds the smallest such box by
+  /// about 2^-46 of the size.
   Aabb aabb() const;
 
-  /// Returns a prism of 48 sides, whose edges lie on the surface, with its two end polygons. An empty mesh if
-  /// empty.
+  /// Returns the mesh of a prism with 48 sides and two end polygons. The edges between the sides lie on the
+  /// surface. An empty mesh if empty.
   Mesh mesh() const;
 
   /// Returns the transformed cylinder. It contains every transformed point of this cylinder, by exact
-  /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the stretch of
-  /// the stored matrix.
+  /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the scaling
+  /// error of the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
 
  private:

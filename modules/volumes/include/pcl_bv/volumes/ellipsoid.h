@@ -59,20 +59,21 @@ class Ellipsoid {
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Both
-  /// ends of the interval lie in an ellipsoid whose radii are larger by 2^-44 (|origin - center|_1 + largest
-  /// radius), times the ratio of the largest to the smallest radius.
+  /// ends of the interval lie in an ellipsoid whose radii are larger by 2^-44 * ratio * (|origin - center|_1
+  /// + largest radius), where `ratio` is the largest radius divided by the smallest radius.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns a box that encloses the ellipsoid by exact arithmetic; larger than the smallest such box by at
-  /// most about 1e-12 of the size.
+  /// Returns a box that encloses the ellipsoid by exact arithmetic. The box exceeds the smallest such box by
+  /// at most about 1e-12 of the size.
   Aabb aabb() const;
 
-  /// Returns 24 by 13 vertices on the surface and the faces between them. An empty mesh if empty.
+  /// Returns a mesh of 13 rings of 24 vertices each, on the surface, and the faces between them. An empty
+  /// mesh if empty.
   Mesh mesh() const;
 
   /// Returns the transformed ellipsoid. It contains every transformed point of this ellipsoid, by exact
-  /// arithmetic. Radii below 2^-30 of the largest are first raised to that value; then all radii grow by the
-  /// rounding error of centre and axes.
+  /// arithmetic. Radii below 2^-30 of the largest radius are first raised to that value. Then all radii grow
+  /// by one factor that covers the rounding error of centre and axes.
   Ellipsoid transformed(const Eigen::Isometry3d& transform) const;
 
  private:

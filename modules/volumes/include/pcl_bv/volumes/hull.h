@@ -26,14 +26,14 @@ struct HullPlane {
 /// each plane.
 ///
 /// A hull has two descriptions, which agree up to the rounding of doubles. The planes define the enclosed
-/// set: contains(), intersect(), aabb() and the proof of a fit use them. A fitted hull has the planes of its
-/// faces and of its axis-aligned box. The vertices and the triangles between them serve for measurements:
-/// volume(), surface_area(), center(), support() and distance() use them.
+/// set; contains(), intersect(), aabb() and the proof of a fit use the planes. A fitted hull has the planes
+/// of its faces and of its axis-aligned box. The vertices and the triangles between them define the surface;
+/// volume(), surface_area(), center(), support() and distance() use the vertices and triangles.
 ///
 /// A flat hull has a rank below 3 and no triangles. Its vertices are the corners of a polygon in order around
-/// it (rank 2), the ends of a segment (rank 1) or a point (rank 0). Its planes come in opposite pairs along
-/// each flat direction. The empty hull has rank 0 and neither vertices nor planes. Coordinates beyond 1e100
-/// are not supported.
+/// it (rank 2), the ends of a segment (rank 1) or a point (rank 0). Along each direction in which it is flat,
+/// it has two planes that face opposite ways. The empty hull has rank 0 and neither vertices nor planes.
+/// Coordinates beyond 1e100 are not supported.
 class Hull {
  public:
   using Triangle = std::array<std::int32_t, 3>;  ///< Indices of three vertices.
@@ -43,7 +43,7 @@ class Hull {
 
   /// Makes a hull. The planes should enclose the vertices, and the triangles should be counter-clockwise seen
   /// from outside; neither is checked. Throws std::invalid_argument for numbers that are not finite, a rank
-  /// outside 0 to 3, a triangle with an index outside the vertices, vertices without planes, and planes
+  /// outside 0 to 3, a triangle with an index outside the vertices, vertices without planes, or planes
   /// without vertices. Stores -0 as 0.
   Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles, std::vector<HullPlane> planes,
        int rank);
@@ -66,11 +66,12 @@ class Hull {
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(triangles).
   double surface_area() const;  ///< Area in squared units; both sides of a flat hull count. 0 if empty.
 
-  /// Returns the centre of mass of the hull; if flat, that of the polygon, segment or point. NaN if empty.
+  /// Returns the centre of mass of the hull or, if it is flat, of the polygon, segment or point. NaN if
+  /// empty.
   Eigen::Vector3d center() const;
 
-  /// Returns the vertex that is farthest along `direction` (any length), the first of several. NaN if empty.
-  /// O(vertices).
+  /// Returns the vertex that is farthest along `direction` (any length). If several vertices are equally far,
+  /// returns the first. NaN if empty. O(vertices).
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
   /// Returns the distance from the point to the nearest triangle (to the polygon, segment or point if the
@@ -82,19 +83,19 @@ class Hull {
   /// projections of origin and direction are widened by twice the error bound of contains(). O(planes).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns a box that encloses the hull by exact arithmetic. A side of the box lies in the plane of the
-  /// hull that faces the same way, if the hull has one; other sides are at a proven upper bound of the
-  /// support. A fitted hull has all six planes, so its box is the box of its points. If the planes do not
-  /// bound the hull, the result is the box of the vertices; no fit and no transformed() makes such a hull.
-  /// O(planes).
+  /// Returns a box that encloses the hull by exact arithmetic. If the hull has a plane that faces the same
+  /// way as a side of the box, the side lies in that plane. Other sides are at a proven upper bound of the
+  /// hull's support value. A fitted hull has all six planes, so its box is the box of its points. If the
+  /// planes leave the hull unbounded, the result is the box of the vertices. Neither a fit nor transformed()
+  /// of a fitted hull makes such a hull. O(planes).
   Aabb aabb() const;
 
-  /// Returns vertices and triangles. A flat hull gives its polygon twice, once for each side.
+  /// Returns vertices and triangles. The mesh of a hull of rank 2 has its polygon twice, once for each side.
   Mesh mesh() const;
 
   /// Returns the transformed hull. Each plane moves outward by the rounding error of its normal, so that the
   /// result contains every transformed point of this hull, by exact arithmetic on the stored matrix. If the
-  /// planes do not bound the hull, this holds for the points in aabb(). O(planes).
+  /// planes leave the hull unbounded, this holds only for the points in aabb(). O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;
 
  private:

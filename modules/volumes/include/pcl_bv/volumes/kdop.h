@@ -31,26 +31,26 @@ struct FloatKdop {
   Eigen::Matrix<float, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1> max;
 };
 
-/// A k-DOP in the frame and unit of its points: the closed convex polytope of all p with
-/// min(i) <= direction(i) . p <= max(i) for each slab i. Karlsson, Winberg and Larsson 2010, section 2.
+/// A k-DOP in the frame and unit of its points: the closed convex polytope of all p with min(i) <=
+/// direction(i) . p <= max(i) for each slab i. See Karlsson, Winberg and Larsson 2010, section 2.
 ///
-/// The empty k-DOP has min = +infinity and max = -infinity; merging it into another k-DOP changes nothing. A
-/// flat k-DOP (a polygon, a segment or a point) is a valid volume. Coordinates beyond 1e100 are not
-/// supported.
+/// The empty k-DOP has min = +infinity and max = -infinity; merging the empty k-DOP into another k-DOP
+/// changes nothing. A flat k-DOP (a polygon, a segment or a point) is a valid volume. Coordinates beyond
+/// 1e100 are not supported.
 ///
-/// Slabs with min <= max may nevertheless have no point in common, but never if they were measured on points.
-/// Such a k-DOP has volume 0 and no corners, although empty() is false; tightened() turns it into the empty
-/// k-DOP.
+/// Slabs that were measured on points always have a point in common. Other slabs may have no point in common
+/// although min <= max for each of them. Such a k-DOP has volume 0 and no corners, although empty() is false;
+/// tightened() turns it into the empty k-DOP.
 ///
 /// The member functions that need the corners (volume, surface_area, center, corners, mesh, and distance to a
-/// point outside) intersect the half-spaces anew at each call: 20 us for a 26-DOP. The corners are accurate
-/// to about 1e-13 of the extent.
+/// point outside) intersect the half-spaces anew in each call, which takes 20 us for a 26-DOP. The corners
+/// are accurate to about 1e-13 of the extent.
 class Kdop {
  public:
   /// Makes the empty k-DOP. Throws std::invalid_argument for a null set.
   explicit Kdop(std::shared_ptr<const KdopSet> set = KdopSet::dop26());
 
-  /// Makes a k-DOP of one slab per direction. If any min exceeds its max, the k-DOP is empty. Otherwise
+  /// Makes a k-DOP from one slab per direction. If any min exceeds its max, the k-DOP is empty. Otherwise
   /// throws std::invalid_argument unless all numbers are finite. Also throws for a null set and for a wrong
   /// number of slabs. Stores -0 as 0.
   Kdop(std::shared_ptr<const KdopSet> set, const SlabVector& min, const SlabVector& max);
@@ -67,8 +67,8 @@ class Kdop {
   SlabVector min() && { return static_cast<const Kdop&>(*this).min(); }
   SlabVector max() && { return static_cast<const Kdop&>(*this).max(); }
 
-  /// Returns the thickness of slab i in the unit of the points, as for a direction of length 1 (Karlsson et
-  /// al. 2010, Figure 2, line 13). 0 if empty.
+  /// Returns the thickness of slab i in the unit of the points, that is, (max - min) / |direction| (Karlsson
+  /// et al. 2010, Figure 2, line 13). 0 if empty.
   double width(std::size_t i) const;
 
   /// Returns whether this is the empty k-DOP, with min > max.
@@ -87,12 +87,12 @@ class Kdop {
   /// Returns the surface area in squared units. Both sides of a flat k-DOP count. 0 if empty.
   double surface_area() const;
 
-  /// Returns the centre of mass of the polytope; if flat, that of the polygon, segment or point. NaN if empty
-  /// or if the slabs have no point in common.
+  /// Returns the centre of mass of the polytope or, if it is flat, of the polygon, segment or point. NaN if
+  /// empty or if the slabs have no point in common.
   Eigen::Vector3d center() const;
 
-  /// Returns a corner that is farthest along `direction` (any length). NaN if empty. Dual simplex method,
-  /// about 1 us.
+  /// Returns a corner that is farthest along `direction` (any length). NaN if empty. Uses the dual simplex
+  /// method, which takes about 1 us.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
   /// Returns the distance from the point to the k-DOP; 0 if contains() is true. Infinity if the k-DOP is
@@ -100,35 +100,38 @@ class Kdop {
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the k-DOP; see RayInterval. `enter`
-  /// is 0 if contains() is true for the origin. Slab method (Kay, Kajiya 1986), 50 ns for a 26-DOP.
+  /// is 0 if contains() is true for the origin. Uses the slab method (Kay, Kajiya 1986), which takes 50 ns
+  /// for a 26-DOP.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than that may hit. Then `enter` and `exit` move outward by 2^-51 of their
-  /// magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
+  /// move outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns whether each slab overlaps the other k-DOP's slab along the same direction, compared exactly:
-  /// the usual test for k-DOPs (Klosowski et al. 1998). False proves that the k-DOPs have no point in common.
-  /// True may be wrong for more than three directions, because another direction can separate the polytopes.
-  /// False if either is empty. Throws std::invalid_argument unless both have equal sets.
+  /// Returns whether each slab overlaps the other k-DOP's slab along the same direction, compared exactly.
+  /// This is the usual test for k-DOPs (Klosowski et al. 1998). False proves that the k-DOPs have no point in
+  /// common. True may be wrong for more than three directions, because another direction can separate the
+  /// polytopes. False if either k-DOP is empty. Throws std::invalid_argument unless both have equal sets.
   bool overlaps(const Kdop& other) const;
 
   /// Returns the same polytope with each slab reduced to the extent of the polytope along its direction.
-  /// Slabs that were merged, transformed or given by hand can be wider than that; slabs measured on points
-  /// are not. The result contains every point of this k-DOP, by exact arithmetic, and no slab grows. Slabs
-  /// are tight, and unchanged by a second call, to 1e-13 of the extent and 2^-48 of the coordinates. 10 us
-  /// for a 26-DOP.
+  /// Slabs that were merged, transformed or set by the caller can be wider than that extent. Slabs that were
+  /// measured on points are not. The result contains every point of this k-DOP, by exact arithmetic, and no
+  /// slab grows. Slabs are tight to 1e-13 of the extent plus 2^-48 of the coordinates; a second call changes
+  /// them by no more than that. A call takes 10 us for a 26-DOP.
   ///
-  /// The result is empty if two bounds of a slab cross, which proves that the polytope has no point. That the
-  /// bounds cross whenever slabs miss each other by more than these tolerances is tested, not proven.
+  /// The result is empty if the new min of a slab exceeds its new max, which proves that the polytope has no
+  /// point. Conversely, if slabs miss each other by more than these tolerances, the result was empty in all
+  /// tests, but this is not proven.
   Kdop tightened() const;
 
-  /// Returns a box that encloses the polytope by exact arithmetic. Along a coordinate axis that is one of the
-  /// directions, the box has the bounds of that slab; along any other axis, the support rounded outward.
+  /// Returns a box that encloses the polytope by exact arithmetic. If a coordinate axis is one of the
+  /// directions, the box has the bounds of that slab along the axis. Along any other axis, the box has the
+  /// support values of the polytope, rounded outward.
   Aabb aabb() const;
 
-  /// Returns the vertices of the polytope without duplicates. None if the k-DOP is empty or its slabs have no
-  /// point in common.
+  /// Returns the vertices of the polytope without duplicates. There are none if the k-DOP is empty or its
+  /// slabs have no point in common.
   std::vector<Eigen::Vector3d> corners() const;
 
   /// Returns the corners and the faces. A polygon has two faces, one for each side; a segment has one face of
@@ -145,8 +148,8 @@ class Kdop {
   /// is ignored.
   Kdop& extend(const Eigen::Vector3d& point);
 
-  /// Enlarges the k-DOP to contain the other k-DOP, slab by slab. Exact, commutative and associative. Throws
-  /// std::invalid_argument unless both have equal sets.
+  /// Enlarges each slab to contain the other k-DOP's slab. The result is exact, so merging is commutative and
+  /// associative. Throws std::invalid_argument unless both have equal sets.
   Kdop& merge(const Kdop& other);
 
   /// Returns a float copy that encloses the k-DOP.
@@ -160,16 +163,16 @@ class Kdop {
   double* numbers() { return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data(); }
   void store(const SlabVector& min, const SlabVector& max);
 
-  // Up to 13 slabs (a 26-DOP) are stored inline, without an allocation. Inline capacity for 49 slabs would
-  // make every AnyVolume 824 bytes instead of 256, too much for a million clusters.
+  // Up to 13 slabs (a 26-DOP) are stored inline, without an allocation. With an inline capacity of 49 slabs,
+  // every AnyVolume would have 824 bytes instead of 256, too much for a million clusters.
   static constexpr std::size_t max_inline_slabs = 13;
 
   std::shared_ptr<const KdopSet> set_;
   std::array<double, 2 * max_inline_slabs> inline_numbers_{};
-  std::vector<double> heap_numbers_;  // used instead for more than max_inline_slabs slabs, else empty
+  std::vector<double> heap_numbers_;  // replaces inline_numbers_ if size() > max_inline_slabs, else empty
 };
 
-/// Returns whether both have equal sets of directions and equal slabs.
+/// Returns whether the k-DOPs have equal sets of directions and equal slabs.
 bool operator==(const Kdop& a, const Kdop& b);
 inline bool operator!=(const Kdop& a, const Kdop& b) {
   return !(a == b);

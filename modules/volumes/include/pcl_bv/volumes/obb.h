@@ -14,18 +14,18 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of an Obb that encloses it: every point p of the box satisfies
-/// |axes.col(i) . (p - center)| <= half_extents[i] with these numbers. Half extents beyond the range of float
-/// are infinite. An empty box has centre NaN and half extents -1.
+/// A float copy of an Obb that encloses it: every point p of the Obb satisfies |axes.col(i) . (p - center)|
+/// <= half_extents[i] with the numbers of the FloatObb. Half extents beyond the range of float are infinite.
+/// An empty box has centre NaN and half extents -1.
 struct FloatObb {
   Eigen::Vector3f center;
   Eigen::Matrix3f axes;
   Eigen::Vector3f half_extents;
 };
 
-/// An oriented box in the frame and unit of its points: the closed set of all p with
-/// |axis(i) . (p - center)| <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles.
-/// The axes are right-handed, and unit and orthogonal to 1e-12.
+/// An oriented box in the frame and unit of its points: the closed set of all p with |axis(i) . (p - center)|
+/// <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles. The axes are right-handed.
+/// They have length 1 and are orthogonal, each to 1e-12.
 ///
 /// The empty box has half extents -1, centre NaN and the coordinate axes. A box with a half extent of 0 is
 /// flat and a valid volume. Coordinates beyond 1e100 are not supported.
@@ -36,11 +36,11 @@ class Obb {
 
   /// Makes a box. The axes are the columns of `axes` and keep their order; see canonical(). If they are
   /// left-handed, the last axis is negated, which gives the same box. Any negative half extent gives the
-  /// empty box. Otherwise throws std::invalid_argument unless all numbers are finite and the axes are unit
-  /// and orthogonal to 1e-12. Stores -0 as 0.
+  /// empty box. Otherwise throws std::invalid_argument unless all numbers are finite and the axes are
+  /// orthonormal to 1e-12. Stores -0 as 0.
   Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half_extents);
 
-  /// Makes the box with this pose: the inverse of pose() and half_extents(). Throws as the constructor above.
+  /// Makes the box whose pose() and half_extents() are the arguments. Throws as the constructor above.
   Obb(const Eigen::Isometry3d& pose, const Eigen::Vector3d& half_extents)
       : Obb(pose.translation(), pose.linear(), half_extents) {}
 
@@ -52,8 +52,8 @@ class Obb {
   /// the box is empty. Throws as the constructor does.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-  /// Returns a box that encloses all p with low[i] <= axes.col(i) . (p - origin) <= high[i]. With an `origin`
-  /// near the box, the result is tighter for a box far from the origin of the frame.
+  /// Returns a box that encloses all p with low[i] <= axes.col(i) . (p - origin) <= high[i]. For a box far
+  /// from the origin of the frame, an `origin` near the box makes the result tighter.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
                         const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
@@ -62,8 +62,9 @@ class Obb {
   Eigen::Vector3d axis(int i) const { return axes_.col(i); }             ///< Axis i, where i is 0, 1 or 2.
   const Eigen::Vector3d& half_extents() const { return half_extents_; }  ///< Half the size along each axis.
 
-  /// Returns the transform from the box's own frame, in which the box is |x|, |y|, |z| <= half_extents, to
-  /// the frame of its points. The translation of an empty box is NaN.
+  /// Returns the transform from the frame of the box to the frame of its points. In the frame of the box, the
+  /// box is the set |x| <= half_extents[0], |y| <= half_extents[1], |z| <= half_extents[2]. The translation
+  /// of an empty box is NaN.
   Eigen::Isometry3d pose() const;
 
   /// Returns the rotation of pose(), with norm 1 to 1e-15. The first non-zero number of w, x, y, z is
@@ -94,63 +95,67 @@ class Obb {
   /// 0 if contains() is true for the origin.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than that may hit. Then `enter` and `exit` move outward by 2^-51 of their
-  /// magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
+  /// move outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap by exact
-  /// arithmetic. False if either box is empty. Separating axes (Gottschalk et al. 1996). A gap is treated as
-  /// no gap if it is at most 4e-12 of the sum of all half extents and |c2 - c1|_1, where c1 and c2 are the
-  /// centres.
+  /// arithmetic. False if either box is empty. Uses the separating axis test (Gottschalk et al. 1996). A gap
+  /// is ignored if it is at most 4e-12 of the sum of all half extents and |c2 - c1|_1, where c1 and c2 are
+  /// the centres.
   bool overlaps(const Obb& other) const;
 
   /// Returns the eight corners, rounded. Corner i is on the positive side of axis 0 if bit 0 of i is set, of
   /// axis 1 if bit 1 is set and of axis 2 if bit 2 is set. NaN if empty.
   std::array<Eigen::Vector3d, 8> corners() const;
 
-  /// Returns an axis-aligned box that encloses this box by exact arithmetic, tight to a few units in the last
-  /// place.
+  /// Returns an axis-aligned box that encloses this box by exact arithmetic. It is tight to a few units in
+  /// the last place.
   Aabb aabb() const;
 
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
   /// Returns the transformed box. It contains every transformed point of this box, by exact arithmetic on the
-  /// stored matrix. Half extents grow by the rounding error of axes and centre and by the stretch of the
-  /// matrix.
+  /// stored matrix. Half extents grow by the rounding error of axes and centre and by the scaling error of
+  /// the matrix.
   Obb transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Returns a box that encloses both boxes by exact arithmetic: the smallest of a box along the axes of this
-  /// box, one along the axes of the other box and one along the coordinate axes. The smallest has the
-  /// smallest volume; for equal volumes, such as 0, the smallest surface area. If one box encloses the other
-  /// by more than rounding errors, the result is the enclosing box, unchanged. Boxes with the same third
-  /// axis, such as upright boxes, give a box with that third axis, ordered as by upright(). Commutative. In
-  /// general not the minimum-volume box.
+  /// Returns a box that encloses both boxes by exact arithmetic. There are three candidates, with the axes of
+  /// this box, the axes of the other box and the coordinate axes. The result is the candidate with the
+  /// smallest volume; if volumes are equal (for example 0), the candidate with the smallest surface area. If
+  /// one box encloses the other by more than rounding errors, the result is the enclosing box, unchanged. If
+  /// both boxes have exactly the same third axis, as upright boxes have, the third candidate also has that
+  /// axis instead of the coordinate axes, and the axes of the result are ordered as by upright(). The order
+  /// of the two boxes does not change the result. In general, the result is not the minimum-volume box.
   Obb merged(const Obb& other) const;
 
   /// Returns the same box with its axes in a standard order and direction, so that rounding noise does not
-  /// reorder them. Half extents descend. Axes whose half extents agree to 2^-40 are ordered by the magnitude
-  /// of their x components, largest first, then by y and z. The largest component of axes 0 and 1 is
-  /// positive; axis 2 makes the axes right-handed. Fits return canonical boxes; upright methods return
-  /// upright() boxes.
+  /// reorder them. The half extents are in descending order. Half extents are treated as equal if they differ
+  /// by at most 2^-40 of the largest half extent plus 2^-50 of the largest centre coordinate. Their axes are
+  /// ordered by the magnitude of the x components, largest first, then by y and z. The largest component of
+  /// axis 0 is positive, and so is that of axis 1. Axis 2 makes the axes right-handed. Fits return
+  /// canonical() boxes, except for the upright methods, which return upright() boxes.
   Obb canonical() const;
 
-  /// Returns the same box with its axes in the order and direction of every upright method. Axis 2 is the
-  /// axis nearest to `up` (any length from 1e-100 to 1e100) and points up. Axis 0 is the longer of the other
-  /// two axes, with a yaw() from -pi/2 (exclusive) to pi/2. Axis 1 makes the axes right-handed. If the
-  /// horizontal sizes agree to 2^-40, axis 0 is the axis whose yaw has the smaller magnitude (at 45 degrees:
-  /// the positive yaw). Components below 1e-9 are treated as 0, so that rounding noise does not flip an axis.
-  /// An empty box stays empty.
+  /// Returns the same box with its axes in the order and direction that all upright methods use. Axis 2 is
+  /// the axis nearest to the direction `up` and points up; `up` may have any length from 1e-100 to 1e100.
+  /// Axis 0 is along the longer of the other two sides, with a yaw() from -pi/2 (exclusive) to pi/2. Axis 1
+  /// makes the axes right-handed. If the horizontal half extents are treated as equal, as in canonical(),
+  /// axis 0 is the axis whose yaw has the smaller magnitude. At 45 degrees, it is the axis with the positive
+  /// yaw. Components below 1e-9 are treated as 0, so that rounding noise does not flip an axis. An empty box
+  /// stays empty.
   Obb upright(const Eigen::Vector3d& up) const;
 
   /// Returns the rotation of axis 0 about axis 2 in radians, from -pi (exclusive) to pi. With axis 2 along z,
-  /// it is the yaw of robotics: counter-clockwise from x. In general, it is 0 if axis 0, projected along axis
-  /// 2, points along x (along y if axis 2 is less than 45 degrees from the x axis). NaN if empty.
+  /// this is the yaw of robotics, counter-clockwise from x. In general, the yaw is 0 if axis 0, projected
+  /// along axis 2, points along x. If axis 2 is less than 45 degrees from the x axis, y replaces x. NaN if
+  /// empty.
   double yaw() const;
 
-  /// Returns the same box with its axes reordered and negated: of the 24 possible ways, the way with the
-  /// smallest rotation from `previous`. Trackers use it so that a box does not flip between frames. Unchanged
-  /// if either box is empty.
+  /// Returns the same box with its axes reordered and negated such that the rotation from `previous` is the
+  /// smallest of the 24 possible rotations. Trackers call this function so that a box does not flip between
+  /// frames. If either box is empty, returns this box unchanged.
   Obb oriented_as(const Obb& previous) const;
 
   /// Returns a float copy that encloses the box.
@@ -171,9 +176,10 @@ inline bool operator!=(const Obb& a, const Obb& b) {
   return !(a == b);
 }
 
-/// Returns right-handed axes, unit and orthogonal to 1e-15, by the Gram-Schmidt process: column 0 normalised,
-/// the part of column 1 perpendicular to it normalised, and their cross product. Column 2 is ignored. Columns
-/// 0 and 1 must be finite and not parallel, with lengths from 1e-100 to 1e100.
+/// Returns right-handed axes that are orthonormal to 1e-15, by the Gram-Schmidt process. Column 0 of the
+/// result is the normalised column 0. Column 1 is the normalised part of column 1 that is perpendicular to
+/// column 0. Column 2 is the cross product of both. Column 2 of the argument is ignored. Its columns 0 and 1
+/// must be finite and not parallel, with lengths from 1e-100 to 1e100.
 Eigen::Matrix3d orthonormal_axes(const Eigen::Matrix3d& axes);
 
 }  // namespace pcl_bv

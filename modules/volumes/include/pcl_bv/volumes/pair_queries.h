@@ -18,11 +18,12 @@ struct PosedShape;
 }  // namespace volumes_internal
 
 /// A volume that is prepared for many overlap and distance queries, as in trees of volumes and collision
-/// loops: the corners of a k-DOP, and half-spaces relative to a point near the volume, are computed once.
+/// loops. The corners of a k-DOP, and the half-spaces of a k-DOP or hull relative to a point near the volume,
+/// are computed only once.
 ///
 /// A body is cheap to copy. Copies and transformed bodies share the prepared data, which never changes, so
-/// several threads may use them. Construction takes 0.03 to 0.2 us for most kinds, 35 us for a 26-DOP and 25
-/// us for a hull of 100 vertices.
+/// several threads may use them. Construction takes 35 us for a 26-DOP, 25 us for a hull of 100 vertices and
+/// 0.03 to 0.2 us for the other kinds.
 class ConvexBody {
  public:
   /// Makes the empty body, which overlaps nothing.
@@ -34,9 +35,11 @@ class ConvexBody {
   /// Returns whether the body has no point.
   bool empty() const { return !shape_; }
 
-  /// Returns the body transformed from its current pose. It contains every transformed point of this body, by
-  /// exact arithmetic on the stored matrices. It exceeds the exact result by the rounding of the coordinates
-  /// and, if the matrix is not exactly a rotation, by its stretch of the radius. 1.5 us for every kind.
+  /// Returns the body moved by `transform`. The result contains the exact image of every point of this body,
+  /// where the elements of `transform` are taken as exact numbers. It may be larger than the exact image, by
+  /// the rounding errors of the coordinates. If the linear part is not exactly a rotation, the result also
+  /// grows, because the radius is multiplied by an upper bound of the matrix norm. A call takes 1.5 us for
+  /// every kind of volume.
   ///
   /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
   /// time, not the body of the previous step.
@@ -53,24 +56,26 @@ class ConvexBody {
   bool is_rotated_;       // false: rotation_ is the identity
 };
 
-/// Returns whether two volumes have a point in common, by the definitions of their kinds. Conservative: false
-/// is proven by a direction along which the volumes are separated, by exact arithmetic. True means that their
-/// distance is at most about 1e-14 of their sizes and of the distance of their centres.
+/// Returns whether two volumes have a point in common. Each volume is the set that its class defines. The
+/// test is conservative. If the result is false, exact arithmetic has proven that the volumes are separated
+/// along some direction. If the result is true, the distance of the volumes is at most about 1e-14 of their
+/// sizes and of the distance of their centres.
 ///
 /// False if either volume is empty. The order of the arguments does not matter. Two Aabb are compared
-/// exactly; so are two Kdop of equal sets along their directions. A Hull is the set that its planes enclose;
-/// a hull that its planes leave unbounded overlaps every volume that is not empty.
+/// exactly. Two Kdop of equal sets are compared exactly along their directions. A Hull whose planes leave it
+/// unbounded overlaps every volume that is not empty.
 ///
-/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes directions; see docs/numerics.md. A query of
-/// two ConvexBody takes 0.1 to 0.2 us, with a 26-DOP 0.7 to 1.5 us, with a hull of 100 vertices 1.5 to 4 us.
-/// distance() takes two to three times as long, and up to 4 us for round bodies.
+/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes directions; see docs/numerics.md. A call for
+/// two ConvexBody takes 0.1 to 0.2 us. If one of them is a 26-DOP, the call takes 0.7 to 1.5 us; if one is a
+/// hull of 100 vertices, 1.5 to 4 us. distance() takes two to three times as long as overlaps(), and at most
+/// 4 us for round bodies.
 bool overlaps(const AnyVolume& a, const AnyVolume& b);
 bool overlaps(const ConvexBody& a, const ConvexBody& b);
 
-/// Returns a certified lower bound of the distance of two volumes, in their unit: no two of their points are
-/// nearer. The bound is below the distance by at most about 1e-12 of the distance plus 1e-13 of the sizes. It
-/// is 0 exactly if overlaps() is true. Infinity if either volume is empty. The order of the arguments does
-/// not matter.
+/// Returns a certified lower bound of the distance of two volumes, in their unit, so no two points of the
+/// volumes are nearer. The bound is below the distance by at most about 1e-12 of the distance plus 1e-13 of
+/// the sizes. The bound is 0 if and only if overlaps() is true. Returns infinity if either volume is empty.
+/// The order of the arguments does not matter.
 double distance(const AnyVolume& a, const AnyVolume& b);
 double distance(const ConvexBody& a, const ConvexBody& b);
 
@@ -79,8 +84,9 @@ double distance(const ConvexBody& a, const ConvexBody& b);
 double distance(const ConvexBody& body, const Eigen::Vector3d& point);
 
 /// Returns whether distance(a, b) <= margin. Conservative: true for all bodies whose distance is at most
-/// `margin` by exact arithmetic. The search stops as soon as the answer is known. If either body is empty,
-/// true only for an infinite margin; otherwise true for a margin that is NaN.
+/// `margin` by exact arithmetic. Faster than distance(), because the search stops as soon as the answer is
+/// known. If either body is empty, the result is true only for a margin of infinity. If neither is empty, the
+/// result is true for a margin of NaN.
 bool within(const ConvexBody& a, const ConvexBody& b, double margin);
 
 }  // namespace pcl_bv

@@ -12,9 +12,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// The member function intersect() of every volume returns this interval. It returns nothing if the ray
 /// misses the volume, if the volume is empty, or if the origin or direction is not finite.
 ///
-/// The interval encloses the exact one: a ray that hits the volume by exact arithmetic, even in one point or
-/// along a face, is always reported as a hit. Each volume's intersect() documents the error bound of `enter`
-/// and `exit`. For a zero direction, intersect() tests whether the origin is inside the volume.
+/// The interval encloses the exact interval. A ray that hits the volume by exact arithmetic, even in one
+/// point or along a face, is therefore always reported as a hit. Each volume's intersect() documents the
+/// error bound of `enter` and `exit`. For a zero direction, intersect() tests whether the origin is inside
+/// the volume.
 struct RayInterval {
   double enter;  ///< 0 if the origin is inside the volume.
   double exit;   ///< Infinity if the direction is zero.

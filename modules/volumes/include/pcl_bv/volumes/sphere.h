@@ -14,7 +14,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A float copy of a Sphere that encloses it. The radius includes the rounding error of the centre and is
-/// rounded up; beyond the range of float it is infinite. An empty sphere has centre NaN and radius -1.
+/// rounded up. A radius beyond the range of float is infinite. An empty sphere has centre NaN and radius -1.
 struct FloatSphere {
   Eigen::Vector3f center;
   float radius;
@@ -22,8 +22,8 @@ struct FloatSphere {
 
 /// A solid sphere in the frame and unit of its points: the closed set of all p with |p - center| <= radius.
 ///
-/// The empty sphere has radius -1 and centre NaN; merging it into another sphere changes nothing. A sphere of
-/// radius 0 is a point. Coordinates beyond 1e100 are not supported.
+/// The empty sphere has radius -1 and centre NaN; merging the empty sphere into another sphere changes
+/// nothing. A sphere of radius 0 is a point. Coordinates beyond 1e100 are not supported.
 class Sphere {
  public:
   /// Makes the empty sphere.
@@ -46,7 +46,7 @@ class Sphere {
   /// (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 * 2^-53) + 2^-1022.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// Returns the limit up to which contains() accepts squared distances from the centre; -1 if empty.
+  /// Returns the largest squared distance from the centre that contains() accepts; -1 if empty.
   double max_squared_distance() const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty.
@@ -66,30 +66,30 @@ class Sphere {
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether the spheres have a point in common. Conservative: true for all spheres that overlap by
-  /// exact arithmetic. False if either sphere is empty. Tests the other centre as contains() does, with the
-  /// sum of the radii.
+  /// exact arithmetic. False if either sphere is empty. Tests the centre of the other sphere as contains()
+  /// tests a point, with the sum of the radii as the radius.
   bool overlaps(const Sphere& other) const;
 
   /// Returns the smallest box of doubles that encloses the sphere by exact arithmetic.
   Aabb aabb() const;
 
-  /// Returns an icosahedron that is subdivided twice: 162 vertices on the sphere and 320 triangles. An empty
-  /// mesh if empty.
+  /// Returns an icosahedron that is subdivided twice. It has 162 vertices, on the surface, and 320 triangles.
+  /// An empty mesh if empty.
   Mesh mesh() const;
 
   /// Returns the transformed sphere. It contains every transformed point of this sphere, by exact arithmetic.
-  /// The radius grows by the rounding error of the centre and by the stretch of the stored matrix, which is
-  /// rarely exactly orthonormal.
+  /// The radius grows by the rounding error of the centre and by the scaling error of the stored matrix,
+  /// which is rarely exactly orthonormal.
   Sphere transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Enlarges the sphere to contain the point: the smallest sphere around both, plus rounding errors (the
+  /// Enlarges the sphere to the smallest sphere around this sphere and the point, plus rounding errors (the
   /// step of Ritter 1990). The sphere is unchanged if the point is inside by exact arithmetic. A point with a
   /// coordinate that is not finite is ignored.
   Sphere& extend(const Eigen::Vector3d& point);
 
-  /// Enlarges the sphere to the smallest sphere around both, plus rounding errors. If one sphere encloses the
-  /// other by exact arithmetic, the result is the enclosing sphere, unchanged. Commutative, but not
-  /// associative.
+  /// Enlarges the sphere to the smallest sphere around this sphere and the other, plus rounding errors. If
+  /// one sphere encloses the other by exact arithmetic, the result is the enclosing sphere, unchanged.
+  /// Merging is commutative, but not associative.
   Sphere& merge(const Sphere& other);
 
   /// Returns a float copy that encloses the sphere.

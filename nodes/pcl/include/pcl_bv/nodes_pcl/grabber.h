@@ -14,12 +14,12 @@
 
 namespace pcl_bv {
 
-/// Registers a callback that passes every cloud of the grabber to runner.push(), in the grabber's thread.
-/// Call the grabber's start() afterwards. Disconnect the returned connection, or stop the grabber, before the
-/// runner is destroyed.
+/// Registers a callback that passes every cloud of the grabber to runner.push(). The callback runs in the
+/// grabber's thread. Call the grabber's start() afterwards. Disconnect the returned connection, or stop the
+/// grabber, before the runner is destroyed.
 ///
-/// Throws std::invalid_argument if the grabber does not provide clouds of this point type. PCDGrabber of PCL
-/// 1.13 sends nothing for a file that it cannot read, and does not report how often it repeats its files.
+/// Throws std::invalid_argument if the grabber does not provide clouds of this point type. The PCDGrabber of
+/// PCL 1.13 skips a file that it cannot read, and does not report how many times it has repeated its files.
 template <typename PointT>
 boost::signals2::connection connect(pcl::Grabber& grabber, StreamRunner& runner) {
   using Callback = void(const typename pcl::PointCloud<PointT>::ConstPtr&);

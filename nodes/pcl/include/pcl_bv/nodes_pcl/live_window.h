@@ -16,7 +16,7 @@ namespace pcl_bv {
 
 /// A PCLVisualizer that shows the volumes of the last frame as wireframes, coloured by track or cluster.
 ///
-/// Needs a display: without one, VTK as built by Debian ends the process.
+/// The window needs a display. Without a display, Debian's build of VTK ends the process.
 class LiveWindow {
  public:
   explicit LiveWindow(const std::string& title = "pcl_bv") : window_(title) {
@@ -24,7 +24,7 @@ class LiveWindow {
     window_.addCoordinateSystem(1);
   }
 
-  /// Stores a copy of the volumes for the next spin_once(). Any thread may call it, such as the runner's.
+  /// Stores a copy of the volumes for the next spin_once(). Any thread may call show().
   void show(const FrameResult& result) {
     const std::lock_guard lock(mutex_);
     volumes_ = result.volumes;

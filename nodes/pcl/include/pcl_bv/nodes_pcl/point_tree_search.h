@@ -5,7 +5,8 @@
 #pragma once
 
 #include <pcl/search/search.h>
-// User-defined point types need the implementation to link: PCL instantiates Search for its own types only.
+// User-defined point types do not link without the implementation, because PCL instantiates Search only for
+// its own point types.
 #include <pcl/search/impl/search.hpp>
 
 #include <algorithm>
@@ -22,23 +23,29 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Drop-in replacement for pcl::search::KdTree: pass it to setSearchMethod(), or query it directly. PointT is
 /// any type with consecutive members x, y, z of type float or double. No explicit instantiation is needed.
 ///
-/// The results are those of pcl::search::KdTree: squared distances; indices of the cloud, even if
-/// setInputCloud() was given an index list; neighbours strictly nearer than the radius. Points that are not
-/// finite are never returned, regardless of is_dense. Differences from pcl::search::KdTree:
+/// The results are those of pcl::search::KdTree:
 ///
-/// - Distances are compared in double and rounded once, to float. PCL computes them in float, with an error
-///   of up to 4e-7. The results may therefore differ for a point whose distance is that close to the radius,
-///   and in the order of two points whose distances differ by less. Neighbours are also found in clouds whose
-///   squared distances are outside the range of float (coordinates of 1e-23 or 1e20). Returned distances over
-///   this range are infinity.
-/// - Of equally near points the one with the smaller index comes first, and is retained if the number of
-///   neighbours is limited. A sorted tree therefore also works with pcl::EuclideanClusterExtraction, which
-///   assumes that the first neighbour is the query point itself.
-/// - Where PCL has an assertion, the result is empty: a query point that is not finite, an index out of
-///   range, a radius that is not above 0, k below 1, no cloud.
+/// - Distances are squared.
+/// - Indices are indices of the cloud, even if setInputCloud() was given an index list.
+/// - radiusSearch() returns points that are strictly nearer than the radius.
+/// - Points that are not finite are never returned, regardless of is_dense.
 ///
-/// A query needs memory for its result only, which its thread reuses for the next query. Const member
-/// functions may run concurrently.
+/// Differences from pcl::search::KdTree:
+///
+/// - Distances are compared in double. Only the returned values are rounded to float. PCL computes distances
+///   in float, with an error of up to 4e-7. The results may therefore differ for a point whose distance
+///   differs from the radius by less than this error, and in the order of two points whose distances differ
+///   by less than this error.
+/// - Neighbours are also found in clouds whose squared distances are outside the range of float (coordinates
+///   of 1e-23 or 1e20). A distance above this range is returned as infinity.
+/// - Equally near points are ordered by index. If the number of neighbours is limited, the points with the
+///   smaller indices are returned. A sorted tree therefore also works with pcl::EuclideanClusterExtraction,
+///   which assumes that the first neighbour is the query point itself.
+/// - The result is empty where PCL has an assertion: for a query point that is not finite, an index out of
+///   range, a radius that is not above 0, a k below 1, or a search without a cloud.
+///
+/// A query allocates only the buffer of its result. The thread reuses this buffer for its next query. Const
+/// member functions may run concurrently.
 template <typename PointT>
 class PointTreeSearch : public pcl::search::Search<PointT> {
  public:
@@ -51,24 +58,24 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   using Base::nearestKSearch;
   using Base::radiusSearch;
 
-  /// Creates a search without a cloud. `sorted`: whether radiusSearch() returns the nearest point first, as
-  /// PCL's tree does by default; clustering is faster with `false`. nearestKSearch() always sorts, and so
-  /// does radiusSearch() with a max_nn below the number of points.
+  /// Creates a search without a cloud. `sorted` is whether radiusSearch() sorts its result by distance, as
+  /// PCL's tree does by default. Clustering is faster with `false`. nearestKSearch() always sorts its result.
+  /// radiusSearch() also sorts if max_nn is not 0 and less than the number of points.
   explicit PointTreeSearch(bool sorted = true) : Base("PointTree", sorted) {}
 
   /// Sets the number of threads of setInputCloud(): 0 means all processors, 1 (the default) the calling
   /// thread. Never changes a result.
   void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
-  /// Sets the instruction set, an Isa, from the next setInputCloud() on. The default is Isa::automatic, which
+  /// Sets the instruction set (Isa). Takes effect at the next setInputCloud(). The default, Isa::automatic,
   /// reads PCL_BV_ISA when this object is constructed. Never changes a result. Throws std::invalid_argument,
   /// as the constructor does, if this build or this machine does not support the instruction set.
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
   /// Builds the tree of the cloud's valid points, or of those at `indices`. The tree holds a copy of the
-  /// points, so the cloud may change afterwards; the pointers are stored for queries by index. If the cloud
-  /// is null or has no valid point, all results are empty. O(n log n). Throws std::out_of_range for an index
-  /// outside the cloud, and then nothing is changed.
+  /// points, so the cloud may change afterwards. Both pointers are stored, because queries by index read the
+  /// cloud. If the cloud is null or has no valid point, all results are empty. O(n log n). Throws
+  /// std::out_of_range for an index outside the cloud, and then changes nothing.
   void setInputCloud(const PointCloudConstPtr& cloud,
                      const IndicesConstPtr& indices = IndicesConstPtr()) override {
     tree_.assign(!cloud    ? PointView()
@@ -118,7 +125,8 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
         tree_.near(point_vector(point), radius, found);
       else
         tree_.nearest(point_vector(point), max_nn, found, radius);
-      const double limit = radius * radius;  // rounded as in the tree, which includes the sphere
+      const double limit = radius * radius;  // rounded as in PointTree::near()
+      // The tree also returns points at exactly this distance.
       found.erase(std::remove_if(found.begin(), found.end(),
                                  [limit](const Neighbor& one) { return !(one.squared_distance < limit); }),
                   found.end());
@@ -142,7 +150,7 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   }
 
  private:
-  // Returns an empty buffer that the thread reuses: allocating one for each query takes as long as a short
+  // Returns an empty buffer that the thread reuses, because allocating a buffer takes as long as a short
   // query.
   static std::vector<Neighbor>& result_buffer() {
     static thread_local std::vector<Neighbor> found;

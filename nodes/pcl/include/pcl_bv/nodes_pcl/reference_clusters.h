@@ -14,8 +14,8 @@
 namespace pcl_bv {
 
 /// Computes the clusters of a cloud with pcl::EuclideanClusterExtraction, in the order of EuclideanClusterer.
-/// The result equals that of EuclideanClusterer but takes some hundred times longer. The cloud must be dense
-/// and not organised, because PCL's tree requires this.
+/// The result equals that of EuclideanClusterer. The computation takes some hundred times longer. The
+/// cloud must be dense and not organised, because PCL's tree requires this.
 template <typename PointT>
 void extract_reference_clusters(const typename pcl::PointCloud<PointT>::ConstPtr& cloud,
                                 const ClusterSettings& settings, Clusters& clusters) {
