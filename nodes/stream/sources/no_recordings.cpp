@@ -4,11 +4,7 @@
 // Used instead of recorded.cpp, packets.cpp and recording_sink.cpp in builds without the component
 // `recording`.
 
-#include <algorithm>
-#include <array>
-
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/read_cloud.h"
 #include "sources.h"
 #include "stream/sinks/sinks.h"
 
@@ -23,8 +19,7 @@ std::vector<SinkKind> recording_sinks() {
 }
 
 void check_recording_content(const std::filesystem::path& file) {
-  constexpr std::array names{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
-  if (std::find(names.begin(), names.end(), lower_case_extension(file)) != names.end())
+  if (has_recording_extension(file))
     throw IoError("is a recording, which this build cannot read: it lacks the component recording");
 }
 

@@ -51,10 +51,7 @@ class Recorded final : public FrameSource {
   }
 
   std::vector<std::string> take_warnings() override {
-    const std::vector<std::string>& all = reader_->warning_lines();
-    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(warnings_taken_), all.end());
-    warnings_taken_ = all.size();
-    return fresh;
+    return take_new(reader_->warning_lines(), warnings_taken_);
   }
 
  private:

@@ -4,7 +4,6 @@
 #include "recorded_clouds.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <functional>
 #include <map>
@@ -77,15 +76,21 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
   return number(std::find_if(topics.begin(), topics.end(), has_clouds));
 }
 
+std::vector<std::string> take_new(const std::vector<std::string>& warnings, std::size_t& taken) {
+  std::vector<std::string> added(
+      warnings.begin() + static_cast<std::ptrdiff_t>(std::min(taken, warnings.size())), warnings.end());
+  taken = std::max(taken, warnings.size());
+  return added;
+}
+
 bool has_recorded_clouds(const std::filesystem::path& file) {
   return is_recording(file) || is_capture(file);
 }
 
 void check_recording_content(const std::filesystem::path& file) {
-  constexpr std::array names{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
   std::error_code unknown;
-  if (std::find(names.begin(), names.end(), lower_case_extension(file)) == names.end() ||
-      std::filesystem::is_directory(file, unknown) || has_recorded_clouds(file))
+  if (!has_recording_extension(file) || std::filesystem::is_directory(file, unknown) ||
+      has_recorded_clouds(file))
     return;
   static_cast<void>(InputFile(file));  // throws the better error for a missing or empty file
   throw IoError(

@@ -64,6 +64,9 @@ class RecordedClouds {
   std::unique_ptr<State> state_;
 };
 
+/// Returns the warnings after the first `taken` ones, and counts them in `taken`.
+std::vector<std::string> take_new(const std::vector<std::string>& warnings, std::size_t& taken);
+
 /// Returns a source of the sweeps in a capture of packets. Throws IoError with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 

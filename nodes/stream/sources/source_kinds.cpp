@@ -115,6 +115,11 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
   return make_message_source(middleware("dds").receiver(topic, "sensor_msgs/msg/PointCloud2"), name, options);
 }
 
+bool has_recording_extension(const std::filesystem::path& file) {
+  constexpr std::array extensions{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
+  return std::find(extensions.begin(), extensions.end(), lower_case_extension(file)) != extensions.end();
+}
+
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds = [] {
     std::vector<SourceKind> all{

@@ -45,7 +45,10 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
 /// Returns the source kinds for packets and recordings, or none in a build without the component `recording`.
 std::vector<SourceKind> recording_kinds();
 
-/// Throws IoError if the file has the extension of a recording or capture (.bag, .mcap, .db3, .pcap, .pcapng)
+/// Returns whether the file has the extension of a recording or capture: .bag, .mcap, .db3, .pcap, .pcapng.
+bool has_recording_extension(const std::filesystem::path& file);
+
+/// Throws IoError if the file has the extension of a recording or capture (has_recording_extension())
 /// but does not begin with the bytes of one, or if such a file is missing or empty. Does nothing for other
 /// extensions.
 void check_recording_content(const std::filesystem::path& file);
