@@ -5,11 +5,11 @@
 // kernels in which a lane must hold the same points on every instruction set.
 
 // Included once per target by Highway's foreach_target.h.
-#if defined(PCL_BV_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef PCL_BV_GATHER_INL_H_
-#undef PCL_BV_GATHER_INL_H_
+#if defined(PCL_BV_COPY_TO_GROUPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PCL_BV_COPY_TO_GROUPS_INL_H_
+#undef PCL_BV_COPY_TO_GROUPS_INL_H_
 #else
-#define PCL_BV_GATHER_INL_H_
+#define PCL_BV_COPY_TO_GROUPS_INL_H_
 #endif
 
 #include <hwy/highway.h>

@@ -5,11 +5,11 @@
 // projections. The points of a lane are those that load_packet() loads into this lane.
 
 // Included once per target by Highway's foreach_target.h.
-#if defined(PCL_BV_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef PCL_BV_LANES_INL_H_
-#undef PCL_BV_LANES_INL_H_
+#if defined(PCL_BV_LANE_PROJECTIONS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PCL_BV_LANE_PROJECTIONS_INL_H_
+#undef PCL_BV_LANE_PROJECTIONS_INL_H_
 #else
-#define PCL_BV_LANES_INL_H_
+#define PCL_BV_LANE_PROJECTIONS_INL_H_
 #endif
 
 #include <hwy/highway.h>

@@ -9,11 +9,11 @@
 // all numbers and so reveal an invalid point.
 
 // Included once per target by Highway's foreach_target.h.
-#if defined(PCL_BV_REACH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef PCL_BV_REACH_INL_H_
-#undef PCL_BV_REACH_INL_H_
+#if defined(PCL_BV_PROJECTION_EXTREMES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PCL_BV_PROJECTION_EXTREMES_INL_H_
+#undef PCL_BV_PROJECTION_EXTREMES_INL_H_
 #else
-#define PCL_BV_REACH_INL_H_
+#define PCL_BV_PROJECTION_EXTREMES_INL_H_
 #endif
 
 #include <hwy/highway.h>
