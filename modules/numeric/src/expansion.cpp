@@ -68,7 +68,7 @@ class ExpansionParts {
   }
 
  private:
-  std::array<double, Expansion::capacity + 1> parts_;  // at most one per term, and one that up() adds
+  std::array<double, Expansion::kCapacity + 1> parts_;  // at most one per term, and one that up() adds
   std::size_t size_ = 0;
 };
 
@@ -82,7 +82,7 @@ double sum_up(double head, double low) {
 
 Expansion& Expansion::add(double x) {
   if (x == 0) return *this;
-  if (size_ == capacity) compact();
+  if (size_ == kCapacity) compact();
   terms_[size_++] = x;
   const auto [sum, error] = two_sum(head_, x);
   head_ = sum;
@@ -99,7 +99,7 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
-// Merges the terms when there are as many as `capacity`. After compress() at most 41 terms remain.
+// Merges the terms when there are as many as `kCapacity`. After compress() at most 41 terms remain.
 void Expansion::compact() {
   ExpansionParts parts(terms_.data(), size_);
   parts.compress();

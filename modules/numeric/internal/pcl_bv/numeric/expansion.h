@@ -20,7 +20,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// The caller must hold a FloatEnvironment.
 class Expansion {
  public:
-  static constexpr std::size_t capacity = 44;  ///< Maximum number of terms.
+  static constexpr std::size_t kCapacity = 44;  ///< Maximum number of terms.
 
   /// Adds x, or a * b.
   Expansion& add(double x);
@@ -52,7 +52,7 @@ class Expansion {
   double error_bound() const;
   void compact();
 
-  std::array<double, capacity> terms_;  // none of them is zero
+  std::array<double, kCapacity> terms_;  // none of them is zero
   std::size_t size_ = 0;
   // The sum differs from head_ + low_ by at most error_bound().
   double head_ = 0, low_ = 0;
