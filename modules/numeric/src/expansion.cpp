@@ -142,11 +142,14 @@ double Expansion::up() const {
 }
 
 double Expansion::down() const {
-  Expansion negated(*this);
+  Expansion negated;  // without a copy of the unused terms
+  negated.size_ = size_;
   for (std::size_t i = 0; i < size_; ++i)
     negated.terms_[i] = -terms_[i];
   negated.head_ = -head_;
   negated.low_ = -low_;
+  negated.magnitude_ = magnitude_;
+  negated.lossy_ = lossy_;
   return -negated.up();
 }
 
