@@ -69,9 +69,9 @@ Ball min_sphere_of_spheres(const Cloud& cloud) {
 template <Ball (*fit)(const Cloud&)>
 std::size_t outside_sphere(Cloud& cloud) {
   const Ball ball = fit(cloud);
-  Sphere ours;
-  SphereCertificate certificate;
-  fit_smallest_sphere(cloud.view, ours, certificate);
+  const auto fitted = fit_smallest_sphere(cloud.view);
+  const Sphere& ours = fitted.volume;
+  const SphereCertificate& certificate = fitted.certificate;
   const double radius = std::sqrt(ball.squared_radius);
   require(radius >= certificate.lower_bound * (1 - 1e-8) && radius <= ours.radius() * (1 + 1e-8),
           "CGAL's sphere differs on " + cloud.name.text());

@@ -54,7 +54,7 @@ struct Cloud {
   std::shared_ptr<const void> memory;                         ///< What `view` looks at.
   /// The scalar reference's answers, by work: what fits.cpp compares with.
   std::map<std::string, AnyVolume> proven;
-  std::optional<Supports> supports;
+  std::optional<detail::Supports> supports;
   std::map<std::string_view, std::size_t> outside;  ///< By peer: points outside its answer.
 };
 

@@ -105,13 +105,13 @@ class Ours {
   ClusterSets sets() const {
     ClusterSets all;
     for (std::size_t i = 0; i < clusters_.size(); ++i)
-      all.emplace_back(clusters_.cluster(i), clusters_.cluster(i) + clusters_.cluster_size(i));
+      all.emplace_back(clusters_.list(i), clusters_.list(i) + clusters_.list_size(i));
     return all;
   }
 
  private:
   PointView view_;
-  ClusterSettings settings_;
+  ClusterOptions settings_;
   ParallelPolicy policy_;
   EuclideanClusterer clusterer_;
   Clusters clusters_;

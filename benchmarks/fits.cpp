@@ -16,11 +16,11 @@ namespace {
 
 const std::string kWithPoints = "-points";
 
-Supports extremes_with_points(const Cloud& cloud, const Execution& execution) {
-  return find_supports(cloud.view, DirectionSet::dop26, SupportDetail::points, execution);
+detail::Supports extremes_with_points(const Cloud& cloud, const Execution& execution) {
+  return detail::find_supports(cloud.view, DirectionSet::dop26, detail::SupportDetail::points, execution);
 }
 
-bool same_points(const Supports& a, const Supports& b) {
+bool same_points(const detail::Supports& a, const detail::Supports& b) {
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
     if (a.along[k].low_point.index != b.along[k].low_point.index ||
         a.along[k].high_point.index != b.along[k].high_point.index) {
@@ -45,9 +45,7 @@ Fit::Fit(const std::string& work) : name_(work), with_points_(work.ends_with(kWi
 }
 
 AnyVolume Fit::volume(const Cloud& cloud, const Execution& execution) const {
-  AnyVolume fitted;
-  method_->fit(cloud.view, fitted, execution, options_);
-  return fitted;
+  return method_->fit(cloud.view, options_, execution).volume;
 }
 
 void Fit::check(Cloud& cloud, const Execution& execution) const {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "clouds.h"
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv::bench {
 

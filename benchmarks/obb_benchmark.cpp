@@ -14,7 +14,7 @@
 
 #include "obb_clouds.h"
 #include "obb_peers.h"
-#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/supports.h"
 #include "timing.h"
@@ -26,11 +26,10 @@ constexpr int kTurns = 9, kTurnsOfTheSlow = 3;  // 0.3 s each on 100 k points
 
 void fit(benchmark::State& state, const std::string& name, const Method* method, Isa isa) {
   const ObbCloud& cloud = obb_cloud(name);
-  AnyVolume volume;
-  method->fit(cloud.view(), volume, {Serial{}, isa});
+  AnyVolume volume = *method->fit(cloud.view(), {}, {Serial{}, isa});
   require_enclosed(volume, cloud.view());
   for (auto _ : state) {
-    method->fit(cloud.view(), volume, {Serial{}, isa});
+    volume = *method->fit(cloud.view(), {}, {Serial{}, isa});
     benchmark::DoNotOptimize(volume);
   }
   state.counters["over_least"] = std::get<Obb>(volume).volume() / least_volume(cloud);
@@ -39,13 +38,12 @@ void fit(benchmark::State& state, const std::string& name, const Method* method,
 void against_peer(benchmark::State& state, const std::string& name, const ObbPeer* peer,
                   const Method* method) {
   const ObbCloud& cloud = obb_cloud(name);
-  AnyVolume volume;
-  method->fit(cloud.view(), volume, {});
+  AnyVolume volume = *method->fit(cloud.view());
   require_enclosed(volume, cloud.view());
   const PeerBox theirs = peer->run(cloud);
   compare(
       state, [&] { benchmark::DoNotOptimize(peer->run(cloud)); },
-      [&] { method->fit(cloud.view(), volume, {}); });
+      [&] { volume = *method->fit(cloud.view()); });
   state.counters["volume_over_peer"] = std::get<Obb>(volume).volume() / theirs.volume();
   state.counters["outside"] = static_cast<double>(theirs.points_outside(cloud));
 }
@@ -56,11 +54,12 @@ void dito_against_its_passes(benchmark::State& state, const std::string& name) {
   const std::vector<std::array<double, 3>> directions{{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}};
   AnyVolume volume;
   compare(
-      state, [&] { find_method("obb-dito14")->fit(cloud.view(), volume, {}); },
+      state, [&] { volume = *find_method("obb-dito14")->fit(cloud.view()); },
       [&] {
-        const Supports supports = find_supports(cloud.view(), DirectionSet::dop14, SupportDetail::points, {});
+        const detail::Supports supports =
+            detail::find_supports(cloud.view(), DirectionSet::dop14, detail::SupportDetail::points, {});
         benchmark::DoNotOptimize(supports);
-        const CustomSupports along = find_supports(cloud.view(), directions);
+        const detail::CustomSupports along = detail::find_supports(cloud.view(), directions);
         benchmark::DoNotOptimize(along);
       });
 }
@@ -78,11 +77,11 @@ std::vector<PointView> clusters() {
 void fit_clusters(const std::vector<PointView>& views, const std::vector<const Method*>& methods,
                   const Execution& execution) {
   for_each_view(views, execution, [&](std::size_t i, const Execution& inner) {
-    Supports supports;
-    const Execution shared = share_supports(views[i], methods, inner, supports);
+    detail::Supports supports;
+    const detail::FitExecution shared = detail::share_supports(views[i], methods, inner, supports);
     for (const Method* method : methods) {
       AnyVolume volume;
-      method->fit(views[i], volume, shared);
+      detail::fit_method(*method, views[i], {}, volume, shared);
       benchmark::DoNotOptimize(volume);
     }
   });

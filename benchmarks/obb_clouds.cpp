@@ -10,7 +10,7 @@
 
 #include "meshes.h"
 #include "obb_peers.h"
-#include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/points/point_records.h"
 #include "program.h"
@@ -123,8 +123,7 @@ double least_volume(const ObbCloud& cloud) {
   static std::map<std::string, double> known;
   const auto [place, fresh] = known.try_emplace(cloud.name());
   if (fresh) {
-    Obb box;
-    fit_obb(cloud.view(), ObbMethod::minimal, box);
+    Obb box = *fit_obb(cloud.view(), ObbMethod::minimal);
     place->second = box.volume();
     for (const ObbPeer& peer : obb_peers()) {
       if (peer.against == "obb-min") place->second = std::min(place->second, peer.run(cloud).volume());

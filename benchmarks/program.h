@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv::bench {
 

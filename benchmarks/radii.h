@@ -20,13 +20,12 @@ inline const std::vector<std::string>& sphere_methods() {
 /// the box (`radius`).
 inline void describe_radius(benchmark::State& state, const Fit& fit, const Cloud& cloud) {
   const double radius = std::get<Sphere>(fit.volume(cloud, {})).radius();
-  Sphere smallest;
-  SphereCertificate certificate;
-  fit_smallest_sphere(cloud.view, smallest, certificate);
+  const auto fitted = fit_smallest_sphere(cloud.view);
+  const Sphere& smallest = fitted.volume;
+  const SphereCertificate& certificate = fitted.certificate;
   require(smallest.radius() <= certificate.lower_bound * (1 + 1e-12),
           cloud.name.text() + ": not the smallest");
-  Aabb box;
-  fit_aabb(cloud.view, box);
+  Aabb box = *fit_aabb(cloud.view);
   state.counters["over_optimum"] = radius / smallest.radius();
   state.counters["radius"] = radius / (box.max() - box.min()).maxCoeff();
 }

@@ -83,11 +83,11 @@ std::vector<FoundObject> found_in(const FrameResult& result, const RuralRoadFram
   clusters.clear();
   for (std::size_t c = 0; c < result.clusters.size(); ++c) {
     if (!result.tracks[c]) continue;
-    FoundObject object{result.tracks[c]->id, result.clusters.cluster_size(c), {}, false};
+    FoundObject object{result.tracks[c]->id, result.clusters.list_size(c), {}, false};
     std::map<std::size_t, std::size_t> shared;
     for (std::size_t i = 0; i < object.points; ++i) {
       const auto at =
-          truth.place.find(made.cloud.object[static_cast<std::size_t>(result.clusters.cluster(c)[i])]);
+          truth.place.find(made.cloud.object[static_cast<std::size_t>(result.clusters.list(c)[i])]);
       if (at != truth.place.end()) ++shared[at->second];
     }
     std::size_t asked = 0;

@@ -1,9 +1,10 @@
 # What to build. As a subproject: only the libraries whose dependencies are few, nothing to install, no commands.
+# `segmentation` is a part of core; the name is still accepted.
 set(all_components core pcl segmentation io report messages recording nodes dds live ros1 mpi python)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
 else()
-  set(default_components core pcl segmentation)
+  set(default_components core pcl)
 endif()
 set(PCL_BV_COMPONENTS "${default_components}" CACHE STRING "Libraries to build: ${all_components}")
 option(PCL_BV_BUILD_COMMANDS "Build the commands pcd_bv, bv_stream and synth" ${PROJECT_IS_TOP_LEVEL})
@@ -40,7 +41,7 @@ if("recording" IN_LIST PCL_BV_COMPONENTS OR "messages" IN_LIST PCL_BV_COMPONENTS
   list(APPEND PCL_BV_COMPONENTS io)
 endif()
 if("report" IN_LIST PCL_BV_COMPONENTS)
-  list(APPEND PCL_BV_COMPONENTS segmentation io)
+  list(APPEND PCL_BV_COMPONENTS io)
 endif()
 list(APPEND PCL_BV_COMPONENTS core)
 list(REMOVE_DUPLICATES PCL_BV_COMPONENTS)

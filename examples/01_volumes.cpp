@@ -3,10 +3,7 @@
 
 // Fits volumes to a PCL cloud with single function calls, without a class or a pipeline.
 #include <pcl/point_types.h>
-#include <pcl_bv/estimation/fit_cloud.h>
-#include <pcl_bv/fitting/methods.h>
-#include <pcl_bv/fitting/partial.h>
-#include <pcl_bv/points/point_groups.h>
+#include <pcl_bv/pcl.h>
 
 #include <cmath>
 #include <iostream>
@@ -21,31 +18,29 @@ int main() {
   const pcl_bv::Obb previous;
   const std::vector<pcl_bv::PointView> views{pcl_bv::point_view(cloud)};
 
-  // One pass over the cloud gives all.aabb(), all.dop26(), all.centroid and all.covariance.
+  // One pass over the cloud gives all.aabb, all.dop26, all.centroid and all.covariance.
   const pcl_bv::CloudSummary all = pcl_bv::summarize(cloud);
 
   const auto directions = std::make_shared<pcl_bv::KdopSet>(std::vector<Eigen::Vector3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 4, 0}});
-  pcl_bv::Kdop kdop;
-  pcl_bv::SlabPoints touching;  // indices of the points that touch the sides of each slab
-  pcl_bv::fit_kdop(cloud, directions, kdop, touching, {pcl_bv::OpenMP{2}});
-  pcl_bv::Sphere sphere;
-  pcl_bv::SphereCertificate proof;                    // up to four weighted points: no sphere can be smaller
-  pcl_bv::fit_smallest_sphere(cloud, sphere, proof);  // or compute(sphere, proof) of SphereEstimation
-  if (const auto hit = kdop.intersect(origin, ray)) std::cout << hit->enter << "\n";
+  const auto kdop = pcl_bv::fit_touched_kdop(cloud, directions, pcl_bv::OpenMP{2});
+  const pcl_bv::SlabPoints& touching = kdop.certificate;  // indices of the points that touch the sides of each slab
+  const auto sphere = pcl_bv::fit_smallest_sphere(cloud);  // its certificate: no enclosing sphere can be smaller
+  if (const auto hit = kdop->intersect(origin, ray)) std::cout << hit->enter << "\n";
 
-  pcl_bv::Obb box;  // center(), axes(), half_extents(), pose(), quaternion()
-  pcl_bv::fit_obb(cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()}, box);
-  box = box.oriented_as(previous);  // the axes follow the previous box: a tracked box does not flip
+  const auto fitted = pcl_bv::fit_obb(cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()});
+  const pcl_bv::Obb box = fitted->oriented_as(previous);  // the axes follow the previous box: a tracked box does not flip
 
   // Tiles of a cloud can be processed here or on other machines (to_bytes()) and merged.
   pcl_bv::Partial tiles;
   for (const pcl_bv::PointView& tile : views) tiles.merge(pcl_bv::Partial(tile, tiles.size()));
-  pcl_bv::AnyVolume smallest_box;  // gets the same bits as from a fit to the whole cloud
-  tiles.fit(*pcl_bv::find_method("obb-min"), smallest_box);
+  const auto smallest_box = tiles.fit(*pcl_bv::find_method("obb-min"));  // the same bits as a fit to the whole cloud
 
   // A copy as a structure of arrays (points/point_groups.h), for several fits to the same points.
   const pcl_bv::PointGroups groups(pcl_bv::point_view(cloud));
-  pcl_bv::fit_kdop(groups.view(), pcl_bv::KdopSet::dop26(), kdop);
+  const auto dop26 = pcl_bv::fit_kdop(groups.view());
 
-  return sphere.radius() < 1.001 && touching.min.size() == 4 && !box.empty() ? 0 : 1;
+  return sphere->radius() < 1.001 && touching.min.size() == 4 && !box.empty() && !pcl_bv::empty(*smallest_box) &&
+                 dop26->volume() > 0
+             ? 0
+             : 1;
 }

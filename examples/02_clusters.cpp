@@ -3,8 +3,7 @@
 
 // Extracts clusters with the interface of PCL and fits a k-DOP to each cluster.
 #include <pcl/point_types.h>
-#include <pcl_bv/estimation/bounding_volume_estimation.h>
-#include <pcl_bv/segmentation/extract_clusters.h>
+#include <pcl_bv/pcl.h>
 
 #include <iostream>
 

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Finds clusters and boxes of points of your own type, without PCL and without copying the points.
-#include <pcl_bv/fitting/fit.h>
-#include <pcl_bv/segmentation/euclidean_clusters.h>
+#include <pcl_bv/core.h>
 
 #include <iostream>
 #include <vector>
@@ -15,20 +14,23 @@ struct Return {  // a point as the driver of a sensor delivers it
 };
 
 int main() {
-  std::vector<Return> sweep;
-  for (int i = 0; i < 400; ++i)
-    sweep.push_back({0.001 * i, 5e6 + (i < 250 ? 0 : 8), 0.05 * (i % 50), 0.2 * (i % 7), 0, 0});
+  std::vector<Eigen::Vector3f> sweep;
+  for (int i = 0; i < 400; ++i)  // two objects, 8 m apart
+    sweep.emplace_back(i < 250 ? 0.0F : 8.0F, 0.05F * static_cast<float>(i % 50), 0.2F * static_cast<float>(i % 7));
 
-  const pcl_bv::PointView points = pcl_bv::PointView::of(&sweep[0].x, sizeof(Return), sweep.size());
-  pcl_bv::Clusters clusters;
-  pcl_bv::EuclideanClusterer().extract(points, {1.0F, 10}, clusters);
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    pcl_bv::PointView object = points;
-    object.indices = clusters.cluster(i);
-    object.count = clusters.cluster_size(i);
-    pcl_bv::Aabb box;
-    const pcl_bv::EstimationResult result = pcl_bv::fit_aabb(object, box, {pcl_bv::Threads{2}});
-    std::cout << result.used << " points from " << box.min().transpose() << " to " << box.max().transpose() << "\n";
+  const auto points = pcl_bv::view(sweep);                    // refers to the sweep, copies nothing
+  const auto clusters = pcl_bv::cluster(points, {0.5F, 30});  // tolerance in metres, smallest number of points
+  for (const auto& box : pcl_bv::fit_obb(points, clusters))
+    std::cout << box->center().transpose() << "  " << box->volume() << " m3\n";
+
+  std::vector<Return> returns;
+  for (const Eigen::Vector3f& p : sweep) returns.push_back({0.1, 5e6 + p.x(), 4e5 + p.y(), p.z(), 0, 0});
+  const pcl_bv::PointView own = pcl_bv::view(returns);
+  const pcl_bv::Clusters objects = pcl_bv::cluster(own, {1.0F, 10}, pcl_bv::Threads{2});
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const pcl_bv::PointView object = own.subset(objects.list(i), objects.list_size(i));
+    const pcl_bv::Fitted<pcl_bv::Aabb> box = pcl_bv::fit_aabb(object);
+    std::cout << box.used << " points from " << box->min().transpose() << " to " << box->max().transpose() << "\n";
   }
-  return clusters.size() == 2 && clusters.cluster_size(0) == 250 ? 0 : 1;
+  return clusters.size() == 2 && objects.size() == 2 && objects.list_size(0) == 250 ? 0 : 1;
 }

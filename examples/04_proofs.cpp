@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Proves that no point is outside a volume, by exact arithmetic, and that no enclosing sphere is smaller.
-#include <pcl_bv/fitting/fit.h>
-#include <pcl_bv/fitting/methods.h>
-#include <pcl_bv/fitting/verify.h>
+#include <pcl_bv/core.h>
 
 #include <iostream>
 #include <random>
@@ -19,17 +17,14 @@ int main() {
 
   std::size_t outside = 0;
   for (const pcl_bv::Method* method : pcl_bv::methods_of_all()) {
-    pcl_bv::AnyVolume volume;
-    method->fit(points, volume, {});
-    const pcl_bv::Verification proof = pcl_bv::verify(volume, points);  // by rational arithmetic
+    const auto volume = method->fit(points);
+    const pcl_bv::Verification proof = pcl_bv::verify(*volume, points);  // by rational arithmetic
     std::cout << method->name << ": " << proof.checked << " points, " << proof.outside << " outside\n";
     outside += proof.outside;
   }
 
-  pcl_bv::Sphere sphere;
-  pcl_bv::SphereCertificate certificate;  // up to four weighted points
-  pcl_bv::fit_smallest_sphere(points, sphere, certificate);
-  std::cout << "radius " << sphere.radius() << "; no enclosing sphere has a radius below "
-            << certificate.lower_bound << "\n";
-  return outside == 0 && sphere.radius() <= certificate.lower_bound * (1 + 1e-12) ? 0 : 1;
+  const auto sphere = pcl_bv::fit_smallest_sphere(points);
+  const double least = sphere.certificate.lower_bound;  // proven by up to four weighted points
+  std::cout << "radius " << sphere->radius() << "; no enclosing sphere has a radius below " << least << "\n";
+  return outside == 0 && sphere->radius() <= least * (1 + 1e-12) ? 0 : 1;
 }

@@ -21,10 +21,8 @@ int main(int argc, char** argv) {
   }
   const auto file = pcl_bv::CloudFile::open(path);  // null for files that cannot be read in blocks
   if (file == nullptr) return 1;
-  pcl_bv::Aabb box;
-  const pcl_bv::EstimationResult result = pcl_bv::fit_aabb(file->xyz(), box, {pcl_bv::Threads{0}});
-  pcl_bv::Sphere sphere;
-  pcl_bv::fit_sphere(file->xyz(), {}, sphere);
-  std::cout << result.used << " points, box of " << box.volume() << " m3, radius " << sphere.radius() << "\n";
-  return result.used > 0 ? 0 : 1;
+  const auto box = pcl_bv::fit_aabb(file->xyz(), pcl_bv::Threads{0});
+  const auto sphere = pcl_bv::fit_sphere(file->xyz());
+  std::cout << box.used << " points, box of " << box->volume() << " m3, radius " << sphere->radius() << "\n";
+  return box.used > 0 ? 0 : 1;
 }

@@ -26,9 +26,7 @@ int main() {
     std::cout << "a part of 20000 points: " << message.size() << " bytes\n";
   }
   const pcl_bv::Method& method = *pcl_bv::find_method("obb-min");
-  pcl_bv::AnyVolume from_parts, at_once;
-  all.fit(method, from_parts);
-  method.fit(whole, at_once, {});
+  const pcl_bv::AnyVolume from_parts = *all.fit(method), at_once = *method.fit(whole);
   std::cout << "volume " << pcl_bv::volume(from_parts)
             << " m3, equal to the fit of the whole cloud: " << std::boolalpha << (from_parts == at_once) << "\n";
   return from_parts == at_once ? 0 : 1;

@@ -3,8 +3,7 @@
 
 // Fits an upright box and the minimum-volume box to a PCL cloud.
 #include <pcl/point_types.h>
-#include <pcl_bv/estimation/bounding_volume_estimation.h>
-#include <pcl_bv/estimation/fit_cloud.h>
+#include <pcl_bv/pcl.h>
 
 #include <cmath>
 #include <iostream>
@@ -27,9 +26,8 @@ int main() {
   const Eigen::Vector3d size = 2 * box.half_extents();  // along box.axis(0), axis(1), axis(2), in metres
   const Eigen::Isometry3d pose = box.pose();            // from the box's own frame to the frame of the cloud
 
-  pcl_bv::Obb smallest;  // the minimum-volume box, by a function call instead of a class
-  pcl_bv::fit_obb(*cloud, {pcl_bv::ObbMethod::minimal}, smallest);
+  const auto smallest = pcl_bv::fit_obb(*cloud);  // the minimum-volume box, by a function call instead of a class
 
   std::cout << size.transpose() << " m at " << pose.translation().transpose() << ", " << result.used << " points\n";
-  return std::abs(size.prod() - 4 * 2 * 1.5) < 0.01 && smallest.volume() < box.volume() + 0.01 ? 0 : 1;
+  return std::abs(size.prod() - 4 * 2 * 1.5) < 0.01 && smallest->volume() < box.volume() + 0.01 ? 0 : 1;
 }

@@ -117,10 +117,10 @@ constexpr std::string_view rural_road_sequence = "rural-road-sequence";
 
 }  // namespace
 
-SynthSpec parse_synth(std::string_view text) {
+SynthOptions parse_synth(std::string_view text) {
   const auto parts = split_spec(text, "POINTS");
   const Scene& scene = find_scene(parts[0]);
-  SynthSpec spec{std::string(scene.name), scene.points, seed_of(parts)};
+  SynthOptions spec{std::string(scene.name), scene.points, seed_of(parts)};
   if (parts.size() > 1) spec.points = whole_number("POINTS", parts[1], 1, max_points);
   if (scene.fixed_size && spec.points != scene.points) {
     throw std::invalid_argument("POINTS '" + std::string(parts[1]) + "' is not allowed: " + spec.name +
@@ -130,7 +130,7 @@ SynthSpec parse_synth(std::string_view text) {
   return spec;
 }
 
-SynthCloud make_synth(const SynthSpec& spec) {
+SynthCloud make_synth(const SynthOptions& spec) {
   return find_scene(spec.name).make(spec.points, spec.seed);
 }
 
@@ -145,9 +145,9 @@ bool is_rural_road_sequence(std::string_view text) {
   return current_name(text.substr(0, text.find(':'))).starts_with(rural_road_sequence);
 }
 
-RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text) {
+RuralRoadSequenceOptions parse_rural_road_sequence(std::string_view text) {
   const auto parts = split_spec(text, "FRAMES");
-  RuralRoadSequenceSpec spec;
+  RuralRoadSequenceOptions spec;
   const std::string name = current_name(parts[0]);
   if (name != rural_road_sequence) {
     constexpr std::array<std::string_view, 4> sensors{"16", "32", "64", "128"};
@@ -167,13 +167,13 @@ RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text) {
   return spec;
 }
 
-StreetSequenceSpec parse_street_sequence(std::string_view text) {
+StreetSequenceOptions parse_street_sequence(std::string_view text) {
   const auto parts = split_spec(text, "FRAMES");
   if (parts[0] != "street-sequence") {
     throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) +
                                 "', expected street-sequence or rural-road-sequence[-BEAMS]");
   }
-  StreetSequenceSpec spec;
+  StreetSequenceOptions spec;
   spec.seed = seed_of(parts);
   if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);
   return spec;

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
-#include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/segmentation/counts.h"
 #include "pcl_bv/trees/region_mask.h"

@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/segmentation/counts.h"
 

@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "class_rules.h"
+#include "class_table.h"
 #include "filter.h"
 #include "ground.h"
-#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/sensor_position.h"
 #include "pcl_bv/segmentation/up.h"
@@ -39,7 +39,7 @@ class Stopwatch {
 struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
-  ClassRules rules;
+  ClassTable classes;
   MethodOptions options;
   std::shared_ptr<const PointFilter> filter;
   Execution execution{Serial{}, Isa::scalar};  // replaced by the configured instruction set
@@ -54,11 +54,10 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   if (!problems.empty()) throw std::invalid_argument(problems);
   auto prepared = std::make_shared<Prepared>();
   prepared->methods = config.methods();
-  prepared->rules = ClassRules(config);
+  prepared->classes = ClassTable(config);
   prepared->options = {config.growth, normalized_up(config.ground.up)};
   prepared->segments = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
-  prepared->execution.isa = parse_isa(config.isa);
-  prepared->execution.parallel = config.parallel_policy();
+  prepared->execution = config.execution();
   prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
   prepared->reads_points = prepared->segments || !prepared->filter->keeps_all() ||
                            config.cluster.effective_min_size() > 0 ||
@@ -136,7 +135,7 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
 PointView FramePipeline::State::remove_ground(const Prepared& now, const PointView& points,
                                               FrameResult& result) {
   const GroundConfig& config = now.config.ground;
-  split_ground(points, config, result.sensor, now.execution.parallel, zones, result.ground);
+  split_ground(points, config, result.sensor, now.execution, zones, result.ground);
   result.ground.sensor = result.sensor;
   if (config.method == GroundMethod::none) return points;
   result.counts.ground = result.ground.ground.size();
@@ -168,13 +167,13 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
   if (config.tolerance == 0) {
     make_one_cluster(config, points, result);
   } else if (!config.class_field) {
-    clusterer.extract(points, now.rules.default_settings(), result.clusters, now.execution.parallel);
+    clusterer.extract(points, now.classes.default_options(), result.clusters, now.execution);
   } else {
     if (frame.classes == nullptr)
       throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
                                   config.class_field->name + "'");
-    class_clusterer.extract(points, *frame.classes, now.rules.default_settings(), now.rules.class_settings(),
-                            result.clusters, result.class_of, now.execution.parallel);
+    class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
+                            now.classes.class_options(), result.clusters, result.class_of, now.execution);
   }
   // Frees the memory of the clustering before the fits. For a million clusters of four points, the clustering
   // needs 550 MB and the volumes need 300 MB, and both would be in memory at the same time.
@@ -199,10 +198,11 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   result.results.resize(result.volumes.size());
   result.requested.resize(result.volumes.size());
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
-    const std::vector<const Method*>& requested_methods = now.rules.methods_of(
+    const std::vector<const Method*>& requested_methods = now.classes.methods_of(
         result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
-    Supports supports;
-    const Execution shared = share_supports(views[cluster], requested_methods, execution, supports);
+    detail::Supports supports;
+    const detail::FitExecution shared =
+        detail::share_supports(views[cluster], requested_methods, execution, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
       result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) !=
@@ -212,7 +212,8 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
         result.results[i] = EstimationResult();
         continue;
       }
-      result.results[i] = now.methods[m]->fit(views[cluster], result.volumes[i], shared, now.options);
+      result.results[i] =
+          detail::fit_method(*now.methods[m], views[cluster], now.options, result.volumes[i], shared);
     }
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
@@ -264,7 +265,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.tracks.clear();
   result.track_time = TrackTime::stamps;
   // An empty cluster has no position to track.
-  const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;
+  const bool nothing = result.clusters.size() == 1 && result.clusters.list_size(0) == 0;
   if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
   if (now->config.track.enabled && !nothing) {
     state_->tracks.update(now->config.track, state_->views, frame, result);

@@ -23,10 +23,10 @@ PointView FrameResult::points_after_filter(const PointView& cloud) const {
 }
 
 PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) const {
-  const std::size_t size = clusters.cluster_size(cluster);
+  const std::size_t size = clusters.list_size(cluster);
   if (size == 0) return cloud.slice(0, 0);
   if (clusters.indices.empty()) return points_after_filter(cloud);
-  return subset(cloud, clusters.cluster(cluster), size);
+  return subset(cloud, clusters.list(cluster), size);
 }
 
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result) {
@@ -94,7 +94,7 @@ namespace {
 
 void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) {
   entry.id = id;
-  entry.points = result.clusters.cluster_size(id);
+  entry.points = result.clusters.list_size(id);
   if (!result.class_of.empty()) entry.class_value = result.class_of[id];
   if (!result.tracks.empty()) entry.track = result.tracks[id];
   entry.volumes.resize(result.methods.size());

@@ -20,22 +20,22 @@ Settings settings_of(const GroundConfig& config) {
 
 }  // namespace
 
-GroundPlaneSettings plane_settings(const GroundConfig& config) {
-  return settings_of<GroundPlaneSettings>(config);
+GroundPlaneOptions plane_settings(const GroundConfig& config) {
+  return settings_of<GroundPlaneOptions>(config);
 }
 
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
-                  const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split) {
+                  const Execution& execution, GroundZones& zones, GroundSplit& split) {
   split.found = false;
   split.ground.clear();
   split.rest.clear();
   if (config.method == GroundMethod::plane) {
     split_ground(points, plane_settings(config), split);
   } else if (config.method == GroundMethod::zones) {
-    auto settings = settings_of<GroundZonesSettings>(config);
+    auto settings = settings_of<GroundZonesOptions>(config);
     settings.sensor = sensor.position;
     if (!sensor.confirmed && !config.sensor) settings.sensor_height.reset();
-    zones.split(points, settings, split, policy);
+    zones.split(points, settings, split, execution);
   }
 }
 

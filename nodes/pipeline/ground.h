@@ -13,12 +13,12 @@ namespace pcl_bv {
 inline constexpr std::size_t kFewPoints = 100;
 
 /// Returns the settings of split_ground() for one plane.
-GroundPlaneSettings plane_settings(const GroundConfig& config);
+GroundPlaneOptions plane_settings(const GroundConfig& config);
 
 /// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists of
 /// `split` are empty. Zones are centred at `sensor`. If `sensor` is estimated, the configured sensor height
 /// is ignored. Reuses the memory of `zones`.
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
-                  const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split);
+                  const Execution& execution, GroundZones& zones, GroundSplit& split);
 
 }  // namespace pcl_bv

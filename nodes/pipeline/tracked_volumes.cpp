@@ -21,9 +21,7 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
     const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
     if (box != nullptr && result.is_requested(cluster, m)) return *box;
   }
-  Aabb box;
-  fit_aabb(points, box);
-  return box;
+  return *fit_aabb(points);
 }
 
 }  // namespace

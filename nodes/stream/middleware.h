@@ -44,7 +44,7 @@ class MessageSender {
   virtual void announce_settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
 
   /// Same as FrameSink::offer_settings().
-  virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
+  virtual void offer_settings(const std::shared_ptr<RemoteParameters>& /*settings*/) {}
 
   /// Shows a line to the viewers.
   virtual void notify(const std::string& /*line*/) {}

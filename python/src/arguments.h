@@ -6,7 +6,7 @@
 // do not give them.
 #pragma once
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pipeline/config/settings.h"
 #include "precompiled.h"
 

@@ -3,7 +3,7 @@
 
 #include "bind.h"
 #include "labels.h"
-#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "volume_object.h"
 
@@ -12,27 +12,15 @@ namespace {
 
 using namespace py::literals;
 
-struct Fitted {
-  AnyVolume volume;
-  EstimationResult result;
-};
+using FittedVolumes = std::vector<Fitted<AnyVolume>>;
 
-/// Fits all methods to one view. `fitted` has one element per method.
-void fit_all(const PointView& view, const std::vector<const Method*>& methods, const Execution& execution,
-             const MethodOptions& options, Fitted* fitted) {
-  Supports supports;
-  const Execution shared = share_supports(view, methods, execution, supports);
-  for (std::size_t m = 0; m < methods.size(); ++m)
-    fitted[m].result = methods[m]->fit(view, fitted[m].volume, shared, options);
-}
-
-py::object python_of(Fitted&& fitted, const Method* method) {
-  return to_python(std::move(fitted.volume), method, fitted.result);
+py::object python_of(Fitted<AnyVolume>&& fitted, const Method* method) {
+  return to_python(std::move(fitted.volume), method, fitted);
 }
 
 /// Returns a volume if `single` is true, otherwise a list of volumes.
-py::object python_of(Fitted* fitted, const std::vector<const Method*>& methods, bool single) {
-  if (single) return python_of(std::move(*fitted), methods.front());
+py::object python_of(FittedVolumes&& fitted, const std::vector<const Method*>& methods, bool single) {
+  if (single) return python_of(std::move(fitted.front()), methods.front());
   py::list list(methods.size());
   for (std::size_t m = 0; m < methods.size(); ++m)
     list[m] = python_of(std::move(fitted[m]), methods[m]);
@@ -42,16 +30,16 @@ py::object python_of(Fitted* fitted, const std::vector<const Method*>& methods, 
 py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& methods, bool single,
                         py::handle labels, const Execution& execution, const MethodOptions& options) {
   const LabelGroups groups(labels, points.view);
-  std::vector<Fitted> fitted(groups.size() * methods.size());
+  std::vector<FittedVolumes> fitted(groups.size());
   {
     const py::gil_scoped_release unlocked;
     for_each_view(groups.views(), execution, [&](std::size_t i, const Execution& own) {
-      fit_all(groups.views()[i], methods, own, options, &fitted[i * methods.size()]);
+      fitted[i] = fit_methods(groups.views()[i], methods, options, own);
     });
   }
   py::dict by_label;
   for (std::size_t i = 0; i < groups.size(); ++i)
-    by_label[py::int_(groups.label(i))] = python_of(&fitted[i * methods.size()], methods, single);
+    by_label[py::int_(groups.label(i))] = python_of(std::move(fitted[i]), methods, single);
   return by_label;
 }
 
@@ -63,22 +51,22 @@ py::object fit(py::handle points, py::handle method, py::handle labels, py::hand
   if (PyUnicode_Check(method.ptr()) && labels.is_none() &&
       PyUnicode_CompareWithASCIIString(method.ptr(), "all") != 0) {
     const Method* const method_used = method_of(method);
-    Fitted fitted;
+    Fitted<AnyVolume> fitted;
     {
       const py::gil_scoped_release unlocked;
-      fitted.result = method_used->fit(array.view, fitted.volume, execution, options);
+      fitted = method_used->fit(array.view, options, execution);
     }
     return python_of(std::move(fitted), method_used);
   }
   bool single = false;
   const std::vector<const Method*> methods = methods_of(method, single);
   if (!labels.is_none()) return fit_labelled(array, methods, single, labels, execution, options);
-  std::vector<Fitted> fitted(methods.size());
+  FittedVolumes fitted;
   {
     const py::gil_scoped_release unlocked;
-    fit_all(array.view, methods, execution, options, fitted.data());
+    fitted = fit_methods(array.view, methods, options, execution);
   }
-  return python_of(fitted.data(), methods, single);
+  return python_of(std::move(fitted), methods, single);
 }
 
 struct VerificationObject : Verification {};

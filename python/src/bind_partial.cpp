@@ -36,17 +36,16 @@ py::object fit_partial(const Partial& partial, py::handle names, py::handle up, 
   const std::vector<const Method*> methods = methods_of(names, single);
   const Execution execution = execution_of(threads, py::none());
   const MethodOptions options{SphereGrowth::deferred, up_argument(up)};
-  std::vector<AnyVolume> volumes(methods.size());
-  std::vector<EstimationResult> results(methods.size());
+  std::vector<Fitted<AnyVolume>> fitted(methods.size());
   {
     const py::gil_scoped_release unlocked;
     for (std::size_t m = 0; m < methods.size(); ++m)
-      results[m] = partial.fit(*methods[m], volumes[m], execution, options);
+      fitted[m] = partial.fit(*methods[m], options, execution);
   }
-  if (single) return to_python(std::move(volumes[0]), methods[0], results[0]);
+  if (single) return to_python(std::move(fitted[0].volume), methods[0], fitted[0]);
   py::list list(methods.size());
   for (std::size_t m = 0; m < methods.size(); ++m)
-    list[m] = to_python(std::move(volumes[m]), methods[m], results[m]);
+    list[m] = to_python(std::move(fitted[m].volume), methods[m], fitted[m]);
   return list;
 }
 

@@ -64,12 +64,11 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
 
 /// Loads a cloud. Sets `warnings` to the warnings about the recording.
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
-                    std::size_t bin_fields, const ParallelPolicy& policy,
-                    std::vector<std::string>& warnings) {
+                    std::size_t bin_fields, const Execution& execution, std::vector<std::string>& warnings) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
   if (has_recorded_clouds(name)) return load_recorded(name, topic, number, warnings);
   check_recording_content(name);
-  return read_cloud(name, policy, bin_fields);
+  return read_cloud(name, {bin_fields}, execution);
 }
 
 py::array read_points(py::handle file, py::handle topic, py::handle number, py::handle bin_fields,
@@ -78,12 +77,12 @@ py::array read_points(py::handle file, py::handle topic, py::handle number, py::
   const std::string topic_name = topic.is_none() ? "" : text(topic, "topic");
   const std::size_t which = whole_number(number, "number", {0, kNoLimit});
   const std::size_t fields = whole_number(bin_fields, "bin_fields", {0, 32});
-  const ParallelPolicy policy = policy_of(threads);
+  const Execution execution(policy_of(threads), Isa::scalar);  // no kernel is used
   std::optional<RawCloud> cloud;
   std::vector<std::string> warnings;
   with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
-    cloud = load_cloud(name, topic_name, which, fields, policy, warnings);
+    cloud = load_cloud(name, topic_name, which, fields, execution, warnings);
   });
   for (const std::string& warning : warnings)
     warn_about_note(name, warning);

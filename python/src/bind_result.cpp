@@ -46,9 +46,9 @@ py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
 /// passed the filter are one cluster. In this case, computes the indices from the labels.
 py::object indices_of(const ClusterObject& cluster) {
   const FrameResult& result = cluster.owner_result->result;
-  if (!result.clusters.indices.empty() || result.clusters.cluster_size(cluster.id) == 0)
+  if (!result.clusters.indices.empty() || result.clusters.list_size(cluster.id) == 0)
     return view_of_part(result.clusters.indices.data() + result.clusters.offsets[cluster.id],
-                        result.clusters.indices.empty() ? 0 : result.clusters.cluster_size(cluster.id),
+                        result.clusters.indices.empty() ? 0 : result.clusters.list_size(cluster.id),
                         py::cast(cluster));
   const std::vector<std::uint32_t> labels = labels_of(cluster.owner_result->frame(), result);
   std::vector<std::int32_t> numbers;
@@ -67,7 +67,7 @@ py::object track_of(const ClusterObject& cluster) {
 std::string repr_of_cluster(const ClusterObject& cluster) {
   const FrameResult& result = cluster.owner_result->result;
   std::string text = "Cluster(id=" + std::to_string(cluster.id) +
-                     ", points=" + std::to_string(result.clusters.cluster_size(cluster.id));
+                     ", points=" + std::to_string(result.clusters.list_size(cluster.id));
   if (!result.class_of.empty()) text += ", class_value=" + std::to_string(result.class_of[cluster.id]);
   if (!result.tracks.empty() && result.tracks[cluster.id])
     text += ", track=" + std::to_string(result.tracks[cluster.id]->id);
@@ -235,7 +235,7 @@ void bind_cluster(py::module_& module) {
   py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
       .def_readonly("id", &ClusterObject::id, "Its index in the frame; 0 is the largest cluster.")
       .def_property_readonly(
-          "points", [](const ClusterObject& c) { return c.owner_result->result.clusters.cluster_size(c.id); },
+          "points", [](const ClusterObject& c) { return c.owner_result->result.clusters.list_size(c.id); },
           "Number of valid points.")
       .def_property_readonly("indices", indices_of, "int32: the indices of its points in the frame's array.")
       .def_property_readonly("volumes", volumes_of_cluster,

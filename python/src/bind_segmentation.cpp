@@ -21,8 +21,8 @@ std::size_t size_or_unlimited(py::handle value, const char* name) {
 }
 
 /// Returns the settings of one class. Settings that are not in the dict are taken from `others`.
-ClassSettings class_settings(std::int64_t value, py::handle settings_dict, const ClusterSettings& others) {
-  ClassSettings own{value, others};
+ClassOptions class_settings(std::int64_t value, py::handle settings_dict, const ClusterOptions& others) {
+  ClassOptions own{value, others};
   if (!py::isinstance<py::dict>(settings_dict))
     raise_type_error("class_settings", "a dict of settings for each class", settings_dict);
   for (const auto& [key, of] : py::reinterpret_borrow<py::dict>(settings_dict)) {
@@ -44,8 +44,8 @@ ClassSettings class_settings(std::int64_t value, py::handle settings_dict, const
   return own;
 }
 
-std::vector<ClassSettings> all_class_settings(py::handle settings_dict, const ClusterSettings& others) {
-  std::vector<ClassSettings> own;
+std::vector<ClassOptions> all_class_settings(py::handle settings_dict, const ClusterOptions& others) {
+  std::vector<ClassOptions> own;
   if (settings_dict.is_none()) return own;
   if (!py::isinstance<py::dict>(settings_dict))
     raise_type_error("class_settings", "a dict of settings for each class", settings_dict);
@@ -60,25 +60,26 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
                              py::handle oversized, py::handle classes, py::handle own_settings,
                              py::handle threads) {
   const PointArray array = points_of(points);
-  ClusterSettings settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false, true}))};
+  ClusterOptions settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false, true}))};
   settings.min_size = whole_number(min_size, "min_size", {0, kNoLimit});
   settings.max_size = size_or_unlimited(max_size, "max_size");
   settings.min_points = whole_number(min_points, "min_points", {1, kNoLimit});
   settings.tolerance_per_metre =
       static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6, true, true}));
   settings.oversized = parse_text<Oversized>(oversized, "oversized");
-  const std::vector<ClassSettings> own = all_class_settings(own_settings, settings);
+  const std::vector<ClassOptions> own = all_class_settings(own_settings, settings);
   if (classes.is_none() && !own.empty()) raise_value_error("class_settings", "needs the argument classes");
-  const ParallelPolicy policy = policy_of(threads);
+  const Execution execution(policy_of(threads), Isa::scalar);  // no kernel is used
   std::vector<std::int64_t> of_points;
   if (!classes.is_none()) of_points = integers(classes, "classes", array.view.count);
   ClustersObject clusters;
   clusters.points = array.view.count;
   const py::gil_scoped_release unlocked;
   if (classes.is_none()) {
-    EuclideanClusterer().extract(array.view, settings, clusters.found, policy);
+    EuclideanClusterer().extract(array.view, settings, clusters.found, execution);
   } else {
-    ClassClusterer().extract(array.view, of_points, settings, own, clusters.found, clusters.class_of, policy);
+    ClassClusterer().extract(array.view, of_points, settings, own, clusters.found, clusters.class_of,
+                             execution);
   }
   clusters.label_points();
   return clusters;
@@ -129,20 +130,20 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
     settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
     return settings;
   };
-  const ParallelPolicy policy = policy_of(threads);
+  const Execution execution(policy_of(threads), Isa::scalar);  // no kernel is used
   GroundObject found;
   found.points = array.view.count;
   if (config.method == GroundMethod::plane) {
     if (!sensor.is_none()) raise_value_error("sensor", "is only allowed with method 'zones'");
-    const auto settings = set(GroundPlaneSettings());
+    const auto settings = set(GroundPlaneOptions());
     const py::gil_scoped_release unlocked;
     split_ground(array.view, settings, found.split);
   } else {
     if (!sensor.is_none()) config.sensor = vector3(sensor, "sensor");
-    auto settings = set(GroundZonesSettings());
+    auto settings = set(GroundZonesOptions());
     settings.sensor = config.sensor;
     const py::gil_scoped_release unlocked;
-    GroundZones().split(array.view, settings, found.split, policy);
+    GroundZones().split(array.view, settings, found.split, execution);
     if (config.sensor) {
       found.split.sensor = find_sensor(array.view, config.up, *config.sensor, found.split.scratch);
       found.split.sensor.position = *config.sensor;
@@ -162,11 +163,11 @@ py::object mask_of(const GroundObject& found) {
 
 py::dict statistics_of(py::handle points, py::handle threads) {
   const PointArray array = points_of(points);
-  const ParallelPolicy policy = policy_of(threads);
+  const Execution execution(policy_of(threads), Isa::scalar);  // no kernel is used
   CloudStatistics found;
   {
     const py::gil_scoped_release unlocked;
-    found = cloud_statistics(array.view, policy);
+    found = cloud_statistics(array.view, execution);
   }
   py::dict statistics("box"_a = to_python(found.box), "nonfinite"_a = found.nonfinite, "zero"_a = found.zero);
   statistics["spacing"] = found.spacing ? py::object(py::float_(*found.spacing)) : py::none();
@@ -182,7 +183,7 @@ py::object cluster_at(const py::object& self, py::handle index) {
   if (i < -size || i >= size)
     throw py::index_error("cluster " + repr_text(index) + " of " + std::to_string(size));
   const auto at = static_cast<std::size_t>(i < 0 ? i + size : i);
-  return view_of_part(found.cluster(at), found.cluster_size(at), self);
+  return view_of_part(found.list(at), found.list_size(at), self);
 }
 
 py::tuple state_of(const ClustersObject& c) {
@@ -254,7 +255,7 @@ std::string repr_of_clusters(const ClustersObject& c) {
   const auto add = [&](const char* what, std::size_t n) {
     if (n > 0) text.append(", ").append(what).append("=").append(std::to_string(n));
   };
-  if (c.found.size() > 0) add("largest", c.found.cluster_size(0));
+  if (c.found.size() > 0) add("largest", c.found.list_size(0));
   add("small_points", c.found.small_points);
   add("large_points", c.found.large_points);
   add("noise_points", c.found.noise_points);

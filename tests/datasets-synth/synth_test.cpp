@@ -33,7 +33,7 @@ TEST(ParseSynth, DefaultsAreTheDocumentedOnes) {
                                      {"gauss", 100000u},
                                      {"surface", 100000u},
                                      {"paper-7260", 7260u}}) {
-    const SynthSpec spec = parse_synth(name);
+    const SynthOptions spec = parse_synth(name);
     EXPECT_EQ(spec.name, name);
     EXPECT_EQ(spec.points, points);
     EXPECT_EQ(spec.seed, 1u);
@@ -41,7 +41,7 @@ TEST(ParseSynth, DefaultsAreTheDocumentedOnes) {
 }
 
 TEST(ParseSynth, ReadsPointsAndSeed) {
-  const SynthSpec spec = parse_synth("gauss:12:18446744073709551615");
+  const SynthOptions spec = parse_synth("gauss:12:18446744073709551615");
   EXPECT_EQ(spec.points, 12u);
   EXPECT_EQ(spec.seed, UINT64_MAX);
 }
@@ -111,9 +111,9 @@ TEST(MakeSynth, TheRuralRoadHasAsManyPointsAsParsingSays) {
 
 TEST(MakeSynth, VergesIsAnAliasOfTheRuralRoad) {
   for (const std::string sensor : {"", "-16", "-32", "-128"}) {
-    const SynthSpec old_name =
+    const SynthOptions old_name =
         parse_synth("verges" + sensor + ":" + std::to_string(parse_synth("verges" + sensor).points) + ":5");
-    const SynthSpec spec = parse_synth("rural-road" + sensor);
+    const SynthOptions spec = parse_synth("rural-road" + sensor);
     EXPECT_EQ(old_name.name, "rural-road" + sensor);
     EXPECT_EQ(old_name.points, spec.points);
     EXPECT_EQ(old_name.seed, 5u);
@@ -127,7 +127,7 @@ TEST(MakeSynth, VergesIsAnAliasOfTheRuralRoad) {
 }
 
 TEST(ParseRuralRoadSequence, VergesSequenceIsAnAlias) {
-  const RuralRoadSequenceSpec spec = parse_rural_road_sequence("verges-sequence-16:3:4");
+  const RuralRoadSequenceOptions spec = parse_rural_road_sequence("verges-sequence-16:3:4");
   EXPECT_EQ(spec.options.beams, 16u);
   EXPECT_EQ(spec.options.seed, 4u);
   EXPECT_EQ(spec.frames, 3u);
@@ -155,7 +155,7 @@ TEST(ParseStreetSequence, RefusalsNameTheValueAndWhatIsAllowed) {
 TEST(MakeSynth, EverySceneHasExactlyItsPointsAllFinite) {
   for (const char* name : {"street:6400", "sphere", "box:1", "gauss:17", "surface:100", "paper-30892"}) {
     SCOPED_TRACE(name);
-    const SynthSpec spec = parse_synth(name);
+    const SynthOptions spec = parse_synth(name);
     const SynthCloud cloud = make_synth(spec);
     EXPECT_EQ(cloud.size(), spec.points);
     for (const float coordinate : cloud.xyz)

@@ -63,14 +63,14 @@ TEST(KdopEstimation, FitsAlongDirectionsOfYourOwn) {
   estimation.setDirections(directions);
   EXPECT_EQ(estimation.getDirections(), directions);
   estimation.setInputCloud(cloud);
-  Kdop kdop, expected, with_points;
-  SlabPoints touching, expected_touching;
-  fit_kdop(*cloud, directions, expected, expected_touching);
+  Kdop kdop, with_points;
+  SlabPoints touching;
+  const auto expected = fit_touched_kdop(*cloud, directions);
   estimation.compute(kdop);
-  EXPECT_EQ(kdop, expected);
+  EXPECT_EQ(kdop, *expected);
   estimation.compute(with_points, touching);
-  EXPECT_EQ(with_points, expected);
-  EXPECT_EQ(touching.max, expected_touching.max);
+  EXPECT_EQ(with_points, *expected);
+  EXPECT_EQ(touching.max, expected.certificate.max);
   std::vector<Kdop> kdops;
   estimation.compute(std::vector<pcl::PointIndices>(2), kdops);
   EXPECT_EQ(kdops[1].set(), directions);
@@ -122,8 +122,8 @@ TEST(Estimation, AnExecutorOfTheHostsGivesTheSameBits) {
                               threads.emplace_back(task, i);
                           }};
   Obb box, expected;
-  fit_obb(*cloud, {ObbMethod::minimal}, expected);
-  fit_obb(*cloud, {ObbMethod::minimal}, box, {executor});
+  expected = *fit_obb(*cloud, ObbMethod::minimal);
+  box = *fit_obb(*cloud, ObbMethod::minimal, executor);
   EXPECT_EQ(box, expected);
   EXPECT_GT(asked, 0);
 }

@@ -46,12 +46,12 @@ TEST(ObbEstimation, HasMethodsAnUpAxisIndicesAndABatch) {
     estimation.setUpAxis({1, 2, 2});
     Obb box, expected;
     EXPECT_EQ(estimation.compute(box).status, EstimationStatus::ok);
-    fit_obb(*cloud, {method, {1, 2, 2}}, expected);
+    expected = *fit_obb(*cloud, {method, {1, 2, 2}});
     EXPECT_EQ(box, expected);
     std::vector<Obb> boxes;
     const std::vector<EstimationResult> results = estimation.compute(clusters, boxes);
     EXPECT_EQ(results[0].used, 334U);
-    fit_obb(*cloud, clusters[1].indices, {method, {1, 2, 2}}, expected);
+    expected = *fit_obb(*cloud, clusters[1].indices, {method, {1, 2, 2}});
     EXPECT_EQ(boxes[1], expected);
   }
   estimation.setUpAxis({0, 0, 0});

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_bv/fitting/batch.h"
+#include "clouds.h"
+#include "pcl_bv/fitting/fit.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "executions.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::vector<PointView> views_of_sizes(const std::vector<std::size_t>& sizes) {
@@ -54,4 +57,4 @@ TEST(Batch, LetsExceptionsThrough) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "clouds.h"
 #include "pcl_bv/fitting/fit.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -33,8 +33,7 @@ double radius_by_cgal(const PointView& points) {
 template <typename T>
 void expect_same_radius(const test::TestCloud<T>& cloud) {
   SCOPED_TRACE(cloud.name);
-  Sphere sphere;
-  fit_sphere(cloud.view(), SphereMethod::exact, sphere);
+  Sphere sphere = *fit_sphere(cloud.view(), SphereMethod::exact);
   const double theirs = radius_by_cgal(cloud.view());
   EXPECT_NEAR(sphere.radius(), theirs, 1e-12 * theirs);
 }
@@ -59,4 +58,4 @@ TEST(SmallestSphere, OfFlatAndLongCloudsHasTheRadiusThatCgalFinds) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

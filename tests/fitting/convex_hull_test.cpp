@@ -14,7 +14,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "solids.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::exact;
@@ -212,4 +212,4 @@ TEST(SideOfPlane, IsThatOfExactArithmetic) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

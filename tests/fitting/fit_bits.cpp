@@ -13,6 +13,7 @@
 
 #include "clouds.h"
 #include "directions.h"
+#include "fits.h"
 #include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 
@@ -95,7 +96,7 @@ template <typename T>
 void write_own_kdop(std::ostream& out, const test::TestCloud<T>& cloud) {
   Kdop kdop;
   SlabPoints touching;
-  fit_kdop(cloud.view(), own_set(), kdop, touching);
+  test::take(fit_touched_kdop(cloud.view(), own_set()), kdop, touching);
   out << "own directions, " << (sizeof(T) == 4 ? "float, " : "double, ") << cloud.name << ":";
   for (const std::uint64_t number : test::bits(kdop))
     out << ' ' << std::hex << number << std::dec;
@@ -111,8 +112,7 @@ void write(std::ostream& out) {
   for (const test::TestCloud<T>& cloud : clouds<T>()) {
     write_own_kdop(out, cloud);
     for (const Method& method : methods()) {
-      AnyVolume volume;
-      method.fit(cloud.view(), volume, {});
+      AnyVolume volume = *method.fit(cloud.view());
       out << method.name << ", " << (sizeof(T) == 4 ? "float, " : "double, ") << cloud.name << ":";
       for (const std::uint64_t number : test::bits(volume))
         out << ' ' << std::hex << number << std::dec;

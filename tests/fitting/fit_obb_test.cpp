@@ -14,10 +14,9 @@
 #include "box/obb_axes.h"
 #include "obbs.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace test;
@@ -224,8 +223,7 @@ TEST(Obb, MinimalIsNoGreaterThanTheOthers) {
       const double least = fit(cloud, ObbMethod::minimal).volume();
       for (const ObbMethod method : kMethods)
         EXPECT_LE(least, fit(cloud, method).volume() * rounding) << static_cast<int>(method) << ", n " << n;
-      Aabb upright;
-      fit_aabb(cloud.view(), upright);
+      Aabb upright = *fit_aabb(cloud.view());
       EXPECT_LE(least, upright.volume() * rounding);
       EXPECT_LE(fit(cloud, ObbMethod::dito14).surface_area(), upright.surface_area() * rounding);
       EXPECT_LE(fit(cloud, ObbMethod::yaw).volume(), fit(cloud, ObbMethod::lshape).volume() * rounding);
@@ -272,4 +270,4 @@ TEST(Obb, MinimalOfATetrahedronIsItsCube) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

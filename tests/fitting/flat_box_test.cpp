@@ -15,7 +15,7 @@
 
 #include "hull/planar_hull.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -101,4 +101,4 @@ TEST(Rectangle, OfOnePointHasNoSize) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,6 +11,7 @@
 
 #include "clouds.h"
 #include "encloses.h"
+#include "fits.h"
 #include "flush_to_zero.h"
 #include "numbers.h"
 #include "pcl_bv/fitting/fit.h"
@@ -28,11 +29,11 @@ void expect_same_in_flushing_host(double size) {
   for (const Method& method : methods()) {
     SCOPED_TRACE(testing::Message() << method.name << ", size " << size);
     AnyVolume expected, volume;
-    const EstimationResult result = method.fit(cloud.view(), expected, {});
+    const EstimationResult result = test::take(method.fit(cloud.view()), expected);
     Verification verification;
     {
       const FlushToZero host;
-      EXPECT_EQ(method.fit(cloud.view(), volume, {}).rank, result.rank);
+      EXPECT_EQ(test::take(method.fit(cloud.view()), volume).rank, result.rank);
       verification = verify(volume, cloud.view());
     }
     EXPECT_EQ(bits(volume), bits(expected));
@@ -57,10 +58,10 @@ TEST(FlushingHost, LosesNoDenormalDoubleOfOwnDirectionsAndOfTheSummary) {
   Aabb box;
   {
     const FlushToZero host;
-    fit_kdop(cloud.view(), own, kdop);
+    kdop = *fit_kdop(cloud.view(), own);
     const CloudSummary summary = summarize(cloud.view());
-    box = summary.aabb();
-    dop26 = summary.dop26();
+    box = summary.aabb;
+    dop26 = summary.dop26;
   }
   for (const AnyVolume& volume : {AnyVolume(kdop), AnyVolume(box), AnyVolume(dop26)})
     expect_encloses(volume, cloud.view());
@@ -70,12 +71,12 @@ TEST(FlushingHost, GetsTheSameSmallestVolume) {
   // Of a size of 1e-104, volumes are denormal numbers.
   const TestCloud<double> cloud = gaussian<double>(50, 7, 1e-104);
   const std::vector<const Method*> among{find_method("sphere-ritter"), find_method("dop26")};
-  AnyVolume expected, volume;
-  fit_smallest(cloud.view(), among, expected);
+  const AnyVolume expected = *pcl_bv::fit_smallest(cloud.view(), among);
+  AnyVolume volume;
   ASSERT_EQ(shape_name(expected), "kdop");
   {
     const FlushToZero host;
-    fit_smallest(cloud.view(), among, volume);
+    volume = *pcl_bv::fit_smallest(cloud.view(), among);
   }
   EXPECT_EQ(bits(volume), bits(expected));
 }

@@ -15,6 +15,7 @@
 #include "clouds.h"
 #include "exact.h"
 #include "executions.h"
+#include "fits.h"
 #include "hull/local_hull.h"
 #include "hull/support_tree.h"
 #include "pcl_bv/fitting/fit.h"
@@ -22,7 +23,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "solids.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::exact;
@@ -66,8 +67,7 @@ LocalHull hull_of(const PointView& points, const Execution& execution = {}) {
 }
 
 Hull fit(const PointView& points, const Execution& execution = {}) {
-  Hull hull;
-  fit_hull(points, hull, execution);
+  Hull hull = *fit_hull(points, execution);
   return hull;
 }
 
@@ -126,8 +126,7 @@ TEST(LocalHull, EveryDoublePointIsExactlyInIt) {
 TEST(LocalHull, WhatTheExtremePointsDoNotEncloseIsKept) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     TestCloud<double> cloud = test::gaussian<double>(4, seed, 1, 20);
-    Kdop kdop;
-    fit_kdop(cloud.view(), KdopSet::dop26(), kdop);
+    Kdop kdop = *fit_kdop(cloud.view(), KdopSet::dop26());
     const Aabb box = kdop.aabb();
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -215,7 +214,7 @@ TEST(Hull, FlatInputHasItsRankAndNoMessage) {
         cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end());
       }
       Hull hull;
-      const EstimationResult result = fit_hull(cloud.view(), hull);
+      const EstimationResult result = test::take(fit_hull(cloud.view()), hull);
       const int spans = std::min({rank, n - 1, n < 8 ? 1 : 2});
       EXPECT_EQ(hull.rank(), spans) << n << " points";
       EXPECT_EQ(result.rank, spans);
@@ -238,7 +237,7 @@ TEST(Hull, ThinnerAndThinnerSolidsNeverFail) {
       p[2] = p[0] + 2 * p[1] + std::ldexp(p[2], -thin);
     }
     Hull hull;
-    const EstimationResult result = fit_hull(cloud.view(), hull);
+    const EstimationResult result = test::take(fit_hull(cloud.view()), hull);
     EXPECT_EQ(verify(hull, cloud.view()).outside, 0u) << "2^-" << thin;
     EXPECT_EQ(result.rank, thin < 34 ? 3 : thin > 38 ? 2 : result.rank) << "2^-" << thin;
   }
@@ -248,7 +247,7 @@ TEST(Hull, FacesAreClosedVerticesAreTheCloudsAndTheBoxIsExact) {
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
     SCOPED_TRACE(cloud.name);
     Hull hull;
-    const EstimationResult result = fit_hull(cloud.view(), hull);
+    const EstimationResult result = test::take(fit_hull(cloud.view()), hull);
     if (result.used == 0) continue;
     std::set<std::array<double, 3>> stored;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -260,8 +259,7 @@ TEST(Hull, FacesAreClosedVerticesAreTheCloudsAndTheBoxIsExact) {
     if (hull.rank() == 3) {
       EXPECT_TRUE(is_closed(hull.triangles()));
     }
-    Aabb box;
-    fit_aabb(cloud.view(), box);
+    Aabb box = *fit_aabb(cloud.view());
     EXPECT_EQ(hull.aabb(), box);
   }
 }
@@ -292,10 +290,9 @@ TEST(Hull, PlanesTouchTheirFaces) {
 TEST(Hull, IsSmallerThanAnyOther) {
   const TestCloud<float> cloud = test::gaussian<float>(2000, 4);
   const double volume = fit(cloud.view()).volume();
-  Kdop kdop;
-  fit_kdop(cloud.view(), KdopSet::dop26(), kdop);
+  Kdop kdop = *fit_kdop(cloud.view(), KdopSet::dop26());
   EXPECT_LT(volume, kdop.volume());
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

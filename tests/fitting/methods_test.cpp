@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/fit_into.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +14,11 @@
 #include <vector>
 
 #include "clouds.h"
+#include "fits.h"
 #include "pcl_bv/numeric/directions.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(Methods, AllIsEveryMethodInOrderButTheHullAndBest) {
@@ -48,8 +50,7 @@ TEST(Methods, EachIsFoundByItsName) {
 TEST(Methods, EachGivesTheShapeItSays) {
   const test::TestCloud<float> cloud = test::gaussian<float>(100, 1);
   for (const Method& method : methods()) {
-    AnyVolume volume;
-    method.fit(cloud.view(), volume, {});
+    AnyVolume volume = *method.fit(cloud.view());
     if (!method.shape.empty()) {
       EXPECT_EQ(shape_name(volume), method.shape) << method.name;
     }
@@ -60,8 +61,8 @@ TEST(Methods, UprightAreThoseThatUpTurns) {
   const test::TestCloud<float> cloud = test::gaussian<float>(100, 1);
   for (const Method& method : methods()) {
     AnyVolume upright, lying;
-    method.fit(cloud.view(), upright, {}, {SphereGrowth::deferred, Eigen::Vector3d::UnitZ()});
-    method.fit(cloud.view(), lying, {}, {SphereGrowth::deferred, Eigen::Vector3d(1, 2, 3)});
+    upright = *method.fit(cloud.view(), {SphereGrowth::deferred, Eigen::Vector3d::UnitZ()});
+    lying = *method.fit(cloud.view(), {SphereGrowth::deferred, Eigen::Vector3d(1, 2, 3)});
     EXPECT_EQ(!(upright == lying), method.upright) << method.name;
   }
 }
@@ -70,7 +71,7 @@ TEST(Methods, OfNothingHaveNoRank) {
   const float nan[] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
   for (const Method& method : methods()) {
     AnyVolume volume;
-    const EstimationResult result = method.fit(PointView::of(nan, 12, 1), volume, {});
+    const EstimationResult result = test::take(method.fit(PointView::of(nan, 12, 1)), volume);
     EXPECT_EQ(result.status, EstimationStatus::no_valid_points) << method.name;
     EXPECT_EQ(result.rank, 0) << method.name;
     EXPECT_TRUE(empty(volume)) << method.name;
@@ -82,11 +83,9 @@ TEST(Methods, BestIsTheSmallestOfItsCandidates) {
     test::TestCloud<float> cloud = test::gaussian<float>(500, 3);
     for (std::size_t i = 0; i < cloud.size(); ++i)
       cloud.xyz[3 * i] *= static_cast<float>(stretch);
-    AnyVolume best;
-    find_method("best")->fit(cloud.view(), best, {});
+    AnyVolume best = *find_method("best")->fit(cloud.view());
     for (const Method* method : best_candidates()) {
-      AnyVolume other;
-      method->fit(cloud.view(), other, {});
+      AnyVolume other = *method->fit(cloud.view());
       EXPECT_LE(volume(best), volume(other)) << method->name << ", " << stretch;
     }
   }
@@ -94,17 +93,27 @@ TEST(Methods, BestIsTheSmallestOfItsCandidates) {
 
 TEST(Methods, TheSmallestOfAListSaysWhichItIs) {
   const test::TestCloud<float> cloud = test::gaussian<float>(500, 3);
-  const Method* winner = nullptr;
-  AnyVolume volume;
-  fit_smallest(cloud.view(), {find_method("aabb"), find_method("hull"), find_method("sphere")}, volume, {},
-               {}, &winner);
-  EXPECT_EQ(winner, find_method("hull"));
-  EXPECT_EQ(shape_name(volume), "hull");
-  EXPECT_EQ(fit_smallest(PointView(), {winner}, volume, {}, {}, &winner).status,
-            EstimationStatus::no_valid_points);
-  EXPECT_EQ(winner, nullptr);
-  EXPECT_TRUE(empty(volume));
-  EXPECT_THROW(fit_smallest(cloud.view(), {}, volume), std::invalid_argument);
+  const FittedSmallest smallest =
+      pcl_bv::fit_smallest(cloud.view(), {find_method("aabb"), find_method("hull"), find_method("sphere")});
+  EXPECT_EQ(smallest.method, find_method("hull"));
+  EXPECT_EQ(shape_name(*smallest), "hull");
+  const FittedSmallest nothing = pcl_bv::fit_smallest(PointView(), {find_method("hull")});
+  EXPECT_EQ(nothing.status, EstimationStatus::no_valid_points);
+  EXPECT_EQ(nothing.method, nullptr);
+  EXPECT_TRUE(empty(*nothing));
+  EXPECT_THROW(pcl_bv::fit_smallest(cloud.view(), {}), std::invalid_argument);
+}
+
+TEST(Methods, FittedTogetherGiveTheirOwnBits) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(700, 4);
+  const std::vector<Fitted<AnyVolume>> all = fit_methods(cloud.view(), methods_of_all());
+  ASSERT_EQ(all.size(), methods_of_all().size());
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const Fitted<AnyVolume> alone = methods_of_all()[m]->fit(cloud.view());
+    EXPECT_TRUE(*all[m] == *alone) << methods_of_all()[m]->name;
+    EXPECT_EQ(all[m].used, alone.used);
+    EXPECT_EQ(all[m].rank, alone.rank);
+  }
 }
 
 TEST(Methods, OnTheHullAreThoseThatASharedHullSparesAPass) {
@@ -112,16 +121,20 @@ TEST(Methods, OnTheHullAreThoseThatASharedHullSparesAPass) {
   const test::CopyingSource<float> source(cloud);
   const PointView points = source.view();
   Supports hull, no_hull;
-  const Execution with = share_supports(points, {find_method("hull"), find_method("capsule")}, {}, hull);
-  const Execution without = share_supports(points, {find_method("dop14"), find_method("dop18")}, {}, no_hull);
+  const FitExecution with = share_supports(points, {find_method("hull"), find_method("capsule")}, {}, hull);
+  const FitExecution without =
+      share_supports(points, {find_method("dop14"), find_method("dop18")}, {}, no_hull);
   for (const Method& method : methods()) {
-    const auto passes = [&](const Execution& shared) {
+    const auto passes = [&](const FitExecution& shared) {
       const std::size_t before = source.loads;
       AnyVolume volume;
-      method.fit(points, volume, shared);
+      fit_method(method, points, {}, volume, shared);
       return source.loads - before;
     };
-    EXPECT_EQ(passes(with) < passes(without), method.needs_hull) << method.name;
+    const bool on_hull =
+        std::set<std::string_view>{"obb-min", "cylinder", "capsule", "ellipsoid", "hull", "best"}.contains(
+            method.name);
+    EXPECT_EQ(passes(with) < passes(without), on_hull) << method.name;
   }
 }
 
@@ -138,12 +151,12 @@ TEST(Methods, WhatIsSharedChangesNoBit) {
     const PointView view = cloud.view();
     for (const Method& method : methods()) {
       AnyVolume alone;
-      const EstimationResult expected = method.fit(view, alone, {});
+      const EstimationResult expected = test::take(method.fit(view), alone);
       for (const char* other : {"aabb", "dop14", "dop18", "dop26", "obb-dito14", "capsule"}) {
         Supports supports;
-        const Execution shared = share_supports(view, {&method, find_method(other)}, {}, supports);
+        const FitExecution shared = share_supports(view, {&method, find_method(other)}, {}, supports);
         AnyVolume together;
-        const EstimationResult result = method.fit(view, together, shared);
+        const EstimationResult result = fit_method(method, view, {}, together, shared);
         EXPECT_TRUE(together == alone) << method.name << " with " << other << ", " << cloud.name;
         EXPECT_EQ(result.rank, expected.rank) << method.name << " with " << other << ", " << cloud.name;
         EXPECT_EQ(result.used, expected.used);
@@ -188,27 +201,29 @@ TEST(Methods, TheKernelsDirectionsAreTheVolumes) {
 }
 
 EstimationResult gives_up(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                          const Execution&) {
+                          const FitExecution&) {
   volume.emplace<Hull>();
   return {EstimationStatus::failed, 3, points.count, 0, "gave up"};
 }
 
 TEST(Methods, TheSmallestLeavesOutThoseThatFail) {
   const test::TestCloud<float> cloud = test::gaussian<float>(500, 3);
-  const Method failing{"failing", {}, "hull", gives_up, {}};
+  const MethodFit implementation{gives_up, {}, false};
+  Method failing{"failing", {}, "hull"};
+  failing.implementation = &implementation;
   const Method* const box = find_method("aabb");
-  const Method* winner = nullptr;
-  AnyVolume volume;
-  for (const std::vector<const Method*>& among : {std::vector{&failing, box}, std::vector{box, &failing}}) {
-    EXPECT_EQ(fit_smallest(cloud.view(), among, volume, {}, {}, &winner).status, EstimationStatus::ok);
-    EXPECT_EQ(winner, box);
-    EXPECT_EQ(shape_name(volume), "aabb");
+  for (const std::vector<const Method*>& among :
+       {std::vector<const Method*>{&failing, box}, {box, &failing}}) {
+    const FittedSmallest smallest = pcl_bv::fit_smallest(cloud.view(), among);
+    EXPECT_EQ(smallest.status, EstimationStatus::ok);
+    EXPECT_EQ(smallest.method, box);
+    EXPECT_EQ(shape_name(*smallest), "aabb");
   }
-  const EstimationResult none = fit_smallest(cloud.view(), {&failing, &failing}, volume, {}, {}, &winner);
+  const FittedSmallest none = pcl_bv::fit_smallest(cloud.view(), {&failing, &failing});
   EXPECT_EQ(none.status, EstimationStatus::failed);
   EXPECT_EQ(none.reason, "gave up");
-  EXPECT_EQ(winner, nullptr);
-  EXPECT_TRUE(empty(volume));
+  EXPECT_EQ(none.method, nullptr);
+  EXPECT_TRUE(empty(*none));
 }
 
 // Tilted, in any order: a plane through the origin, a line, and a plane with one point just above or at what
@@ -228,7 +243,7 @@ TEST(Methods, AllSayTheSameRankHoweverPointsAreTiltedAndOrdered) {
       const PointView points = PointView::of(xyz.data(), 24, xyz.size() / 3);
       for (const Method& method : methods()) {
         AnyVolume volume;
-        const EstimationResult result = method.fit(points, volume, {});
+        const EstimationResult result = test::take(method.fit(points), volume);
         EXPECT_EQ(result.rank, rank) << method.name << ", " << points.count << " points";
         EXPECT_EQ(result.status == EstimationStatus::ok, rank == 3) << method.name;
       }
@@ -237,4 +252,4 @@ TEST(Methods, AllSayTheSameRankHoweverPointsAreTiltedAndOrdered) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

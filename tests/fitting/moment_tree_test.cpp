@@ -12,7 +12,7 @@
 #include "exact.h"
 #include "pcl_bv/points/chunks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -135,4 +135,4 @@ TEST(MomentTree, UnitsLeaveRoomForBlocksFarApartAndForBlocksOfManySizes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

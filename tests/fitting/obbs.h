@@ -9,7 +9,7 @@
 #include <random>
 
 #include "clouds.h"
-#include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/fit.h"
 
 namespace pcl_bv::test {
 
@@ -20,8 +20,7 @@ inline constexpr ObbMethod kUpright[] = {ObbMethod::yaw, ObbMethod::lshape};
 
 template <typename T>
 Obb fit(const TestCloud<T>& cloud, const ObbOptions& options, const Execution& execution = {}) {
-  Obb box;
-  fit_obb(cloud.view(), options, box, execution);
+  Obb box = *fit_obb(cloud.view(), options, execution);
   return box;
 }
 

@@ -16,7 +16,7 @@
 #include "executions.h"
 #include "flush_to_zero.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Directions;
@@ -134,7 +134,7 @@ void expect_same(const CustomSupports& a, const CustomSupports& b) {
 
 template <typename T>
 void expect_same_for_every_execution(const TestCloud<T>& cloud, const Directions& directions) {
-  const CustomSupports expected = find_supports(cloud.view(), directions, {Serial{}, Isa::scalar});
+  const CustomSupports expected = find_supports(cloud.view(), directions, Execution(Serial{}, Isa::scalar));
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(cloud.name + ", " + name);
     expect_same(find_supports(cloud.view(), directions, execution), expected);
@@ -218,8 +218,8 @@ TEST(CustomSupports, RefusesWhatIsNoDirection) {
   EXPECT_NO_THROW(find({{1e-30, 0, 0}, {-1e30, 0, 0}}));
   const Isa foreign =
       usable_isas().back() == Isa::neon || usable_isas().back() > Isa::neon ? Isa::avx2 : Isa::neon;
-  EXPECT_THROW(find_supports(cloud.view(), {{1, 0, 0}}, {Serial{}, foreign}), std::invalid_argument);
+  EXPECT_THROW(find_supports(cloud.view(), {{1, 0, 0}}, Execution(Serial{}, foreign)), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

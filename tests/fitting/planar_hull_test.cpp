@@ -11,7 +11,7 @@
 
 #include "rational.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector2d;
@@ -76,4 +76,4 @@ TEST(PlanarHull, TurnsAreExactForPointsNearlyInARow) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "box/rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
@@ -140,4 +140,4 @@ TEST(Silhouette, OfAHullWhoseNormalsVanishIsThatOfItsVertices) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

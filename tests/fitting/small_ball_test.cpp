@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -209,4 +209,4 @@ TEST(SmallBall, EndsOnNearlyCollinearPoints) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,10 +13,11 @@
 #include <random>
 #include <vector>
 
+#include "fits.h"
 #include "obbs.h"
-#include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/fit.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace test;
@@ -28,8 +29,9 @@ using Long = Eigen::Matrix<long double, 3, 1>;
 constexpr double kAbove = 1 + 1e-9;
 
 EstimationResult fit_smallest(const Points& points, Obb& box) {
-  return fit_obb(PointView::of(points.front().data(), sizeof(Vector3d), points.size()), ObbMethod::minimal,
-                 box);
+  return take(
+      fit_obb(PointView::of(points.front().data(), sizeof(Vector3d), points.size()), ObbMethod::minimal),
+      box);
 }
 
 double least_volume(const Points& points) {
@@ -219,4 +221,4 @@ TEST(SmallestBox, IsNotAboveThatOfAnyDescentAroundTenThousandSetsOfFourToHundred
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -34,9 +34,9 @@ inline Rational volume6(const ExactPoint& a, const ExactPoint& b, const ExactPoi
 }
 
 /// Whether each edge of a triangle is, the other way round, an edge of another one.
-inline bool is_closed(const std::vector<Triangle>& triangles) {
+inline bool is_closed(const std::vector<detail::Triangle>& triangles) {
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
-  for (const Triangle& t : triangles) {
+  for (const detail::Triangle& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (!edges.insert({t[k], t[(k + 1) % 3]}).second) return false;
     }

@@ -16,12 +16,13 @@
 #include "clouds.h"
 #include "exact.h"
 #include "executions.h"
+#include "fits.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -33,8 +34,7 @@ constexpr SphereGrowth kGrowths[] = {SphereGrowth::sequential, SphereGrowth::sta
                                      SphereGrowth::deferred};
 
 Sphere fit(const PointView& points, const SphereOptions& options, const Execution& execution = {}) {
-  Sphere sphere;
-  fit_sphere(points, options, sphere, execution);
+  Sphere sphere = *fit_sphere(points, options, execution);
   return sphere;
 }
 
@@ -99,7 +99,7 @@ Rational squared_lower_bound(const PointView& points, const SphereCertificate& c
 void expect_certified(const PointView& points) {
   Sphere sphere;
   SphereCertificate certificate;
-  const EstimationResult result = fit_smallest_sphere(points, sphere, certificate);
+  const EstimationResult result = test::take(fit_smallest_sphere(points), sphere, certificate);
   EXPECT_EQ(verify(sphere, points).outside, 0U);
   if (result.used == 0) {
     EXPECT_EQ(certificate.support_size, 0);
@@ -131,7 +131,7 @@ TEST(SmallestSphere, OfOnePointIsCertifiedByItWithoutAPass) {
   const TestCloud<float> cloud{"one", {1, 2, 3}};
   Sphere sphere;
   SphereCertificate certificate;
-  fit_smallest_sphere(cloud.view(), sphere, certificate);
+  test::take(fit_smallest_sphere(cloud.view()), sphere, certificate);
   EXPECT_EQ(certificate.support_size, 1);
   EXPECT_EQ(certificate.weights[0], 1);
   EXPECT_EQ(certificate.passes, 0);
@@ -165,7 +165,7 @@ void expect_same_from_two_halves(const TestCloud<T>& cloud) {
   };
   Sphere expected;
   SphereCertificate certificate, of_fit;
-  fit_smallest_sphere(points, expected, of_fit);
+  test::take(fit_smallest_sphere(points), expected, of_fit);
   EXPECT_EQ(smallest_sphere(supports, ask, certificate), expected);
   EXPECT_EQ(certificate.support, of_fit.support);
   EXPECT_EQ(certificate.passes, questions);
@@ -210,10 +210,10 @@ TEST(SmallestSphere, HasTheSameBitsForEveryExecutionOnLargeClouds) {
     const TestCloud<float> cloud = points_of(shape, 150'000);
     SphereCertificate expected_certificate, certificate;
     Sphere expected, sphere;
-    fit_smallest_sphere(cloud.view(), expected, expected_certificate, {Serial{}, Isa::scalar});
+    test::take(fit_smallest_sphere(cloud.view(), {Serial{}, Isa::scalar}), expected, expected_certificate);
     for (const auto& [name, execution] : test::every_execution()) {
       SCOPED_TRACE(std::string(shape) + ", " + name);
-      fit_smallest_sphere(cloud.view(), sphere, certificate, execution);
+      test::take(fit_smallest_sphere(cloud.view(), execution), sphere, certificate);
       expect_equal(sphere, expected);
       EXPECT_EQ(certificate.support, expected_certificate.support);
       EXPECT_EQ(certificate.weights, expected_certificate.weights);
@@ -270,9 +270,9 @@ TEST(SmallestSphere, OfAClusterAllocatesNothing) {
   Sphere sphere;
   for (const SphereMethod method : {SphereMethod::exact, SphereMethod::epos26, SphereMethod::ritter}) {
     for (const SphereGrowth growth : kGrowths) {
-      fit_sphere(cluster, {method, growth}, sphere);  // what is made once is made now
+      sphere = *fit_sphere(cluster, {method, growth});  // what is made once is made now
       const std::size_t before = allocations();
-      fit_sphere(cluster, {method, growth}, sphere);
+      sphere = *fit_sphere(cluster, {method, growth});
       EXPECT_EQ(allocations(), before);
     }
   }
@@ -452,4 +452,4 @@ TEST(Epos, With49DirectionsStartsNoLooserThanWith13) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

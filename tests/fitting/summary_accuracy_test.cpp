@@ -44,19 +44,19 @@ struct Brute {
 void expect_accurate(const PointView& points) {
   const CloudSummary summary = summarize(points);
   const Brute brute(points, summary.covariance_scale);
-  ASSERT_EQ(summary.supports.used, brute.valid.size());
-  ASSERT_EQ(summary.supports.used + summary.supports.dropped, points.count);
+  ASSERT_EQ(summary.used, brute.valid.size());
+  ASSERT_EQ(summary.used + summary.dropped, points.count);
   if (brute.valid.empty()) return;
   const double blocks = static_cast<double>(points.count) / kBlockPoints;
   const long double errors = (175 + 30 * std::ceil(std::log2(std::max(blocks, 1.0)))) * 0x1p-53L;
   long double extent[3];
   for (int i = 0; i < 3; ++i) {
-    extent[i] = static_cast<long double>(summary.supports.along[i].high) - summary.supports.along[i].low;
+    extent[i] = static_cast<long double>(summary.aabb.max()[i]) - summary.aabb.min()[i];
     const long double exact = brute.origin[i] + brute.mean[i];
     EXPECT_LE(std::abs(summary.centroid[i] - exact),
               errors * extent[i] + 0x1p-53L * std::abs(exact) + 0x1p-1074L);
-    EXPECT_GE(summary.centroid[i], summary.supports.along[i].low);
-    EXPECT_LE(summary.centroid[i], summary.supports.along[i].high);
+    EXPECT_GE(summary.centroid[i], summary.aabb.min()[i]);
+    EXPECT_LE(summary.centroid[i], summary.aabb.max()[i]);
     EXPECT_FALSE(summary.centroid[i] == 0 && std::signbit(summary.centroid[i]));
   }
   for (int i = 0; i < 3; ++i) {

@@ -18,7 +18,7 @@
 #include "flush_to_zero.h"
 #include "pcl_bv/points/chunks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -223,9 +223,10 @@ TEST(Supports, AnUnusableInstructionSetIsAnError) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 1);
   const Isa foreign =
       usable_isas().back() == Isa::neon || usable_isas().back() > Isa::neon ? Isa::avx2 : Isa::neon;
-  EXPECT_THROW(find_supports(cloud.view(), DirectionSet::dop6, SupportDetail::bounds, {Serial{}, foreign}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      find_supports(cloud.view(), DirectionSet::dop6, SupportDetail::bounds, Execution(Serial{}, foreign)),
+      std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

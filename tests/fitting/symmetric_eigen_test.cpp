@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Eigen::Matrix3d symmetric(double xx, double yy, double zz, double xy, double xz, double yz) {
@@ -63,4 +63,4 @@ TEST(SymmetricEigen, VectorsAreARightHandedFrame) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -18,7 +18,7 @@
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/fitting/verify.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace test;
@@ -78,13 +78,11 @@ void every_method_is_upright_on_every_set() {
     for (const TestCloud<T>& cloud : solids<T>(up)) {
       for (const Method* method : upright_methods()) {
         SCOPED_TRACE(std::string(method->name) + ", " + cloud.name);
-        AnyVolume first;
-        method->fit(cloud.view(), first, {Serial{}, Isa::scalar}, {{}, up});
+        AnyVolume first = *method->fit(cloud.view(), {{}, up}, {Serial{}, Isa::scalar});
         expect_upright(std::get<Obb>(first), up);
         EXPECT_EQ(verify(first, cloud.view()).outside, 0U);
         for (const auto& [name, execution] : every_execution()) {
-          AnyVolume volume;
-          method->fit(cloud.view(), volume, execution, {{}, up});
+          AnyVolume volume = *method->fit(cloud.view(), {{}, up}, execution);
           EXPECT_EQ(bits(volume), bits(first)) << name;
         }
       }
@@ -127,8 +125,7 @@ TEST(UprightBoxes, OfPartsAreThoseOfTheWholeOnEveryInstructionSet) {
       SCOPED_TRACE(name);
       Partial whole(cloud.view().slice(0, 1700), 0, execution);
       whole.merge(Partial(cloud.view().slice(1700, 1300), 0, execution));
-      AnyVolume merged;
-      whole.fit(*find_method("obb-yaw"), merged, execution, {{}, up});
+      AnyVolume merged = *whole.fit(*find_method("obb-yaw"), {{}, up}, execution);
       expect_upright(std::get<Obb>(merged), up);
       EXPECT_EQ(std::get<Obb>(merged), fit(cloud, ObbOptions(ObbMethod::yaw, up)));
     }
@@ -136,4 +133,4 @@ TEST(UprightBoxes, OfPartsAreThoseOfTheWholeOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

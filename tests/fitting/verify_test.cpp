@@ -16,7 +16,7 @@
 #include "exact.h"
 #include "executions.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(Verify, CountsPointsThatAreOneDoubleOutside) {
@@ -183,4 +183,4 @@ TEST(Verify, CountsTheSameOnEveryThread) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -118,7 +118,7 @@ TEST_F(CloudInFile, ThatIsCutWhileItIsReadIsAnError) {
   for (const Execution& execution : {Execution{}, Execution{OpenMP{2}}}) {
     AnyVolume box;
     try {
-      find_method("dop26")->fit(opened->xyz(), box, execution);
+      box = *find_method("dop26")->fit(opened->xyz(), {}, execution);
       FAIL();
     } catch (const IoError& error) {
       EXPECT_STREQ(error.what(), "truncated: the file became shorter while it was read");
@@ -142,8 +142,7 @@ void change_in_place(const std::filesystem::path& path, long from_end) {
 
 std::string reason_for_fit(const CloudFile& cloud) {
   try {
-    AnyVolume box;
-    find_method("aabb")->fit(cloud.xyz(), box, {});
+    AnyVolume box = *find_method("aabb")->fit(cloud.xyz());
   } catch (const IoError& error) {
     return error.what();
   }
@@ -205,7 +204,7 @@ TEST_F(CloudInFile, IsTheSameForEachPassOfManyThreadsAndNotAfterItWasRewritten) 
   const Execution four{Threads{4}};
   AnyVolume box;
   for (int pass = 0; pass < 10; ++pass)
-    find_method("aabb")->fit(opened->xyz(), box, four);
+    box = *find_method("aabb")->fit(opened->xyz(), {}, four);
   EXPECT_EQ(verify(box, opened->xyz(), four).outside, 0U);
   rewrite_unseen(path, other);
   EXPECT_THROW(verify(box, opened->xyz(), four), IoError);
@@ -257,8 +256,7 @@ TEST_F(CloudInFile, IsFittedInLittleMemory) {
   largest_allocation = 0;
   const auto opened = CloudFile::open(path);
   for (const char* name : {"aabb", "dop26", "sphere-exact", "sphere-epos26", "obb-pca", "obb-dito14"}) {
-    AnyVolume volume;
-    find_method(name)->fit(opened->xyz(), volume, {});
+    AnyVolume volume = *find_method(name)->fit(opened->xyz());
   }
   EXPECT_LT(largest_allocation, 2'000'000U);
 }
@@ -275,7 +273,7 @@ TEST_F(CloudInFile, HasAHeaderThatSaysHowManyPointsWithoutReadingThem) {
   }
   std::ofstream(file("a.bin"), std::ios::binary) << std::string(160, '\0');
   EXPECT_EQ(read_cloud_header(file("a.bin")).cloud.size(), 10U);
-  EXPECT_EQ(read_cloud_header(file("a.bin"), 5).cloud.size(), 8U);
+  EXPECT_EQ(read_cloud_header(file("a.bin"), {5}).cloud.size(), 8U);
   EXPECT_TRUE(read_cloud_header(file("a.bin")).random_access);
   std::ofstream(file("a.ply"))
       << "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\n"

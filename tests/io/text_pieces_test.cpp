@@ -163,7 +163,7 @@ TEST_F(TextPieces, EveryEncodingIsTheSameByAnyNumberOfThreads) {
        {PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::binary_compressed}) {
     write_pcd(file("a.pcd"), cloud, encoding);
     for (const ParallelPolicy& policy : policies)
-      EXPECT_EQ(read_cloud(file("a.pcd"), policy).data, cloud.data);
+      EXPECT_EQ(read_cloud(file("a.pcd"), {}, policy).data, cloud.data);
   }
 }
 
@@ -177,7 +177,7 @@ TEST_F(TextPieces, ThatGrowWhileTheyAreReadAreAnError) {
                              for (std::size_t i = 0; i < tasks; ++i)
                                task(i);
                            }};
-  EXPECT_THROW(read_cloud(file("a.pcd"), appending), IoError);
+  EXPECT_THROW(read_cloud(file("a.pcd"), {}, appending), IoError);
   EXPECT_EQ(passes, 2);
   EXPECT_EQ(read_cloud(file("a.pcd")).size(), points);
 }

@@ -12,7 +12,7 @@
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/ply.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 namespace {

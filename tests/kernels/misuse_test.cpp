@@ -6,11 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "clouds.h"
 #include "pcl_bv/kernels/axis_extents.h"
@@ -227,18 +231,48 @@ TEST(Misuse, OnlyFloatsAndDoublesMakeAView) {
   EXPECT_FALSE(MakesAView<std::uint64_t>);
 }
 
-TEST(Misuse, PointsAreSelectedOnlyFromWholeCloudsInMemory) {
+TEST(Misuse, SubsetsHaveTheIndicesOfTheCloud) {
   const test::TestCloud<float> cloud = test::gaussian<float>(10, 8);
-  const std::vector<std::int32_t> indices = {0, 3};
-  const auto select = [&](const PointView& from) { return select_points(from, indices.data(), 2); };
-  const PointView selected = select(cloud.view());
-  EXPECT_EQ(load_point(selected, 1), load_point(cloud.view(), 3));
-  EXPECT_THROW(select(selected), std::invalid_argument);
-  EXPECT_THROW(select(cloud.view().slice(1, 9)), std::invalid_argument);
+  const std::vector<std::int32_t> indices = {2, 5};
+  const auto expect_third_and_sixth = [&](const PointView& subset) {
+    ASSERT_EQ(subset.count, 2U);
+    EXPECT_EQ(subset.index(1), 5U);
+    EXPECT_EQ(load_point(subset, 0), load_point(cloud.view(), 2));
+    EXPECT_EQ(load_point(subset, 1), load_point(cloud.view(), 5));
+  };
+  const std::vector<std::int32_t> list = {5, 9, 2};
+  const PointGroups groups(cloud.view());
+  expect_third_and_sixth(cloud.view().subset(indices));
+  expect_third_and_sixth(cloud.view().slice(2, 4).subset(indices));
+  expect_third_and_sixth(cloud.view().subset(list).subset(indices));
+  expect_third_and_sixth(groups.view().subset(indices));
+  expect_third_and_sixth(groups.view().slice(1, 7).subset(indices));
+  const std::vector<std::int32_t> none;
+  EXPECT_TRUE(cloud.view().subset(none).empty());
+  EXPECT_TRUE(PointView().subset(none).empty());
+}
+
+TEST(Misuse, SubsetsOfPointsThatAreNotThereAreRefused) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 8);
+  const auto refused = [](const PointView& points, const std::vector<std::int32_t>& indices) {
+    try {
+      points.subset(indices);
+      return false;
+    } catch (const std::out_of_range&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(refused(cloud.view(), {0, 10}));
+  EXPECT_TRUE(refused(cloud.view(), {-1}));
+  EXPECT_TRUE(refused(cloud.view().slice(3, 4), {2}));
+  EXPECT_TRUE(refused(cloud.view().slice(3, 4), {7}));
+  EXPECT_TRUE(refused(PointView(), {0}));
+  const std::vector<std::int32_t> list = {5, 4, 6}, one = {1};
+  EXPECT_TRUE(refused(cloud.view().subset(list), {3}));
+  EXPECT_TRUE(refused(cloud.view().subset(list), {7}));
   const NoSource source;
-  EXPECT_THROW(select(view_of(source, 10, ScalarType::float32)), std::invalid_argument);
-  const std::int32_t bad[] = {0, 10};
-  EXPECT_THROW(select_points(cloud.view(), bad, 2), std::out_of_range);
+  EXPECT_THROW(view_of(source, 10, ScalarType::float32).subset(one), std::invalid_argument);
+  EXPECT_THROW(subsets(cloud.view(), {{0, 1, 10}, {0, 2, 3}}), std::out_of_range);
 }
 
 TEST(Misuse, ViewsAreTheSamePlacesOnlyIfNothingDiffers) {

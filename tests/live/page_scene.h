@@ -81,8 +81,8 @@ inline Json report_of(const std::vector<std::vector<AnyVolume>>& clusters) {
 }
 
 inline AnyVolume fitted(std::string_view method, const std::vector<float>& xyz) {
-  AnyVolume volume;
-  find_method(method)->fit(PointView::of(xyz.data(), 12, xyz.size() / 3), volume, Execution());
+  AnyVolume volume =
+      *find_method(method)->fit(PointView::of(xyz.data(), 12, xyz.size() / 3), {}, Execution());
   return volume;
 }
 

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/fit.h"
 
 namespace pcl_bv {
 namespace {
@@ -212,7 +212,7 @@ TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
         Obb box, fitted;
         for (int frame = 0; frame < 8; ++frame) {
           const std::vector<float> xyz = half_block(lift, size, frame < 7);
-          fit_obb(view(xyz), {method, up}, fitted);
+          fitted = *fit_obb(view(xyz), {method, up});
           box = filter.smoothed(filter.align_axes(fitted, {}), view(xyz), {}, true, true);
         }
         EXPECT_NE(box, fitted) << "the filter left it as it was";

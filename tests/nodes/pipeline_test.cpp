@@ -39,8 +39,8 @@ TEST(Pipeline, EachPointOfAClusterIsInsideItsVolumes) {
     ASSERT_GT(result.clusters.size(), 5U);
     for (std::size_t c = 0; c < result.clusters.size(); ++c) {
       PointView cluster = frame.points;
-      cluster.indices = result.clusters.cluster(c);
-      cluster.count = result.clusters.cluster_size(c);
+      cluster.indices = result.clusters.list(c);
+      cluster.count = result.clusters.list_size(c);
       for (std::size_t m = 0; m < result.methods.size(); ++m)
         EXPECT_EQ(verify(result.volume(c, m), cluster).outside, 0U) << result.methods[m]->name;
     }
@@ -117,7 +117,7 @@ TEST(Pipeline, ClassesHaveSettingsOfTheirOwn) {
   pipeline.process(Rows().frame(), result);
   ASSERT_EQ(result.class_of.size(), 11U);
   EXPECT_EQ(result.class_of[0], 1);
-  EXPECT_EQ(result.clusters.cluster_size(0), 10U);
+  EXPECT_EQ(result.clusters.list_size(0), 10U);
   for (std::size_t i = 1; i < 11; ++i)
     EXPECT_EQ(result.class_of[i], 2);
   EXPECT_EQ(result.counts.dropped_class, 10U);
@@ -323,8 +323,7 @@ TEST(Pipeline, UprightBoxesStandAgainstGravityWhateverItsLength) {
   MethodOptions options;
   options.up = normalized_up(config.ground.up);
   for (std::size_t m = 0; m < 2; ++m) {
-    AnyVolume expected;
-    result.methods[m]->fit(frame.points, expected, {}, options);
+    AnyVolume expected = *result.methods[m]->fit(frame.points, options);
     EXPECT_TRUE(result.volume(0, m) == expected) << result.methods[m]->name;
   }
 }

@@ -21,10 +21,10 @@ using testing::HasSubstr;
 struct Remote {
   Json values() const { return Json::parse(settings->values()); }
   FramePipeline pipeline;
-  std::unique_ptr<RemoteSettings> settings = remote_settings(pipeline);
+  std::unique_ptr<RemoteParameters> settings = remote_settings(pipeline);
 };
 
-TEST(RemoteSettings, DescribeEverySettingOfThePipelineAndHaveItsValue) {
+TEST(RemoteParameters, DescribeEverySettingOfThePipelineAndHaveItsValue) {
   const Remote remote;
   std::set<std::string> keys, described;
   PipelineConfig config;
@@ -48,7 +48,7 @@ TEST(RemoteSettings, DescribeEverySettingOfThePipelineAndHaveItsValue) {
   EXPECT_EQ(values["track.enabled"], false);
 }
 
-TEST(RemoteSettings, EveryValueThatTheyHaveCanBeSetAgain) {
+TEST(RemoteParameters, EveryValueThatTheyHaveCanBeSetAgain) {
   const Remote remote;
   const Json values = remote.values();
   for (const auto& [key, value] : values.items()) {
@@ -58,7 +58,7 @@ TEST(RemoteSettings, EveryValueThatTheyHaveCanBeSetAgain) {
   }
 }
 
-TEST(RemoteSettings, ChangeThePipelineAllOrNothing) {
+TEST(RemoteParameters, ChangeThePipelineAllOrNothing) {
   const Remote remote;
   const auto change = [&](const char* object) { return remote.settings->change(object); };
   EXPECT_EQ(
@@ -77,7 +77,7 @@ TEST(RemoteSettings, ChangeThePipelineAllOrNothing) {
   EXPECT_EQ(remote.pipeline.config().cluster.min_points, 1U);
 }
 
-TEST(RemoteSettings, RefuseWhatMakesNoSenseWithALine) {
+TEST(RemoteParameters, RefuseWhatMakesNoSenseWithALine) {
   const Remote remote;
   const auto problem_of = [&](const char* object) { return remote.settings->change(object); };
   EXPECT_EQ(problem_of(R"({"cluster.toleranse":1})"), "cluster.toleranse: no such setting");

@@ -275,11 +275,11 @@ TEST(Tracker, ASplitObjectKeepsItsIdOnTheGreaterPart) {
 // The true object of most of a cluster's points.
 std::uint32_t object_of(const FrameResult& result, std::size_t cluster, const SynthCloud& cloud) {
   std::map<std::uint32_t, std::size_t> votes;
-  for (std::size_t i = 0; i < result.clusters.cluster_size(cluster); ++i)
-    ++votes[cloud.object[static_cast<std::size_t>(result.clusters.cluster(cluster)[i])]];
+  for (std::size_t i = 0; i < result.clusters.list_size(cluster); ++i)
+    ++votes[cloud.object[static_cast<std::size_t>(result.clusters.list(cluster)[i])]];
   const auto most = std::max_element(votes.begin(), votes.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
-  return 2 * most->second > result.clusters.cluster_size(cluster) ? most->first : 0;
+  return 2 * most->second > result.clusters.list_size(cluster) ? most->first : 0;
 }
 
 // One object, one id, over the frames in which it is seen; cars, pedestrians and poles, as they are one

@@ -54,7 +54,7 @@ TEST(WholeCloud, FromASourceHasTheBitsOfTheSameInMemory) {
     EXPECT_EQ(held.counts.range, asked.counts.range);
     EXPECT_EQ(held.counts.range > 0, range_min > 0);
     ASSERT_EQ(held.clusters.size(), 1U);
-    EXPECT_EQ(held.clusters.cluster_size(0), held.points - held.counts.nonfinite - held.counts.range);
+    EXPECT_EQ(held.clusters.list_size(0), held.points - held.counts.nonfinite - held.counts.range);
     EXPECT_EQ(asked.clusters.offsets, held.clusters.offsets);
   }
 }
@@ -73,13 +73,13 @@ TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
     const PointView points = result.points_of(0, cloud);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       const Verification proof = verify(result.volume(0, m), points);
-      EXPECT_EQ(proof.checked, result.clusters.cluster_size(0));
+      EXPECT_EQ(proof.checked, result.clusters.list_size(0));
       EXPECT_EQ(proof.outside, 0U);
     }
     EXPECT_GT(verify(result.volume(0, 0), cloud).outside, 0U);  // the filter has dropped some
     const std::vector<std::uint32_t> labels = labels_of(with(cloud), result);
     EXPECT_EQ(std::count(labels.begin(), labels.end(), 0U),
-              static_cast<std::ptrdiff_t>(result.clusters.cluster_size(0)));
+              static_cast<std::ptrdiff_t>(result.clusters.list_size(0)));
   }
 }
 
@@ -104,7 +104,7 @@ TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
       EXPECT_EQ(result.counts.inside, keep ? valid - within : within);
       std::size_t left = 0;
       for (std::size_t c = 0; c < result.clusters.size(); ++c)
-        left += result.clusters.cluster_size(c);
+        left += result.clusters.list_size(c);
       EXPECT_EQ(left, keep ? within : valid - within);
       const std::vector<std::uint32_t> labels = labels_of(with(cloud), result);
       for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -37,7 +37,7 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr above_ground() {
 TEST(ReferenceClusters, AreThoseOfTheExactClusterer) {
   const auto cloud = above_ground();
   for (const float tolerance : {0.2F, 0.5F, 1.0F}) {
-    const ClusterSettings settings{tolerance, 5};
+    const ClusterOptions settings{tolerance, 5};
     Clusters reference, ours;
     extract_reference_clusters<pcl::PointXYZ>(cloud, settings, reference);
     EuclideanClusterer().extract(point_view(*cloud), settings, ours);

@@ -45,7 +45,7 @@ TEST_F(ReadVolumes, AreThoseOfTheReportBitByBit) {
   for (const Method& method : methods()) {
     VolumeEntry entry;
     entry.method = method.name;
-    method.fit(points, entry.volume, {});
+    entry.volume = *method.fit(points);
     report.clusters[0].volumes.push_back(entry);
   }
   const std::vector<AnyVolume> found = read(report_json(report) + "\n" + report_json(report) + "\n");

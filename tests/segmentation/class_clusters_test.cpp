@@ -9,7 +9,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "reference.h"
 
 namespace pcl_bv {
@@ -25,8 +25,8 @@ struct Found {
 };
 
 template <typename T>
-Found by_class(const Cloud<T>& cloud, const std::vector<std::int64_t>& classes, const ClusterSettings& others,
-               const std::vector<ClassSettings>& own = {}, const ParallelPolicy& policy = Serial{}) {
+Found by_class(const Cloud<T>& cloud, const std::vector<std::int64_t>& classes, const ClusterOptions& others,
+               const std::vector<ClassOptions>& own = {}, const ParallelPolicy& policy = Serial{}) {
   Found found;
   ClassClusterer().extract(view_of(cloud), classes, others, own, found.clusters, found.class_of, policy);
   return found;
@@ -87,7 +87,7 @@ const Cloud<float> kRow{{0, 0, 0}, {0.1F, 0, 0}, {0.2F, 0, 0}, {0.3F, 0, 0}};
 TEST(ClassClusters, OfADroppedClassThereAreNone) {
   const Found found = by_class(kRow, {1, 1, 2, 2}, {1}, {{2, {1}, true}});
   ASSERT_EQ(found.clusters.size(), 1U);
-  EXPECT_EQ(found.clusters.cluster_size(0), 2U);
+  EXPECT_EQ(found.clusters.list_size(0), 2U);
   EXPECT_EQ(found.class_of, std::vector<std::int64_t>{1});
   EXPECT_EQ(found.clusters.small_points, 0U);
   EXPECT_EQ(found.clusters.class_points, 2U);
@@ -128,8 +128,8 @@ TEST(ClassClusters, OfNoPointsAreNone) {
 }
 
 TEST(ClassClusters, RefuseAClassWithSettingsTwiceAndAPointWithout) {
-  const auto message = [](const std::vector<std::int64_t>& classes, const ClusterSettings& others,
-                          const std::vector<ClassSettings>& own) -> std::string {
+  const auto message = [](const std::vector<std::int64_t>& classes, const ClusterOptions& others,
+                          const std::vector<ClassOptions>& own) -> std::string {
     try {
       by_class(kRow, classes, others, own);
     } catch (const std::invalid_argument& error) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "reference.h"
 
 namespace pcl_bv {
@@ -21,14 +21,14 @@ using test::view_of;
 template <typename T>
 ClusterList by_range(const Cloud<T>& cloud, float tolerance, float per_metre,
                      const ParallelPolicy& policy = Serial{}) {
-  ClusterSettings settings{tolerance};
+  ClusterOptions settings{tolerance};
   settings.tolerance_per_metre = per_metre;
   Clusters clusters;
   EuclideanClusterer().extract(view_of(cloud), settings, clusters, policy);
   return test::as_lists(clusters);
 }
 
-// The tolerance of a point, by the words of ClusterSettings.
+// The tolerance of a point, by the words of ClusterOptions.
 template <typename T>
 float tolerance_at(const std::array<T, 3>& p, float tolerance, float per_metre) {
   const double range =
@@ -127,7 +127,7 @@ TYPED_TEST(ClustersByRange, SkipPointsThatAreNotFinite) {
 
 TEST(ClustersByRange, AGrowthThatIsNoneOrGoesWithDbscanIsRefused) {
   const auto message = [](float per_metre, std::size_t min_points) -> std::string {
-    ClusterSettings settings{0.5F};
+    ClusterOptions settings{0.5F};
     settings.tolerance_per_metre = per_metre;
     settings.min_points = min_points;
     Clusters clusters;

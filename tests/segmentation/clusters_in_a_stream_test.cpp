@@ -39,7 +39,7 @@ template <typename View>
 void expect_the_same_from_threads(const View& points, float tolerance, std::size_t min_points) {
   SCOPED_TRACE(testing::Message() << points.count << " points, tolerance " << tolerance << ", min_points "
                                   << min_points);
-  ClusterSettings settings{tolerance};
+  ClusterOptions settings{tolerance};
   settings.min_points = min_points;
   Clusters serial, threaded;
   EuclideanClusterer clusterer;
@@ -115,7 +115,7 @@ TEST(ClustersInAStream, TakeNoMemoryInTheSecondPass) {
       for (const SynthCloud& frame : frames) {
         for (const float r : {0.1F, 0.5F}) {
           for (const std::size_t min_points : {1U, 6U}) {
-            ClusterSettings settings{r, 10};
+            ClusterOptions settings{r, 10};
             settings.min_points = min_points;
             clusterer.extract(view_of(frame), settings, clusters, policy);
           }
@@ -136,9 +136,9 @@ TEST(ClustersInAStream, TakeNoMemoryInTheSecondPassWithGrowthSplitsAndClasses) {
     std::vector<std::int64_t> classes, class_of;
     for (std::size_t i = 0; i < 128'000; ++i)
       classes.push_back(static_cast<std::int64_t>(i / 1000 % 5));
-    ClusterSettings settings{0.3F, 10, 2000};
+    ClusterOptions settings{0.3F, 10, 2000};
     settings.oversized = Oversized::split;
-    ClusterSettings grown = settings;
+    ClusterOptions grown = settings;
     grown.tolerance_per_metre = 0.02F;
     std::size_t before = 0;
     for (int pass = 0; pass < 3; ++pass) {
@@ -147,7 +147,7 @@ TEST(ClustersInAStream, TakeNoMemoryInTheSecondPassWithGrowthSplitsAndClasses) {
         clusterer.extract(view_of(frame), settings, clusters, policy);
         clusterer.extract(view_of(frame), grown, clusters, policy);
         const std::size_t own = allocations();
-        const std::vector<ClassSettings> rules = {{1, settings, true}, {2, grown}, {3, {0.2F, 5}}};
+        const std::vector<ClassOptions> rules = {{1, settings, true}, {2, grown}, {3, {0.2F, 5}}};
         before += pass > 0 ? allocations() - own : 0;
         class_clusterer.extract(view_of(frame), classes, settings, rules, clusters, class_of, policy);
       }

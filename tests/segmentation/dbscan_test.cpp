@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "dbscan_reference.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 namespace {
@@ -22,7 +22,7 @@ using test::view_of;
 
 Clusters dbscan(const PointView& points, float tolerance, std::size_t min_points,
                 const ParallelPolicy& policy = Serial{}) {
-  ClusterSettings settings{tolerance};
+  ClusterOptions settings{tolerance};
   settings.min_points = min_points;
   Clusters clusters;
   EuclideanClusterer().extract(points, settings, clusters, policy);
@@ -163,7 +163,7 @@ TEST(Dbscan, CountsNoiseApartFromSmallAndLargeClusters) {
   cloud.insert(cloud.end(), 9, {5, 0, 0});
   cloud.insert(cloud.end(), 4, {10, 0, 0});
   cloud.insert(cloud.end(), 2, {15, 0, 0});
-  ClusterSettings settings{1.F, 5, 8};
+  ClusterOptions settings{1.F, 5, 8};
   settings.min_points = 3;
   Clusters clusters;
   EuclideanClusterer().extract(view_of(cloud), settings, clusters);

@@ -150,7 +150,7 @@ TEST(GroundPlaneAtTheLimits, ScalesExactlyByPowersOfTwo) {
     const float height = i % 3 == 0 ? static_cast<float>(random() % 4000) : static_cast<float>(random() % 8);
     cloud.push_back({static_cast<float>(random() % 10'000), static_cast<float>(random() % 10'000), height});
   }
-  GroundPlaneSettings settings;
+  GroundPlaneOptions settings;
   settings.distance = 30;
   const GroundSplit expected = split(cloud, settings);
   ASSERT_TRUE(expected.found);
@@ -160,7 +160,7 @@ TEST(GroundPlaneAtTheLimits, ScalesExactlyByPowersOfTwo) {
     Cloud<float> scaled;
     for (const auto& p : cloud)
       scaled.push_back({std::ldexp(p[0], exponent), std::ldexp(p[1], exponent), std::ldexp(p[2], exponent)});
-    GroundPlaneSettings scaled_settings = settings;
+    GroundPlaneOptions scaled_settings = settings;
     scaled_settings.distance = std::ldexp(settings.distance, exponent);
     const test::FlushToZero host;
     const GroundSplit result = split(scaled, scaled_settings);
@@ -186,7 +186,7 @@ TEST(GroundPlaneAtTheLimits, ASecondCallOfTheSameSizeAllocatesNothing) {
 TEST(GroundPlaneAtTheLimits, BadSettingsAreNamedWithTheirRange) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto complaint = [](const GroundPlaneSettings& settings) -> std::string {
+  const auto complaint = [](const GroundPlaneOptions& settings) -> std::string {
     try {
       split(Cloud<float>{}, settings);
     } catch (const std::invalid_argument& error) {
@@ -195,23 +195,23 @@ TEST(GroundPlaneAtTheLimits, BadSettingsAreNamedWithTheirRange) {
     return "none";
   };
   for (const double bad : {0.0, -1.0, nan, infinity}) {
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.distance = bad;
     EXPECT_THAT(complaint(settings), HasSubstr("distance is " + std::to_string(bad) + ", must be finite"));
   }
   for (const double bad : {-0.1, 89.5, nan}) {
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.max_slope_degrees = bad;
     EXPECT_THAT(complaint(settings),
                 HasSubstr("max_slope_degrees is " + std::to_string(bad) + ", must be 0"));
   }
   for (const double bad : {-0.1, nan, infinity}) {
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.sensor_height = bad;
     EXPECT_THAT(complaint(settings), HasSubstr("sensor_height is " + std::to_string(bad) + ", must be"));
   }
   for (const unsigned bad : {0U, 1'000'001U}) {
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.iterations = bad;
     EXPECT_THAT(complaint(settings), HasSubstr("iterations is " + std::to_string(bad)));
   }

@@ -47,7 +47,7 @@ TEST(GroundPlaneOnSweeps, FindsTheRoadAndSidewalksOfTheStreet) {
       const SynthCloud along = make_street_frame(street, frame).cloud;
       for (const SynthCloud& cloud : {along, turned(along)}) {
         for (const std::uint32_t search_seed : {1U, 2U, 3U}) {
-          GroundPlaneSettings settings;
+          GroundPlaneOptions settings;
           settings.seed = search_seed;
           split_ground(PointView::of(cloud.xyz.data(), 12, cloud.size()), settings, split);
           ASSERT_TRUE(split.found);

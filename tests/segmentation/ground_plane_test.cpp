@@ -20,7 +20,7 @@ double slope_degrees(const GroundSplit& result) {
 }
 
 TEST(GroundPlane, SettingsAreThoseOfTheDocumentationAtFirst) {
-  const GroundPlaneSettings settings;
+  const GroundPlaneOptions settings;
   EXPECT_EQ(settings.up, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(settings.distance, 0.2);
   EXPECT_EQ(settings.max_slope_degrees, 15);
@@ -57,7 +57,7 @@ TEST(GroundPlane, IsExactOnAnExactPlane) {
 TEST(GroundPlane, EveryPointObeysThePublishedExpression) {
   Cloud<float> cloud;
   add_plane<float>(cloud, 5000, 20, 0, 0, 0, 0, 0.4F);  // noise over the threshold
-  const GroundPlaneSettings settings;
+  const GroundPlaneOptions settings;
   const GroundSplit result = split(cloud, settings);
   ASSERT_TRUE(result.found);
   ASSERT_FALSE(result.rest.empty());
@@ -85,7 +85,7 @@ TEST(GroundPlane, KeepsTheSlopeLimit) {
   }
   Cloud<double> steep;
   add_plane<double>(steep, 2000, 10, 0, 0, -1, std::tan(40 * std::numbers::pi / 180));
-  GroundPlaneSettings settings;
+  GroundPlaneOptions settings;
   settings.max_slope_degrees = 45;
   EXPECT_NEAR(slope_degrees(split(steep, settings)), 40, 1e-5);
 }
@@ -100,7 +100,7 @@ TEST(GroundPlane, FollowsTheUpAxis) {
   EXPECT_EQ(expected.ground, numbers(0, 2000));
   for (unsigned axis = 0; axis < 6; ++axis) {
     SCOPED_TRACE(axis);
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.up = axis_up(axis);
     const GroundSplit result = split(turned(upright, axis), settings);
     ASSERT_TRUE(result.found);
@@ -110,14 +110,14 @@ TEST(GroundPlane, FollowsTheUpAxis) {
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(seed);
     const Eigen::Matrix3d rotation = any_rotation(seed);
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.up = 0.1 * seed * rotation.col(2);
     const GroundSplit result = split(turned(upright, rotation), settings);
     ASSERT_TRUE(result.found);
     EXPECT_LT((result.normal - rotation * expected.normal).norm(), 1e-3);
     EXPECT_EQ(result.ground, expected.ground);
     for (const double scale : {0.25, 0x1p-600, 0x1p600}) {
-      GroundPlaneSettings other = settings;
+      GroundPlaneOptions other = settings;
       other.up *= scale;
       const GroundSplit same = split(turned(upright, rotation), other);
       EXPECT_EQ(same.normal, result.normal);
@@ -127,7 +127,7 @@ TEST(GroundPlane, FollowsTheUpAxis) {
 }
 
 TEST(GroundPlane, RefusesAnUpThatIsNone) {
-  GroundPlaneSettings settings;
+  GroundPlaneOptions settings;
   for (const Eigen::Vector3d& up :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, NAN, 1), Eigen::Vector3d(INFINITY, 0, 0)}) {
     settings.up = up;
@@ -142,7 +142,7 @@ TEST(GroundPlane, EachSeedFindsTheGroundAndGivesTheSameBitsAgain) {
   add_plane<float>(cloud, 20'000, 5, 3, 0, 1.5F, 0, 0.3F);
   for (std::uint32_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.seed = seed;
     const GroundSplit result = split(cloud, settings);
     const GroundSplit again = split(cloud, settings);
@@ -162,7 +162,7 @@ TEST(GroundPlane, PrefersTheFloorToALargerTable) {
     add_plane<float>(cloud, 600, 2, 0, 0, 0, 0, 0.01F);          // what is seen of the floor
     add_plane<float>(cloud, 9000, 1.2F, 0, 0, 0.75F, 0, 0.01F);  // the table
     add_plane<float>(cloud, 1000, 0.1F, 0.3F, 0, 0.9F, 0, 0.1F);
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.distance = 0.03;
     settings.seed = seed;
     const GroundSplit result = split(cloud, settings);
@@ -191,7 +191,7 @@ TEST(GroundPlane, IsFoundUnderAForest) {
   add_plane<float>(cloud, 17'000, 20, 0, 0, 6, 0.05F, 5);  // leaves 1 m to 11 m up
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.seed = seed;
     settings.up = axis_up(seed % 6);
     EXPECT_EQ(split(turned(cloud, seed % 6), settings).ground, numbers(0, 1500));
@@ -215,7 +215,7 @@ TEST(GroundPlane, TheSensorHeightExcludesOtherLevels) {
   add_plane<float>(cloud, 4000, 10, 0, 0, -1.7F, 0.02F);
   add_plane<float>(cloud, 4000, 10, 0, 0, 2, 0.02F);
   add_plane<float>(cloud, 9000, 10, 0, 0, -5, 0.02F);  // a lower floor seen through a grating
-  GroundPlaneSettings settings;
+  GroundPlaneOptions settings;
   EXPECT_NEAR(split(cloud, settings).offset, -5, 0.01);
   std::erase_if(cloud, [](const auto& p) { return p[2] < -3 && p[1] > -9; });
   settings.sensor_height = 1.5;
@@ -230,7 +230,7 @@ TEST(GroundPlane, IsNoneWhenTooMuchLiesBelow) {
     Cloud<float> cloud;
     add_plane<float>(cloud, 4000, 5, 5, 0, -1.7F);
     add_plane<float>(cloud, below, 5, -5, 0, -6, 0, 3);
-    GroundPlaneSettings settings;
+    GroundPlaneOptions settings;
     settings.sensor_height = 1.7;
     EXPECT_EQ(split(cloud, settings).found, below == 100);
   }

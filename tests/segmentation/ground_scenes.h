@@ -26,7 +26,7 @@ PointView view(const Cloud<T>& cloud) {
 }
 
 template <typename T>
-GroundSplit split(const Cloud<T>& cloud, const GroundPlaneSettings& settings = {}) {
+GroundSplit split(const Cloud<T>& cloud, const GroundPlaneOptions& settings = {}) {
   GroundSplit result;
   split_ground(view(cloud), settings, result);
   return result;

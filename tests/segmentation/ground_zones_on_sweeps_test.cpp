@@ -42,7 +42,7 @@ SynthCloud turned(SynthCloud cloud, const Eigen::Matrix3f& rotation) {
 }
 
 // The worst of many sweeps.
-Score worst(const Eigen::Matrix3f& rotation, const GroundZonesSettings& settings = {}) {
+Score worst(const Eigen::Matrix3f& rotation, const GroundZonesOptions& settings = {}) {
   GroundZones zones;
   GroundSplit split;
   Score least;
@@ -97,7 +97,7 @@ TEST(GroundZonesOnSweeps, KnowTheGroundUnderATurnedSensor) {
 TEST(GroundZonesOnSweeps, KnowTheGroundAboutAnyUp) {
   for (const auto& [x, y] : {std::pair{140, 0}, std::pair{20, -35}, std::pair{0, 55}}) {
     const Eigen::Matrix3f rotation = about(y_axis, y) * about(x_axis, x);
-    GroundZonesSettings settings;
+    GroundZonesOptions settings;
     settings.up = 3 * rotation.col(2).cast<double>();
     const Score least = worst(rotation, settings);
     EXPECT_GE(least.recall, 0.995);
@@ -107,14 +107,14 @@ TEST(GroundZonesOnSweeps, KnowTheGroundAboutAnyUp) {
 
 TEST(GroundZonesOnSweeps, TakeASensorHeightThatIsWrongByAHand) {
   for (const double error : {-0.3, 0.0, 0.3}) {
-    GroundZonesSettings settings;
+    GroundZonesOptions settings;
     settings.sensor_height = street_sensor_height + error;
     expect_good(worst(Eigen::Matrix3f::Identity(), settings));
   }
 }
 
 TEST(GroundZonesOnSweeps, TakeZonesThatAreNotCentredOnTheSensor) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor = {2.5, -1, 0.5};
   expect_good(worst(Eigen::Matrix3f::Identity(), settings));
 }

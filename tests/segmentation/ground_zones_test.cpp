@@ -18,7 +18,7 @@
 namespace pcl_bv {
 namespace {
 
-GroundSplit split(const PointView& points, const GroundZonesSettings& settings = {}) {
+GroundSplit split(const PointView& points, const GroundZonesOptions& settings = {}) {
   GroundSplit result;
   GroundZones().split(points, settings, result);
   return result;
@@ -102,7 +102,7 @@ TEST(GroundZones, ClimbARampThatBeginsWithinAPatch) {
 }
 
 TEST(GroundZones, FollowASlopeAsSteepAsAllowed) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.max_slope_degrees = 45;
   for (const Height height : {steep_along_x, steep_along_y}) {
     const Cloud<float> cloud = ground_of(height);
@@ -124,7 +124,7 @@ TEST(GroundZones, GoWhereOnePlaneCannot) {
   for (const Height height : {hill, valley, wavy}) {
     Cloud<float> cloud = ground_of(height);
     const std::size_t ground = cloud.size();
-    const GroundSplit plane = split(cloud, GroundPlaneSettings{});
+    const GroundSplit plane = split(cloud, GroundPlaneOptions{});
     EXPECT_LT(static_cast<double>(plane.ground.size()), 0.97 * static_cast<double>(ground)) << height(40, 20);
   }
 }
@@ -144,7 +144,7 @@ TEST(GroundZones, TakeAWrongSensorHeightAsAHint) {
     Cloud<float> cloud = ground_of(hill);
     const std::size_t ground = cloud.size();
     add_boxes(cloud, hill);
-    GroundZonesSettings settings;
+    GroundZonesOptions settings;
     settings.sensor_height = height;
     expect_split(split(view(cloud), settings), ground, cloud.size());
   }
@@ -200,7 +200,7 @@ TEST(GroundZones, GoOnBehindADitch) {
 
 // Within half a metre no ground is seen: a point there is 0.3 m above level ground, 0.15 m above the mound.
 TEST(GroundZones, RiseUnderTheSensorWithTheGroundAroundIt) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.distance = 0.2;
   for (const Height height : {level, mound}) {
     Cloud<float> cloud = ground_of(height);
@@ -241,7 +241,7 @@ TEST(GroundZones, AreNoneBeforeAWall) {
       cloud.push_back({7, y, z});
   }
   EXPECT_FALSE(split(view(cloud)).found);
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor_height = 1.7;
   const GroundSplit result = split(view(cloud), settings);
   EXPECT_TRUE(result.found);  // Level ground 1.7 m below, of which nothing is seen.
@@ -271,7 +271,7 @@ TEST(GroundZones, FollowTheUpAxis) {
   add_boxes(upright, camber);
   for (unsigned axis = 0; axis < 6; ++axis) {
     SCOPED_TRACE(axis);
-    GroundZonesSettings settings;
+    GroundZonesOptions settings;
     settings.up = axis_up(axis);
     const GroundSplit result = split(view(turned(upright, axis)), settings);
     EXPECT_GT(result.normal.dot(settings.up), 0.99);
@@ -280,7 +280,7 @@ TEST(GroundZones, FollowTheUpAxis) {
 }
 
 TEST(GroundZones, AreLevelAtTheSensorsHeightWhereNoneAreSeen) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.up = {0, -3, 4};
   settings.sensor = {10, 20, 30};
   settings.sensor_height = 1.5;
@@ -294,7 +294,7 @@ TEST(GroundZones, FindTheSensorInTheMapsFrame) {
   Cloud<float> local = ground_of(wavy);
   const std::size_t ground = local.size();
   add_boxes(local, wavy);
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor = {4e5, 5e6, 300};
   Cloud<double> map;
   for (const auto& p : local)
@@ -342,7 +342,7 @@ TEST(GroundZones, OutliveGreatCoordinates) {
 
 TEST(GroundZones, RefuseSettingsOutOfRange) {
   const auto refuses = [](auto change) {
-    GroundZonesSettings settings;
+    GroundZonesOptions settings;
     change(settings);
     EXPECT_THROW(split(view(Cloud<float>{{0, 0, 0}}), settings), std::invalid_argument);
   };
@@ -366,11 +366,11 @@ TEST(GroundZones, AreTheSameFromAnyNumberOfThreads) {
     cloud[i][0] = std::numeric_limits<float>::quiet_NaN();
   const PointView all = view(cloud);
   ASSERT_GT(all.count, 25'000U);  // in parts
-  GroundZonesSettings tilted;
+  GroundZonesOptions tilted;
   tilted.up = {0.1, -0.2, 1};
   tilted.sensor = {0.5, 0.25, 0};
   for (const PointView& points : {all, all.slice(1000, all.count - 3000), all.slice(5, 20'000)}) {
-    for (const GroundZonesSettings& settings : {GroundZonesSettings(), tilted}) {
+    for (const GroundZonesOptions& settings : {GroundZonesOptions(), tilted}) {
       const GroundSplit alone = split(points, settings);
       ASSERT_TRUE(alone.found);
       GroundZones zones;

@@ -13,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-GroundSplit split(const PointView& points, const GroundZonesSettings& settings = {}) {
+GroundSplit split(const PointView& points, const GroundZonesOptions& settings = {}) {
   GroundSplit result;
   GroundZones().split(points, settings, result);
   return result;
@@ -30,7 +30,7 @@ double camber(double x, double y) {
 std::size_t moved(const Cloud<float>& upright, const Eigen::Matrix3d& rotation) {
   const GroundSplit expected = split(view(upright));
   const Cloud<float> cloud = turned(upright, rotation);
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.up = 0.3 * rotation.col(2);
   const GroundSplit result = split(view(cloud), settings);
   EXPECT_LT((result.normal - rotation * expected.normal).norm(), 1e-3);

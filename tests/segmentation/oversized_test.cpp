@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "dbscan_reference.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 namespace {
@@ -14,7 +14,7 @@ using test::Cloud;
 using test::ClusterList;
 using test::view_of;
 
-Clusters extract(const Cloud<float>& cloud, const ClusterSettings& settings,
+Clusters extract(const Cloud<float>& cloud, const ClusterOptions& settings,
                  const ParallelPolicy& policy = Serial{}) {
   Clusters clusters;
   EuclideanClusterer().extract(view_of(cloud), settings, clusters, policy);
@@ -27,7 +27,7 @@ struct Expected {
 };
 
 // Clusters of the points by definition, those that are too large again with half the tolerance.
-void split(const Cloud<float>& cloud, const std::vector<std::int32_t>& points, ClusterSettings settings,
+void split(const Cloud<float>& cloud, const std::vector<std::int32_t>& points, ClusterOptions settings,
            int halvings, Expected& expected) {
   Cloud<float> part;
   for (const std::int32_t i : points)
@@ -45,14 +45,14 @@ void split(const Cloud<float>& cloud, const std::vector<std::int32_t>& points, C
     } else if (halvings == 0) {
       expected.large += numbers.size();
     } else {
-      ClusterSettings finer = settings;
+      ClusterOptions finer = settings;
       finer.tolerance /= 2;
       split(cloud, numbers, finer, halvings - 1, expected);
     }
   }
 }
 
-Expected split(const Cloud<float>& cloud, const ClusterSettings& settings) {
+Expected split(const Cloud<float>& cloud, const ClusterOptions& settings) {
   std::vector<std::int32_t> all;
   for (std::size_t i = 0; i < cloud.size(); ++i)
     all.push_back(static_cast<std::int32_t>(i));
@@ -72,7 +72,7 @@ TEST(Oversized, PartsAreTheClustersOfHalfTheToleranceUpToThreeTimes) {
       for (const std::size_t min_points : {1U, 4U}) {
         SCOPED_TRACE(testing::Message()
                      << "seed " << seed << ", tolerance " << tolerance << ", " << min_points);
-        ClusterSettings settings{tolerance, 3, 40, min_points};
+        ClusterOptions settings{tolerance, 3, 40, min_points};
         settings.oversized = Oversized::split;
         const Expected expected = split(cloud, settings);
         for (const ParallelPolicy& policy : {ParallelPolicy(Serial{}), ParallelPolicy(Threads{2})}) {
@@ -100,18 +100,18 @@ TEST(Oversized, TwoBlocksWithABridgeOfFewPointsAreTwo) {
   }
   for (int i = 1; i < 5; ++i)
     cloud.push_back({0.45F + 0.31F * static_cast<float>(i), 0.2F, 0});
-  ClusterSettings settings{0.4F, 10, 150};
+  ClusterOptions settings{0.4F, 10, 150};
   EXPECT_EQ(extract(cloud, settings).large_points, 204U);
   settings.oversized = Oversized::keep;
   const Clusters kept = extract(cloud, settings);
   ASSERT_EQ(kept.size(), 1U);
-  EXPECT_EQ(kept.cluster_size(0), 204U);
+  EXPECT_EQ(kept.list_size(0), 204U);
   EXPECT_EQ(kept.large_points, 0U);
   settings.oversized = Oversized::split;
   const Clusters parts = extract(cloud, settings);
   ASSERT_EQ(parts.size(), 2U);
-  EXPECT_EQ(parts.cluster_size(0), 100U);
-  EXPECT_EQ(parts.cluster_size(1), 100U);
+  EXPECT_EQ(parts.list_size(0), 100U);
+  EXPECT_EQ(parts.list_size(1), 100U);
   EXPECT_EQ(parts.small_points, 4U);
 }
 
@@ -119,7 +119,7 @@ TEST(Oversized, PartsOfAToleranceThatGrowsHalveItAtEveryRange) {
   const auto pair = [](float apart) {
     return Cloud<float>{{100, 0, 0}, {100 + apart, 0, 0}, {100, 0.1F, 0}};
   };
-  ClusterSettings settings{0.5F, 1, 2};
+  ClusterOptions settings{0.5F, 1, 2};
   settings.tolerance_per_metre = 0.01F;  // 2^(6/4) * 0.5 m there, and half of that, and a quarter
   settings.oversized = Oversized::split;
   EXPECT_EQ(extract(pair(1.2F), settings).size(), 2U);

@@ -27,7 +27,7 @@ PointView view_of(const Cloud<T>& cloud) {
 inline ClusterList as_lists(const Clusters& clusters) {
   ClusterList lists;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    lists.emplace_back(clusters.cluster(i), clusters.cluster(i) + clusters.cluster_size(i));
+    lists.emplace_back(clusters.list(i), clusters.list(i) + clusters.list_size(i));
   }
   return lists;
 }

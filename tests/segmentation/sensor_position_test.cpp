@@ -45,7 +45,7 @@ Street street(std::uint64_t seed = 2) {
   return found;
 }
 
-GroundSplit split(const Street& cloud, const GroundZonesSettings& settings = {}) {
+GroundSplit split(const Street& cloud, const GroundZonesOptions& settings = {}) {
   GroundSplit found;
   GroundZones().split(cloud.view(), settings, found);
   return found;
@@ -91,13 +91,13 @@ TEST(SensorPosition, IsTheOriginToTheBitWhereThePointsLieAroundIt) {
   const GroundSplit found = split(cloud);
   EXPECT_TRUE(found.sensor.confirmed);
   EXPECT_EQ(found.sensor.position, Vector3d(0, 0, 0));
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor = Vector3d(0, 0, 0);
   EXPECT_EQ(split(cloud, settings).ground, found.ground);
 }
 
 TEST(SensorPosition, ThatIsGivenIsBelieved) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor = Vector3d(150, 0, 0);
   EXPECT_EQ(split(street(), settings).sensor.position, Vector3d(150, 0, 0));
 }
@@ -167,7 +167,7 @@ TEST(SensorPosition, ThatIsNotFiniteIsRefused) {
 }
 
 TEST(SensorPosition, AHeightThatFitsNoPlaneIsToldFromOneThatDoes) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor_height = 1.7;
   EXPECT_FALSE(split(street(), settings).assumed_level);
   settings.sensor_height = 6;
@@ -175,7 +175,7 @@ TEST(SensorPosition, AHeightThatFitsNoPlaneIsToldFromOneThatDoes) {
 }
 
 TEST(SensorPosition, AHeightIsOfNoUseWhereThePlaceIsEstimated) {
-  GroundZonesSettings settings;
+  GroundZonesOptions settings;
   settings.sensor_height = 1.7;
   const Street high = street().moved([](const Vector3d& p) { return Vector3d(p + Vector3d(300, 0, 120)); });
   const GroundSplit found = split(high, settings);
@@ -184,7 +184,7 @@ TEST(SensorPosition, AHeightIsOfNoUseWhereThePlaceIsEstimated) {
 }
 
 std::optional<OtherUp> other_up(const Street& cloud, const Vector3d& up, double found) {
-  GroundPlaneSettings settings;
+  GroundPlaneOptions settings;
   settings.up = up;
   return find_other_up(cloud.view(), settings, {0, 0, 0}, found);
 }

@@ -23,8 +23,6 @@ using namespace testing;
 using Volumes = std::vector<AnyVolume>;
 using Indices = std::vector<std::int32_t>;
 
-constexpr NodeBounds kBounds[] = {NodeBounds::aabb, NodeBounds::dop14, NodeBounds::sphere};
-
 template <typename Holds>
 Indices indices_where(const Volumes& volumes, const Holds& holds) {
   Indices indices;
@@ -131,11 +129,9 @@ void expect_answers(std::size_t count, double spread, const std::vector<Scale>& 
   Random random(21);
   for (const Scale& scale : of_scales) {
     const Volumes volumes = scattered_volumes(random, scale, count, spread);
-    for (const NodeBounds bounds : kBounds) {
-      SCOPED_TRACE(scale.name + ", bounds " + std::to_string(static_cast<int>(bounds)));
-      const VolumeTree tree(volumes, bounds);
-      ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, volumes, random));
-    }
+    SCOPED_TRACE(scale.name);
+    const VolumeTree tree(volumes);
+    ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, volumes, random));
   }
 }
 
@@ -154,12 +150,10 @@ TEST(VolumeTree, AsksVolumesThatNoBoxHoldsAndNeverFindsEmptyOnes) {
   Volumes volumes = scattered_volumes(random, scales()[0], 100, 20);
   for (const AnyVolume& odd : odd_volumes(1))
     volumes.insert(volumes.begin() + static_cast<std::ptrdiff_t>(volumes.size() / 2), odd);
-  for (const NodeBounds bounds : kBounds) {
-    const VolumeTree tree(volumes, bounds);
-    ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, volumes, random));
-    for (const AnyVolume& odd : odd_volumes(1))
-      ASSERT_NO_FATAL_FAILURE(expect_meets(tree, volumes, odd));
-  }
+  const VolumeTree tree(volumes);
+  ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, volumes, random));
+  for (const AnyVolume& odd : odd_volumes(1))
+    ASSERT_NO_FATAL_FAILURE(expect_meets(tree, volumes, odd));
 }
 
 TEST(VolumeTree, TakesPlacesAndRaysOfAnyNumbers) {
@@ -168,35 +162,31 @@ TEST(VolumeTree, TakesPlacesAndRaysOfAnyNumbers) {
   const Vector3d far = Vector3d::Constant(1e300);
   volumes.insert(volumes.begin(), {Aabb(-far, far), Sphere(), Sphere({1e99, 0, 0}, 1e98)});
   const double numbers[] = {0, 1, -3e7, 1e99, -1e120, 1e200, 1e-300, kInfinity, kNan};
-  for (const NodeBounds bounds : kBounds) {
-    const VolumeTree tree(volumes, bounds);
-    for (const double x : numbers) {
-      for (const double y : numbers) {
-        const Vector3d place(x, y, 0.5);
-        ASSERT_NO_FATAL_FAILURE(expect_contains(tree, volumes, place));
-        ASSERT_NO_FATAL_FAILURE(expect_nearest(tree, volumes, place, kInfinity));
-        ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {place, {-x, 1, 0}}));
-        ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {{5, 5, 5}, {x, y, -5}}));
-        ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {{9, 0.1, 0.1}, Vector3d(-1, 1e-3, 0) * x}));
-      }
+  const VolumeTree tree(volumes);
+  for (const double x : numbers) {
+    for (const double y : numbers) {
+      const Vector3d place(x, y, 0.5);
+      ASSERT_NO_FATAL_FAILURE(expect_contains(tree, volumes, place));
+      ASSERT_NO_FATAL_FAILURE(expect_nearest(tree, volumes, place, kInfinity));
+      ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {place, {-x, 1, 0}}));
+      ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {{5, 5, 5}, {x, y, -5}}));
+      ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {{9, 0.1, 0.1}, Vector3d(-1, 1e-3, 0) * x}));
     }
-    for (const double tiny : {1e-308, 1e-320, 1e300, 1e308})
-      ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {{9, 0.1, 0.1}, Vector3d(-1, 0.01, 0.02) * tiny}));
   }
+  for (const double tiny : {1e-308, 1e-320, 1e300, 1e308})
+    ASSERT_NO_FATAL_FAILURE(expect_hits(tree, volumes, {{9, 0.1, 0.1}, Vector3d(-1, 0.01, 0.02) * tiny}));
 }
 
 TEST(VolumeTree, GivesTheFirstOfEqualVolumes) {
   Volumes volumes(100, AnyVolume(Sphere({1, 2, 3}, 0.5)));
   volumes[0] = Sphere({9, 9, 9}, 0.1);
-  for (const NodeBounds bounds : kBounds) {
-    const VolumeTree tree(volumes, bounds);
-    EXPECT_EQ(tree.first_hit({-4, 2, 3}, {1, 0, 0})->index, 1);
-    EXPECT_EQ(tree.nearest({4, 2, 3})->index, 1);
-    EXPECT_EQ(tree.nearest({1, 2, 3})->index, 1);
-    Indices found;
-    tree.all_containing({1, 2, 3}, found);
-    EXPECT_EQ(found.size(), 99U);
-  }
+  const VolumeTree tree(volumes);
+  EXPECT_EQ(tree.first_hit({-4, 2, 3}, {1, 0, 0})->index, 1);
+  EXPECT_EQ(tree.nearest({4, 2, 3})->index, 1);
+  EXPECT_EQ(tree.nearest({1, 2, 3})->index, 1);
+  Indices found;
+  tree.all_containing({1, 2, 3}, found);
+  EXPECT_EQ(found.size(), 99U);
 }
 
 TEST(VolumeTree, AnswersForVolumesThatMovedAfterRefit) {
@@ -206,17 +196,15 @@ TEST(VolumeTree, AnswersForVolumesThatMovedAfterRefit) {
   after.resize(before.size(), Sphere());
   std::rotate(after.begin(), after.begin() + 11, after.end());
   after[3] = odd_volumes(1)[1];
-  for (const NodeBounds bounds : kBounds) {
-    VolumeTree tree(before, bounds);
-    const VolumeTree kept = tree;
-    tree.refit(after);
-    ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, after, random));
-    ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(kept, before, random));
-    tree.refit(before);
-    ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, before, random));
-    EXPECT_THROW(tree.refit(Volumes(3)), std::invalid_argument);
-    EXPECT_EQ(tree.size(), before.size());
-  }
+  VolumeTree tree(before);
+  const VolumeTree kept = tree;
+  tree.refit(after);
+  ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, after, random));
+  ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(kept, before, random));
+  tree.refit(before);
+  ASSERT_NO_FATAL_FAILURE(expect_as_one_by_one(tree, before, random));
+  EXPECT_THROW(tree.refit(Volumes(3)), std::invalid_argument);
+  EXPECT_EQ(tree.size(), before.size());
 }
 
 TEST(VolumeTree, LabelsPointsAndFindsHitsTheSameForEveryExecution) {
@@ -239,7 +227,7 @@ TEST(VolumeTree, LabelsPointsAndFindsHitsTheSameForEveryExecution) {
   }
   EXPECT_GT(labelled, 50U);
   for (const auto& [name, execution] : test::every_execution()) {
-    const VolumeTree tree(volumes, NodeBounds::dop14, execution);
+    const VolumeTree tree(volumes, execution);
     Indices labels;
     tree.first_containing(cloud.view(), labels, execution);
     ASSERT_EQ(labels, expected) << name;

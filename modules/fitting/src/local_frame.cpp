@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 double widest_side(const Supports& supports) {
   double widest = 0;
@@ -25,4 +25,4 @@ LocalFrame::LocalFrame(const Supports& supports)
       scale_(unit_scale(extent_)),
       kernel_scale_(supports.points.scalar == ScalarType::float64 ? scale_ : 1.0) {}
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/numeric/directed.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Factor that makes the square root of a squared_distance() an upper bound of the distance. The relative
 /// error of the root is less than 4 2^-53. The margin 2^-49 is four times this error (docs/numerics.md,
@@ -70,4 +70,4 @@ class LocalFrame {
   double kernel_scale_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

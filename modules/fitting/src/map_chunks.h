@@ -12,7 +12,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Calls merge(map(chunk)) for each chunk of the points. The calls of map() run in parallel, each under a
 /// FloatEnvironment. The calls of merge() are in the order of the chunks. At most `max_pending` results exist
@@ -37,4 +37,4 @@ void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,38 +9,47 @@
 #include <utility>
 
 #include "hull/local_hull.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
-template <typename Volume, EstimationResult (*fit)(const PointView&, Volume&, const Execution&)>
+template <typename Volume, EstimationResult (*fit)(const PointView&, Volume&, const FitExecution&)>
 EstimationResult plain(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                       const Execution& execution) {
+                       const FitExecution& execution) {
   return fit(points, volume.emplace<Volume>(), execution);
 }
 
 template <const std::shared_ptr<const KdopSet>& (*set)()>
 EstimationResult kdop(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                      const Execution& execution) {
-  return fit_kdop(points, set(), volume.emplace<Kdop>(set()), execution);
+                      const FitExecution& execution) {
+  return detail::fit_kdop(points, set(), volume.emplace<Kdop>(set()), nullptr, execution);
 }
 
 template <SphereMethod method>
 EstimationResult sphere(const PointView& points, const MethodOptions& options, AnyVolume& volume,
-                        const Execution& execution) {
-  return fit_sphere(points, {method, options.growth}, volume.emplace<Sphere>(), execution);
+                        const FitExecution& execution) {
+  return detail::fit_sphere(points, {method, options.growth}, volume.emplace<Sphere>(), execution);
 }
 
 template <ObbMethod method>
 EstimationResult obb(const PointView& points, const MethodOptions& options, AnyVolume& volume,
-                     const Execution& execution) {
-  return fit_obb(points, {method, options.up}, volume.emplace<Obb>(), execution);
+                     const FitExecution& execution) {
+  return detail::fit_obb(points, {method, options.up}, volume.emplace<Obb>(), execution);
+}
+
+EstimationResult ellipsoid(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                           const FitExecution& execution) {
+  EllipsoidCertificate certificate;
+  return detail::fit_ellipsoid(points, volume.emplace<Ellipsoid>(), certificate, execution);
 }
 
 EstimationResult best(const PointView& points, const MethodOptions& options, AnyVolume& volume,
-                      const Execution& execution) {
-  return fit_smallest(points, best_candidates(), volume, execution, options);
+                      const FitExecution& execution) {
+  const Method* winner = nullptr;
+  return detail::fit_smallest(points, best_candidates(), options, volume, winner, execution);
 }
 
 // Returns the smallest set that contains the directions of `a` and `b`.
@@ -49,33 +58,72 @@ DirectionSet union_of(DirectionSet a, DirectionSet b) {
   return a == DirectionSet::dop6 ? b : DirectionSet::dop26;
 }
 
+struct Row {
+  Method method;
+  MethodFit implementation;
+};
+
+const std::vector<Row>& rows() {
+  using Set = DirectionSet;
+  constexpr bool upright = true, all_points = true, hull = true;
+  static const std::vector<Row> table = {
+      {{"aabb", {}, "aabb"}, {plain<Aabb, detail::fit_aabb>, Set::dop6}},
+      {{"dop6", {}, "kdop"}, {kdop<KdopSet::dop6>, Set::dop6}},
+      {{"dop14", {}, "kdop"}, {kdop<KdopSet::dop14>, Set::dop14}},
+      {{"dop18", {}, "kdop"}, {kdop<KdopSet::dop18>, Set::dop18}},
+      {{"dop26", {}, "kdop"}, {kdop<KdopSet::dop26>, Set::dop26}},
+      {{"sphere-ritter", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::ritter>, Set::dop6}},
+      {{"sphere-epos6", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::epos6>, Set::dop6}},
+      {{"sphere-epos14", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::epos14>, Set::dop14}},
+      {{"sphere-epos26", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::epos26>, Set::dop26}},
+      {{"sphere-epos98", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::epos98>, Set::dop26}},
+      {{"sphere-exact", {"sphere"}, "sphere"}, {sphere<SphereMethod::exact>, Set::dop26}},
+      {{"obb-pca", {}, "obb"}, {obb<ObbMethod::pca>, {}}},
+      {{"obb-dito14", {}, "obb"}, {obb<ObbMethod::dito14>, Set::dop14}},
+      {{"obb-min", {"obb"}, "obb"}, {obb<ObbMethod::minimal>, {}, hull}},
+      {{"obb-yaw", {}, "obb", upright}, {obb<ObbMethod::yaw>, Set::dop26}},
+      {{"obb-lshape", {}, "obb", upright, all_points}, {obb<ObbMethod::lshape>, Set::dop26}},
+      {{"cylinder", {}, "cylinder"}, {plain<Cylinder, detail::fit_cylinder>, Set::dop26, hull}},
+      {{"capsule", {}, "capsule"}, {plain<Capsule, detail::fit_capsule>, Set::dop26, hull}},
+      {{"ellipsoid", {}, "ellipsoid"}, {ellipsoid, Set::dop26, hull}},
+      {{"hull", {}, "hull"}, {plain<Hull, detail::fit_hull>, Set::dop26, hull}},
+      {{"best", {}, ""}, {best, Set::dop26, hull}},
+  };
+  return table;
+}
+
 }  // namespace
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> table = {
-      {"aabb", {}, "aabb", plain<Aabb, fit_aabb>, DirectionSet::dop6},
-      {"dop6", {}, "kdop", kdop<KdopSet::dop6>, DirectionSet::dop6},
-      {"dop14", {}, "kdop", kdop<KdopSet::dop14>, DirectionSet::dop14},
-      {"dop18", {}, "kdop", kdop<KdopSet::dop18>, DirectionSet::dop18},
-      {"dop26", {}, "kdop", kdop<KdopSet::dop26>, DirectionSet::dop26},
-      {"sphere-ritter", {}, "sphere", sphere<SphereMethod::ritter>, DirectionSet::dop6, false, false, true},
-      {"sphere-epos6", {}, "sphere", sphere<SphereMethod::epos6>, DirectionSet::dop6, false, false, true},
-      {"sphere-epos14", {}, "sphere", sphere<SphereMethod::epos14>, DirectionSet::dop14, false, false, true},
-      {"sphere-epos26", {}, "sphere", sphere<SphereMethod::epos26>, DirectionSet::dop26, false, false, true},
-      {"sphere-epos98", {}, "sphere", sphere<SphereMethod::epos98>, DirectionSet::dop26, false, false, true},
-      {"sphere-exact", {"sphere"}, "sphere", sphere<SphereMethod::exact>, DirectionSet::dop26},
-      {"obb-pca", {}, "obb", obb<ObbMethod::pca>, {}},
-      {"obb-dito14", {}, "obb", obb<ObbMethod::dito14>, DirectionSet::dop14},
-      {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>, {}, false, true},
-      {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, DirectionSet::dop26, true},
-      {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, DirectionSet::dop26, true, false, true},
-      {"cylinder", {}, "cylinder", plain<Cylinder, fit_cylinder>, DirectionSet::dop26, false, true},
-      {"capsule", {}, "capsule", plain<Capsule, fit_capsule>, DirectionSet::dop26, false, true},
-      {"ellipsoid", {}, "ellipsoid", plain<Ellipsoid, fit_ellipsoid>, DirectionSet::dop26, false, true},
-      {"hull", {}, "hull", plain<Hull, fit_hull>, DirectionSet::dop26, false, true},
-      {"best", {}, "", best, DirectionSet::dop26, false, true},
-  };
+  static const std::vector<Method> table = [] {
+    std::vector<Method> all;
+    for (const Row& row : rows()) {
+      all.push_back(row.method);
+      all.back().implementation = &row.implementation;
+    }
+    return all;
+  }();
   return table;
+}
+
+Fitted<AnyVolume> Method::fit(const PointView& points, const MethodOptions& options,
+                              const Execution& execution) const {
+  Fitted<AnyVolume> fitted;
+  static_cast<EstimationResult&>(fitted) =
+      detail::fit_method(*this, points, options, fitted.volume, execution);
+  return fitted;
+}
+
+std::vector<Fitted<AnyVolume>> fit_methods(const PointView& points, const std::vector<const Method*>& among,
+                                           const MethodOptions& options, const Execution& execution) {
+  Supports supports;
+  const FitExecution shared = detail::share_supports(points, among, execution, supports);
+  std::vector<Fitted<AnyVolume>> all(among.size());
+  for (std::size_t m = 0; m < among.size(); ++m) {
+    static_cast<EstimationResult&>(all[m]) =
+        detail::fit_method(*among[m], points, options, all[m].volume, shared);
+  }
+  return all;
 }
 
 const Method* find_method(std::string_view name) {
@@ -85,27 +133,6 @@ const Method* find_method(std::string_view name) {
       return &method;
   }
   return nullptr;
-}
-
-Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
-                         const Execution& execution, Supports& supports) {
-  const FloatEnvironment environment;
-  std::size_t with_supports = 0, with_hull = 0;
-  std::optional<DirectionSet> widest;
-  for (const Method* method : among) {
-    with_hull += method->needs_hull ? 1 : 0;
-    if (!method->initial_directions) continue;
-    ++with_supports;
-    widest = !widest ? *method->initial_directions : union_of(*widest, *method->initial_directions);
-  }
-  const bool hull = with_hull > 1;
-  Execution shared = execution;
-  if (!hull && (with_supports < 2 || *widest == DirectionSet::dop6)) return shared;
-  supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);
-  if (hull && supports.used > 0)
-    supports.hull = shared_hull(points, supports, LocalFrame(supports), execution);
-  shared.supports = &supports;
-  return shared;
 }
 
 const std::vector<const Method*>& methods_of_all() {
@@ -119,29 +146,12 @@ const std::vector<const Method*>& methods_of_all() {
   return chosen;
 }
 
-EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
-                              AnyVolume& volume, const Execution& execution, const MethodOptions& options,
-                              const Method** winner) {
-  const FloatEnvironment environment;
-  if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
-  EstimationResult result;
-  const Method* found = nullptr;
-  Supports supports;
-  const Execution shared = share_supports(points, among, execution, supports);
-  const auto failed = [](const EstimationResult& r) { return r.status == EstimationStatus::failed; };
-  const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
-  for (const Method* method : among) {
-    AnyVolume candidate;
-    const EstimationResult fitted = method->fit(points, candidate, shared, options);
-    const bool better =
-        found == nullptr || (!failed(fitted) && (failed(result) || size(candidate) < size(volume)));
-    if (!better) continue;
-    volume = std::move(candidate);
-    result = fitted;
-    found = method;
-  }
-  if (winner != nullptr) *winner = result.used > 0 && !failed(result) ? found : nullptr;
-  return result;
+FittedSmallest fit_smallest(const PointView& points, const std::vector<const Method*>& among,
+                            const MethodOptions& options, const Execution& execution) {
+  FittedSmallest fitted;
+  static_cast<EstimationResult&>(fitted) =
+      detail::fit_smallest(points, among, options, fitted.volume, fitted.method, execution);
+  return fitted;
 }
 
 const std::vector<const Method*>& best_candidates() {
@@ -164,4 +174,57 @@ SphereGrowth parse_growth(std::string_view name) {
                               "'; known are sequential, stationary, deferred");
 }
 
+namespace detail {
+
+EstimationResult fit_method(const Method& method, const PointView& points, const MethodOptions& options,
+                            AnyVolume& volume, const FitExecution& execution) {
+  return method.implementation->fit(points, options, volume, execution);
+}
+
+FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
+                            const FitExecution& execution, Supports& supports) {
+  const FloatEnvironment environment;
+  std::size_t with_supports = 0, with_hull = 0;
+  std::optional<DirectionSet> widest;
+  for (const Method* method : among) {
+    with_hull += method->implementation->needs_hull ? 1 : 0;
+    const std::optional<DirectionSet>& directions = method->implementation->directions;
+    if (!directions) continue;
+    ++with_supports;
+    widest = !widest ? *directions : union_of(*widest, *directions);
+  }
+  const bool hull = with_hull > 1;
+  if (!hull && (with_supports < 2 || *widest == DirectionSet::dop6)) return execution;
+  supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);
+  if (hull && supports.used > 0)
+    supports.hull = shared_hull(points, supports, LocalFrame(supports), execution);
+  return {execution, &supports};
+}
+
+EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
+                              const MethodOptions& options, AnyVolume& volume, const Method*& winner,
+                              const FitExecution& execution) {
+  const FloatEnvironment environment;
+  if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
+  EstimationResult result;
+  const Method* found = nullptr;
+  Supports supports;
+  const FitExecution shared = share_supports(points, among, execution, supports);
+  const auto failed = [](const EstimationResult& r) { return r.status == EstimationStatus::failed; };
+  const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
+  for (const Method* method : among) {
+    AnyVolume candidate;
+    const EstimationResult fitted = fit_method(*method, points, options, candidate, shared);
+    const bool better =
+        found == nullptr || (!failed(fitted) && (failed(result) || size(candidate) < size(volume)));
+    if (!better) continue;
+    volume = std::move(candidate);
+    result = fitted;
+    found = method;
+  }
+  winner = result.used > 0 && !failed(result) ? found : nullptr;
+  return result;
+}
+
+}  // namespace detail
 }  // namespace pcl_bv

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/points/chunks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kFactors[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
@@ -96,4 +96,4 @@ Moments MomentTree::total() const {
   return total;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

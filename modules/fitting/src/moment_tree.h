@@ -9,7 +9,7 @@
 #include "pcl_bv/kernels/moments.h"
 #include "small_vector.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Converts the moments to larger units. `exponent` must not be above the present exponent. Values that
 /// underflow are negligible compared with the sums in the new units.
@@ -57,4 +57,4 @@ class MomentTree {
 /// Returns the moments of the blocks of a chunk. Its first block gets the number `first_block`.
 MomentTree moments_of(UsableIsa isa, const PointView& chunk, std::size_t first_block);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Two orthogonal unit vectors perpendicular to the unit vector `axis`. (u, v, axis) is right-handed.
 struct PlaneBasis {
@@ -24,4 +24,4 @@ struct PlaneBasis {
   Eigen::Vector3d u, v;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

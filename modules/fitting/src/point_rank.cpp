@@ -17,7 +17,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "schedule.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns a limit for V, six times the volume of a tetrahedron. If V is above the limit, the tetrahedron
@@ -106,7 +106,7 @@ void update_outermost(const Outermost& other, Outermost& best) {
 }
 
 template <typename Measure>
-Outermost farthest(const PointView& points, const Execution& execution, const Measure& squared_distance) {
+Outermost farthest(const PointView& points, const FitExecution& execution, const Measure& squared_distance) {
   Outermost best;
   map_chunks<Outermost>(
       points, worthwhile(execution, Work::rank, points.count),
@@ -131,7 +131,7 @@ void complete_axes(Span& span) {
 
 }  // namespace
 
-Span span_of(const PointView& points, double scale, const Execution& execution) {
+Span span_of(const PointView& points, double scale, const FitExecution& execution) {
   Span span;
   // All distances are 0 here, so that the tie rule selects the first point in lexicographic order.
   const Coordinates start = farthest(points, execution, [](const Coordinates&) { return 0.0; }).point;
@@ -160,7 +160,7 @@ Span span_of(const PointView& points, double scale, const Execution& execution) 
   return span;
 }
 
-int point_rank(const PointView& points, const Supports& supports, const Execution& execution) {
+int point_rank(const PointView& points, const Supports& supports, const FitExecution& execution) {
   int sides = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     sides += supports.used > 0 && supports.along[axis].low < supports.along[axis].high ? 1 : 0;
@@ -171,4 +171,4 @@ int point_rank(const PointView& points, const Supports& supports, const Executio
   return span_of(points, unit_scale(extent), execution).rank;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

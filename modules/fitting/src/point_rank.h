@@ -6,11 +6,11 @@
 
 #include <Eigen/Core>
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Limit of the thickness below which points are flat. The unit is the extent rounded down to a power of two.
 /// In this unit the rounding of doubles moves points by about 2^-52, which is 2^-16 of the limit.
@@ -33,12 +33,12 @@ struct Span {
 /// Computes the span of a cloud with at least one valid point. `scale` is LocalFrame::scale() of the cloud.
 /// The result is the same for every execution and every order of the points. O(n), in one pass for p0 and one
 /// pass for each distance. Needs a FloatEnvironment.
-Span span_of(const PointView& points, double scale, const Execution& execution);
+Span span_of(const PointView& points, double scale, const FitExecution& execution);
 
 /// Returns the rank that span_of() defines, or 0 without a valid point. `supports` must be of the same
 /// points. If four points clearly span a solid, the rank is 3. For nearly all clouds, the first four points
 /// inspected do. O(n) if a cloud is flat to 2^-30 of its extent, unless its plane is perpendicular to a
 /// coordinate axis. Needs a FloatEnvironment.
-int point_rank(const PointView& points, const Supports& supports, const Execution& execution);
+int point_rank(const PointView& points, const Supports& supports, const FitExecution& execution);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

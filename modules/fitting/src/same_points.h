@@ -11,7 +11,7 @@
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Throws std::invalid_argument unless `same`.
 inline void require_same_points(bool same) {
@@ -41,4 +41,4 @@ void for_each_valid(const PointView& points, const Supports& all, const Visit& v
   require_same_points(valid == all.used);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 

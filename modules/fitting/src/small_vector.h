@@ -7,9 +7,9 @@
 
 #include <boost/container/small_vector.hpp>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename T, std::size_t N>
 using SmallVector = boost::container::small_vector<T, N>;
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -5,7 +5,7 @@
 
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 std::vector<Direction> spread_directions() {
   std::vector<Direction> directions;
@@ -40,4 +40,4 @@ std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vecto
   return found;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

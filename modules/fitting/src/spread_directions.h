@@ -9,7 +9,7 @@
 
 #include "pcl_bv/numeric/exact_dot.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the 49 directions with components 0, +-1 and +-2 of which none is a multiple of another. They are
 /// the 13 directions of the cube and the types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008. Every direction
@@ -21,4 +21,4 @@ std::vector<Direction> spread_directions();
 std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vector3d>& directions,
                                                   const std::vector<Eigen::Vector3d>& points);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/fitting/summary.h"
+#include "summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +9,16 @@
 #include "local_frame.h"
 #include "map_chunks.h"
 #include "moment_tree.h"
+#include "pcl_bv/fitting/summary.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/points/point_source.h"
 #include "point_rank.h"
 #include "schedule.h"
-#include "summarize_bounds.h"
 #include "support/support_search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Results of one chunk. `Found` is the result of a search for supports, only a box, or nothing.
@@ -28,7 +28,7 @@ struct Part {
   MomentTree moments;
 };
 
-void finish(Moments moments, CloudSummary& summary) {
+void finish(Moments moments, Summary& summary) {
   if (moments.count == 0) return;
   const double extent = widest_side(summary.supports);
   if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
@@ -55,7 +55,7 @@ void finish(Moments moments, CloudSummary& summary) {
 // Calls merge(found) in the order of the chunks. `count` is the amount of work, as for worthwhile(). Returns
 // the moments of all points.
 template <typename Found, typename Search, typename Merge>
-Moments pass(const PointView& points, const Execution& execution, std::size_t count, const Search& search,
+Moments pass(const PointView& points, const FitExecution& execution, std::size_t count, const Search& search,
              const Merge& merge) {
   MomentTree moments;
   std::size_t blocks = 0;
@@ -73,8 +73,8 @@ Moments pass(const PointView& points, const Execution& execution, std::size_t co
 }
 
 // Returns the summary of points whose supports and moments are known already.
-CloudSummary known_summary(const Supports& supports) {
-  CloudSummary summary;
+Summary known_summary(const Supports& supports) {
+  Summary summary;
   summary.supports = supports;
   finish(*supports.moments, summary);
   return summary;
@@ -82,11 +82,10 @@ CloudSummary known_summary(const Supports& supports) {
 
 }  // namespace
 
-CloudSummary summarize(const PointView& points, const Execution& execution) {
-  const FloatEnvironment environment;
+Summary summarize(const PointView& points, const FitExecution& execution) {
   require_matching_supports(points, execution);
   if (represents_cloud(execution)) return known_summary(*execution.supports);
-  CloudSummary summary;
+  Summary summary;
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
@@ -101,10 +100,10 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
   return summary;
 }
 
-CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
+Summary summarize_bounds(const PointView& points, const FitExecution& execution) {
   require_matching_supports(points, execution);
   if (represents_cloud(execution)) return known_summary(*execution.supports);
-  CloudSummary summary;
+  Summary summary;
   if (execution.supports != nullptr) {
     struct Nothing {};
     summary.supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
@@ -124,6 +123,23 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
   finish_bounds(summary.supports);
   summary.supports.rank = point_rank(points, summary.supports, execution);
   finish(moments, summary);
+  return summary;
+}
+
+}  // namespace pcl_bv::detail
+
+namespace pcl_bv {
+
+CloudSummary summarize(const PointView& points, const Execution& execution) {
+  const FloatEnvironment environment;
+  const detail::Summary found = detail::summarize(points, execution);
+  CloudSummary summary;
+  static_cast<EstimationResult&>(summary) = found.result();
+  summary.aabb = aabb_of(found.supports);
+  summary.dop26 = kdop_of(found.supports);
+  summary.centroid = found.centroid;
+  summary.covariance = found.covariance;
+  summary.covariance_scale = found.covariance_scale;
   return summary;
 }
 

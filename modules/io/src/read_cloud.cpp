@@ -100,12 +100,12 @@ bool is_cloud_name(const std::filesystem::path& path) {
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-RawCloud read_pcd(const std::filesystem::path& path, const ParallelPolicy& policy) {
-  return read_file(path, read_pcd_header, policy);
+RawCloud read_pcd(const std::filesystem::path& path, const Execution& execution) {
+  return read_file(path, read_pcd_header, execution.parallel);
 }
 
-RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy) {
-  return read_file(path, read_ply_header, policy);
+RawCloud read_ply(const std::filesystem::path& path, const Execution& execution) {
+  return read_file(path, read_ply_header, execution.parallel);
 }
 
 RawCloud read_bin(const std::filesystem::path& path, std::size_t fields) {
@@ -117,16 +117,17 @@ RawCloud read_las(const std::filesystem::path& path) {
   return read_file(path, read_las_header, Serial{});
 }
 
-RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy, std::size_t bin_fields) {
+RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options,
+                    const Execution& execution) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".ply") return read_ply(path, policy);
-  if (extension == ".bin") return read_bin(path, bin_fields);
+  if (extension == ".ply") return read_ply(path, execution);
+  if (extension == ".bin") return read_bin(path, options.bin_fields);
   if (extension == ".las" || extension == ".laz") return read_las(path);
   refuse_other_formats(path);
-  return read_pcd(path, policy);
+  return read_pcd(path, execution);
 }
 
-CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields) {
+CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptions& options) {
   const InputFile file(path);
   const std::string extension = lower_case_extension(path);
   CloudHeader header;
@@ -136,7 +137,8 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin
     header.cloud = read_las_header(file).cloud;
   } else {
     refuse_other_formats(path);
-    PcdHeader pcd = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
+    PcdHeader pcd =
+        extension == ".bin" ? read_bin_header(file, path, options.bin_fields) : read_pcd_header(file);
     header.random_access = pcd.encoding == PcdEncoding::binary;
     if (header.random_access) require_records(file, pcd);
     header.cloud = std::move(pcd.cloud);

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "short_decimal.h"
 
 namespace pcl_bv {

@@ -12,8 +12,8 @@
 #include "any_link.h"
 #include "block_index.h"
 #include "cell_grid.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
-#include "pcl_bv/parallel/policy.h"
 #include "radix_sort.h"
 
 namespace pcl_bv {

@@ -13,10 +13,10 @@
 namespace pcl_bv {
 namespace {
 
-void check(const std::vector<ClassSettings>& class_settings) {
-  for (auto one = class_settings.begin(); one != class_settings.end(); ++one) {
-    const auto same = [&](const ClassSettings& other) { return other.value == one->value; };
-    if (std::any_of(class_settings.begin(), one, same))
+void check(const std::vector<ClassOptions>& class_options) {
+  for (auto one = class_options.begin(); one != class_options.end(); ++one) {
+    const auto same = [&](const ClassOptions& other) { return other.value == one->value; };
+    if (std::any_of(class_options.begin(), one, same))
       throw std::invalid_argument("class " + std::to_string(one->value) + " has two entries in the settings");
   }
 }
@@ -63,25 +63,25 @@ void ClassClusterer::sort_points(const PointView& points, const std::vector<std:
 }
 
 void ClassClusterer::extract(const PointView& points, const std::vector<std::int64_t>& classes,
-                             const ClusterSettings& defaults,
-                             const std::vector<ClassSettings>& class_settings, Clusters& clusters,
-                             std::vector<std::int64_t>& class_of, const ParallelPolicy& policy) {
-  check(class_settings);
+                             const ClusterOptions& defaults, const std::vector<ClassOptions>& class_options,
+                             Clusters& clusters, std::vector<std::int64_t>& class_of,
+                             const Execution& execution) {
+  check(class_options);
   sort_points(points, classes);
-  clusterer_.extract(points.slice(0, 0), defaults, all_, policy);  // checks the settings and empties all_
+  clusterer_.extract(points.slice(0, 0), defaults, all_, execution);  // checks the options and empties all_
   found_class_.clear();
   for (const Group& group : groups_) {
-    const auto settings = std::find_if(class_settings.begin(), class_settings.end(),
-                                       [&](const ClassSettings& one) { return one.value == group.value; });
+    const auto options = std::find_if(class_options.begin(), class_options.end(),
+                                      [&](const ClassOptions& one) { return one.value == group.value; });
     PointView part = points;
     part.indices = numbers_.data() + (group.end - group.count);
     part.count = group.count;
-    if (settings != class_settings.end() && settings->drop) {
+    if (options != class_options.end() && options->drop) {
       all_.class_points += count_valid(part);
       continue;
     }
-    clusterer_.extract(part, settings == class_settings.end() ? defaults : settings->clusters, found_,
-                       policy);
+    clusterer_.extract(part, options == class_options.end() ? defaults : options->clusters, found_,
+                       execution);
     for (std::size_t i = 0; i < found_.size(); ++i)
       append(found_, i, all_);
     found_class_.insert(found_class_.end(), found_.size(), group.value);

@@ -163,7 +163,8 @@ double spacing(const PointView& points, std::vector<Sample> samples, const Aabb&
 
 }  // namespace
 
-CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& policy) {
+CloudStatistics cloud_statistics(const PointView& points, const Execution& execution) {
+  const ParallelPolicy& policy = execution.parallel;
   CloudStatistics found;
   std::vector<ChunkCounts> chunks(chunk_count(points.count));
   for_each_chunk(policy, chunks.size(),

@@ -14,7 +14,7 @@ constexpr std::uint32_t dropped = unseen - 1;  // component of a size that is no
 
 // Computes the sizes of the components, and lists the components of allowed sizes in the order of the result.
 void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
-            std::uint32_t noise, const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
+            std::uint32_t noise, const ClusterOptions& options, Collector& collector, Clusters& clusters) {
   collector.size.assign(roots.size(), 0);
   for (const std::uint32_t n : node)
     ++collector.size[roots[n]];
@@ -27,9 +27,9 @@ void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint
     const std::uint32_t size = collector.size[root];
     if (root == noise) {
       clusters.noise_points += size;
-    } else if (size < settings.min_size) {
+    } else if (size < options.min_size) {
       clusters.small_points += size;
-    } else if (size > settings.max_size) {
+    } else if (size > options.max_size) {
       clusters.large_points += size;
     } else {
       collector.selected.push_back({root, size, i});
@@ -59,14 +59,14 @@ void write(const std::vector<std::uint32_t>& roots, const std::vector<std::uint3
 
 void write_clusters(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
                     std::uint32_t noise, const std::vector<std::int32_t>& numbers,
-                    const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
-  select(roots, node, noise, settings, collector, clusters);
+                    const ClusterOptions& options, Collector& collector, Clusters& clusters) {
+  select(roots, node, noise, options, collector, clusters);
   write(roots, node, numbers, collector, clusters);
 }
 
 void append(const Clusters& from, std::size_t cluster, Clusters& to) {
-  const std::int32_t* const points = from.cluster(cluster);
-  to.indices.insert(to.indices.end(), points, points + from.cluster_size(cluster));
+  const std::int32_t* const points = from.list(cluster);
+  to.indices.insert(to.indices.end(), points, points + from.list_size(cluster));
   to.offsets.push_back(to.indices.size());
 }
 
@@ -74,14 +74,14 @@ void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::s
   order.resize(from.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return from.cluster_size(a) != from.cluster_size(b) ? from.cluster_size(a) > from.cluster_size(b)
-                                                        : *from.cluster(a) < *from.cluster(b);
+    return from.list_size(a) != from.list_size(b) ? from.list_size(a) > from.list_size(b)
+                                                  : *from.list(a) < *from.list(b);
   });
   to.indices.clear();
   to.offsets.assign(1, 0);
   for (const std::size_t i : order) {
-    if (from.cluster_size(i) > max_size) {
-      to.large_points += from.cluster_size(i);
+    if (from.list_size(i) > max_size) {
+      to.large_points += from.list_size(i);
     } else {
       append(from, i, to);
     }

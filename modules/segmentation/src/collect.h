@@ -33,7 +33,7 @@ struct Collector {
 /// roots[node[i]].
 void write_clusters(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
                     std::uint32_t noise, const std::vector<std::int32_t>& numbers,
-                    const ClusterSettings& settings, Collector& collector, Clusters& clusters);
+                    const ClusterOptions& options, Collector& collector, Clusters& clusters);
 
 /// Appends cluster number `cluster` of `from` to `to`.
 void append(const Clusters& from, std::size_t cluster, Clusters& to);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cells.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 
@@ -21,8 +21,8 @@ struct CoreScratch {
   std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of its cells with other points.
   std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
   std::vector<std::uint32_t> label;   ///< For each border point, its core point. Later its node.
-  /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last group
-  /// with fewer points has no box.
+  /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last
+  /// group with fewer points has no box.
   std::vector<Box<T>> groups;
 };
 

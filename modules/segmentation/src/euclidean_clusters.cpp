@@ -34,20 +34,20 @@ struct PointScratch {
   RangeLevels<T> levels;
 };
 
-void check(const ClusterSettings& settings) {
+void check(const ClusterOptions& options) {
   std::ostringstream message;
-  if (!(settings.tolerance > 0 && std::isfinite(settings.tolerance))) {
-    message << "cluster tolerance is " << settings.tolerance << ", must be finite and greater than 0";
-  } else if (settings.min_size > settings.max_size) {
-    message << "cluster min_size is " << settings.min_size << ", must be at most max_size, "
-            << settings.max_size;
-  } else if (settings.min_points == 0) {
+  if (!(options.tolerance > 0 && std::isfinite(options.tolerance))) {
+    message << "cluster tolerance is " << options.tolerance << ", must be finite and greater than 0";
+  } else if (options.min_size > options.max_size) {
+    message << "cluster min_size is " << options.min_size << ", must be at most max_size, "
+            << options.max_size;
+  } else if (options.min_points == 0) {
     message << "cluster min_points is 0, must be at least 1";
-  } else if (!(settings.tolerance_per_metre >= 0 && std::isfinite(settings.tolerance_per_metre))) {
-    message << "cluster tolerance_per_metre is " << settings.tolerance_per_metre
+  } else if (!(options.tolerance_per_metre >= 0 && std::isfinite(options.tolerance_per_metre))) {
+    message << "cluster tolerance_per_metre is " << options.tolerance_per_metre
             << ", must be finite and at least 0";
-  } else if (settings.tolerance_per_metre > 0 && settings.min_points > 1) {
-    message << "cluster min_points is " << settings.min_points
+  } else if (options.tolerance_per_metre > 0 && options.min_points > 1) {
+    message << "cluster min_points is " << options.min_points
             << ", must be 1 if tolerance_per_metre is above 0";
   } else {
     return;
@@ -120,12 +120,12 @@ struct EuclideanClusterer::Scratch {
   }
 
   template <typename T>
-  void link_by_range(const ClusterSettings& settings, const ParallelPolicy& policy) {
+  void link_by_range(const ClusterOptions& options, const ParallelPolicy& policy) {
     auto& scratch = std::get<PointScratch<T>>(points);
     RangeLevels<T>& levels = scratch.levels;
     levels.start(scratch.valid.points);
     for (std::size_t i = 0;; ++i) {
-      const RangeLevel level = range_level(settings.tolerance, settings.tolerance_per_metre, i);
+      const RangeLevel level = range_level(options.tolerance, options.tolerance_per_metre, i);
       if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.advance_to(level)) break;
       link(levels.points(), box_of(levels.points().data(), levels.points().size()),
            double{static_cast<float>(level.tolerance)}, 1, policy);
@@ -134,32 +134,32 @@ struct EuclideanClusterer::Scratch {
   }
 
   template <typename T>
-  void extract(const PointView& view, const ClusterSettings& settings, const ParallelPolicy& policy,
+  void extract(const PointView& view, const ClusterOptions& options, const ParallelPolicy& policy,
                Clusters& clusters) {
     auto& scratch = std::get<PointScratch<T>>(points);
     copy_valid_points(view, policy, scratch.valid);
     const std::size_t count = scratch.valid.points.size();
     if (count == 0) return;
-    if (settings.tolerance_per_metre > 0) {
-      link_by_range<T>(settings, policy);
+    if (options.tolerance_per_metre > 0) {
+      link_by_range<T>(options, policy);
       same.resize(count);
       std::iota(same.begin(), same.end(), 0U);
-      write_clusters(scratch.levels.roots(), same, no_root, scratch.valid.numbers, settings, collector,
+      write_clusters(scratch.levels.roots(), same, no_root, scratch.valid.numbers, options, collector,
                      clusters);
       return;
     }
     const std::uint32_t noise =
-        link(scratch.valid.points, scratch.valid.box, settings.tolerance, settings.min_points, policy);
-    write_clusters(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector,
+        link(scratch.valid.points, scratch.valid.box, options.tolerance, options.min_points, policy);
+    write_clusters(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, options, collector,
                    clusters);
   }
 
   /// Appends the clusters to `clusters`. Omits clusters above max_size only for Oversized::drop.
-  void append(const PointView& view, ClusterSettings settings, const ParallelPolicy& policy,
+  void append(const PointView& view, ClusterOptions options, const ParallelPolicy& policy,
               Clusters& clusters) {
-    if (settings.oversized != Oversized::drop) settings.max_size = std::numeric_limits<std::size_t>::max();
-    view.scalar == ScalarType::float32 ? extract<float>(view, settings, policy, clusters)
-                                       : extract<double>(view, settings, policy, clusters);
+    if (options.oversized != Oversized::drop) options.max_size = std::numeric_limits<std::size_t>::max();
+    view.scalar == ScalarType::float32 ? extract<float>(view, options, policy, clusters)
+                                       : extract<double>(view, options, policy, clusters);
   }
 };
 
@@ -168,22 +168,28 @@ EuclideanClusterer::~EuclideanClusterer() = default;
 EuclideanClusterer::EuclideanClusterer(EuclideanClusterer&&) noexcept = default;
 EuclideanClusterer& EuclideanClusterer::operator=(EuclideanClusterer&&) noexcept = default;
 
-void EuclideanClusterer::extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
-                                 const ParallelPolicy& policy) {
+void EuclideanClusterer::extract(const PointView& points, const ClusterOptions& options, Clusters& clusters,
+                                 const Execution& execution) {
   const FloatEnvironment environment;
-  check(settings);
+  check(options);
   clusters.indices.clear();
   clusters.offsets.assign(1, 0);
   clusters.small_points = 0;
   clusters.large_points = 0;
   clusters.noise_points = clusters.class_points = 0;
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  scratch_->append(points, settings, policy, clusters);
-  if (settings.oversized != Oversized::split) return;
-  const auto again = [&](const PointView& part, const ClusterSettings& finer, Clusters& to) {
-    scratch_->append(part, finer, policy, to);
+  scratch_->append(points, options, execution.parallel, clusters);
+  if (options.oversized != Oversized::split) return;
+  const auto again = [&](const PointView& part, const ClusterOptions& finer, Clusters& to) {
+    scratch_->append(part, finer, execution.parallel, to);
   };
-  split_oversized(points, settings, std::cref(again), clusters, scratch_->split);
+  split_oversized(points, options, std::cref(again), clusters, scratch_->split);
+}
+
+Clusters cluster(const PointView& points, const ClusterOptions& options, const Execution& execution) {
+  Clusters clusters;
+  EuclideanClusterer().extract(points, options, clusters, execution);
+  return clusters;
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks of ground settings and point indices.
+// Checks of ground options and point indices.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline void require(bool in_range, const char* who, const char* name, double val
                               range);
 }
 
-/// Checks the settings that split_ground() and GroundZones share.
+/// Checks the options that split_ground() and GroundZones share.
 inline void check_ground(const char* who, double distance, double max_slope_degrees,
                          std::optional<double> sensor_height) {
   constexpr double largest = std::numeric_limits<double>::max();

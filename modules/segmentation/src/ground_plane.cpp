@@ -10,29 +10,35 @@
 namespace pcl_bv {
 namespace {
 
-void check(const GroundPlaneSettings& settings) {
+void check(const GroundPlaneOptions& options) {
   constexpr const char* who = "ground plane";
-  check_ground(who, settings.distance, settings.max_slope_degrees, settings.sensor_height);
-  require(settings.iterations >= 1 && settings.iterations <= 1'000'000, who, "iterations",
-          settings.iterations, "1 to 1000000");
+  check_ground(who, options.distance, options.max_slope_degrees, options.sensor_height);
+  require(options.iterations >= 1 && options.iterations <= 1'000'000, who, "iterations", options.iterations,
+          "1 to 1000000");
 }
 
 }  // namespace
 
-void split_ground(const PointView& points, const GroundPlaneSettings& settings, GroundSplit& split) {
+void split_ground(const PointView& points, const GroundPlaneOptions& options, GroundSplit& split) {
   const FloatEnvironment environment;
-  check(settings);
+  check(options);
   check_indices(points);
   const std::optional<Plane> plane =
-      find_ground_plane(points, Eigen::Vector3d::Zero(), settings, split.scratch);
+      find_ground_plane(points, Eigen::Vector3d::Zero(), options, split.scratch);
   write_split(plane, points.count, split, [&](const auto& put) {
     for (std::size_t i = 0; i < points.count; ++i) {
       const Coordinates p = load_point(points, i);
       if (!is_valid(p)) continue;
       put(static_cast<std::int32_t>(points.index(i)),
-          plane && height_above(*plane, {p.x, p.y, p.z}) <= settings.distance);
+          plane && height_above(*plane, {p.x, p.y, p.z}) <= options.distance);
     }
   });
+}
+
+GroundSplit split_ground(const PointView& points, const GroundPlaneOptions& options) {
+  GroundSplit split;
+  split_ground(points, options, split);
+  return split;
 }
 
 }  // namespace pcl_bv

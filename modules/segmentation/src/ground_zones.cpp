@@ -29,10 +29,10 @@ constexpr std::size_t plane_sample =
 // in a hundred points of a street, would be ground.
 constexpr double foot_share = 0.2;
 
-void check(const GroundZonesSettings& settings) {
+void check(const GroundZonesOptions& options) {
   constexpr const char* who = "ground zones";
-  check_ground(who, settings.distance, settings.max_slope_degrees, settings.sensor_height);
-  const Eigen::Vector3d sensor = settings.sensor.value_or(Eigen::Vector3d::Zero());
+  check_ground(who, options.distance, options.max_slope_degrees, options.sensor_height);
+  const Eigen::Vector3d sensor = options.sensor.value_or(Eigen::Vector3d::Zero());
   for (int axis = 0; axis < 3; ++axis)
     require(std::abs(sensor[axis]) <= kMaxCoordinate, who, "a coordinate of sensor", sensor[axis],
             "from -1e100 to 1e100");
@@ -44,14 +44,14 @@ struct GroundZones::Scratch : ZonePoints {
   std::vector<std::int32_t> near;
   GroundSurface surface;
 
-  std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
+  std::optional<Plane> central_plane(const PointView& view, const GroundZonesOptions& options,
                                      const Eigen::Vector3d& sensor, std::optional<double> sensor_height,
                                      GroundScratch& sample) {
-    GroundPlaneSettings search;
-    search.up = settings.up;
-    search.max_slope_degrees = settings.max_slope_degrees;
+    GroundPlaneOptions search;
+    search.up = options.up;
+    search.max_slope_degrees = options.max_slope_degrees;
     search.sensor_height = sensor_height;
-    search.seed = settings.seed;
+    search.seed = options.seed;
     search.iterations = plane_tries;
     PointView seen = view;
     if (view.order == PointOrder::records && !view.indices) seen.data = view.data - view.stride * view.first;
@@ -83,29 +83,36 @@ GroundZones::~GroundZones() = default;
 GroundZones::GroundZones(GroundZones&&) noexcept = default;
 GroundZones& GroundZones::operator=(GroundZones&&) noexcept = default;
 
-void GroundZones::split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split,
-                        const ParallelPolicy& policy) {
+void GroundZones::split(const PointView& points, const GroundZonesOptions& options, GroundSplit& split,
+                        const Execution& execution) {
   const FloatEnvironment environment;
-  check(settings);
+  check(options);
   check_indices(points);
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  split.sensor = settings.sensor ? SensorPosition{*settings.sensor}
-                                 : find_sensor(points, settings.up, Eigen::Vector3d::Zero(), split.scratch);
-  const bool estimated = !settings.sensor && !split.sensor.confirmed;
-  const std::optional<double> height = estimated ? std::nullopt : settings.sensor_height;
-  const ZoneFrame frame(settings.up, split.sensor.position);
-  scratch_->read(points, frame, policy);
+  split.sensor = options.sensor ? SensorPosition{*options.sensor}
+                                : find_sensor(points, options.up, Eigen::Vector3d::Zero(), split.scratch);
+  const bool estimated = !options.sensor && !split.sensor.confirmed;
+  const std::optional<double> height = estimated ? std::nullopt : options.sensor_height;
+  const ZoneFrame frame(options.up, split.sensor.position);
+  scratch_->read(points, frame, execution.parallel);
   std::optional<Plane> central =
-      scratch_->central_plane(points, settings, split.sensor.position, height, split.scratch);
+      scratch_->central_plane(points, options, split.sensor.position, height, split.scratch);
   split.assumed_level = !central && height;
   if (split.assumed_level) central = frame.level(*height);
   if (central) {
     const Slope plane = frame.slope(*central);
-    const double max_slope = std::tan(settings.max_slope_degrees * std::numbers::pi / 180);
-    scratch_->measure_from(plane, policy);
+    const double max_slope = std::tan(options.max_slope_degrees * std::numbers::pi / 180);
+    scratch_->measure_from(plane, execution.parallel);
     scratch_->surface.find(scratch_->cells(), plane, static_cast<float>(max_slope));
   }
-  scratch_->classify(central, settings.distance, split);
+  scratch_->classify(central, options.distance, split);
+}
+
+GroundSplit split_ground_by_zones(const PointView& points, const GroundZonesOptions& options,
+                                  const Execution& execution) {
+  GroundSplit split;
+  GroundZones().split(points, options, split, execution);
+  return split;
 }
 
 }  // namespace pcl_bv

@@ -8,7 +8,7 @@
 
 #include "any_link.h"
 #include "cells.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "union_find.h"
 
 namespace pcl_bv {

@@ -16,13 +16,13 @@ struct SplitScratch {
   std::vector<std::size_t> order;
 };
 
-/// Clusters the points of a view with the given settings and appends all clusters, whatever their size.
-using ClusterPoints = std::function<void(const PointView&, const ClusterSettings&, Clusters&)>;
+/// Clusters the points of a view with the given options and appends all clusters, whatever their size.
+using ClusterPoints = std::function<void(const PointView&, const ClusterOptions&, Clusters&)>;
 
 /// Replaces each cluster above max_size by the clusters of its points with half the tolerance, up to three
-/// times. Clusters that are then still too large are dropped. `clusters` must be found with `settings`, but
-/// without the max_size of `settings`.
-void split_oversized(const PointView& points, const ClusterSettings& settings, const ClusterPoints& cluster,
+/// times. Clusters that are then still too large are dropped. `clusters` must be found with `options`, but
+/// without the max_size of `options`.
+void split_oversized(const PointView& points, const ClusterOptions& options, const ClusterPoints& cluster,
                      Clusters& clusters, SplitScratch& scratch);
 
 }  // namespace pcl_bv

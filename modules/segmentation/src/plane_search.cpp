@@ -192,23 +192,23 @@ std::optional<Plane> refine(const Plane& plane, const Points& points, double dis
 // Returns the best plane through three of the lowest points. Even below tables, ground points are among the
 // lowest points.
 std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
-                            const GroundPlaneSettings& settings) {
+                            const GroundPlaneOptions& options) {
   const Points& lowest = points.lowest;
   if (lowest.size() < 3) return {};
-  std::mt19937 random(settings.seed);  // the standard fixes the numbers of mt19937
+  std::mt19937 random(options.seed);  // the standard fixes the numbers of mt19937
   const auto pick = [&]() -> const Vector3d& {
     return lowest[static_cast<std::size_t>(std::uint64_t{random()} * lowest.size() >> 32)];
   };
   std::optional<Plane> best;
   double best_cost =
       max_above * max_above * static_cast<double>(points.support.size());  // cost of a plane far below
-  for (unsigned i = 0; i < settings.iterations; ++i) {
+  for (unsigned i = 0; i < options.iterations; ++i) {
     const Vector3d& a = pick();
     const Vector3d& b = pick();
     const Vector3d& c = pick();
     const std::optional<Plane> plane = plane_through(a, b, c, limits);
     if (!plane) continue;
-    const double cost = cost_of(*plane, points.support, settings.distance, best_cost);
+    const double cost = cost_of(*plane, points.support, options.distance, best_cost);
     if (!(cost < best_cost)) continue;
     best = plane;
     best_cost = cost;
@@ -219,19 +219,19 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
 }  // namespace
 
 std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& sensor,
-                                       const GroundPlaneSettings& settings, GroundScratch& scratch,
+                                       const GroundPlaneOptions& options, GroundScratch& scratch,
                                        std::size_t sample_size) {
-  const UpFrame frame(settings.up);
-  const Vector3d origin = sample_ground(points, frame, settings.seed, sample_size, scratch);
-  const Limits limits{frame.up, std::cos(settings.max_slope_degrees * std::numbers::pi / 180),
-                      sensor - origin, settings.sensor_height};
-  std::optional<Plane> best = search(scratch, limits, settings);
+  const UpFrame frame(options.up);
+  const Vector3d origin = sample_ground(points, frame, options.seed, sample_size, scratch);
+  const Limits limits{frame.up, std::cos(options.max_slope_degrees * std::numbers::pi / 180), sensor - origin,
+                      options.sensor_height};
+  std::optional<Plane> best = search(scratch, limits, options);
   // The search weights points by area, so its plane fits a few distant points as well as many near points.
   // Least squares over the whole sample moves the plane to where most points are. The refinement fails if
   // three points were within the limits but the plane of the points near them is not, e.g. on a strip of a
   // wall.
   for (unsigned i = 0; best && i < refinements; ++i)
-    best = refine(*best, scratch.sample, settings.distance, limits);
+    best = refine(*best, scratch.sample, options.distance, limits);
   if (best) best->offset += dot3(best->normal, origin);
   return best;
 }

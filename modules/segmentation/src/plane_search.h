@@ -28,9 +28,9 @@ inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
 inline constexpr std::size_t default_sample_size = 8192;
 
 /// Finds the ground plane as split_ground() describes, in a sample of at most `sample_size` points.
-/// settings.sensor_height is the height of `sensor`.
+/// options.sensor_height is the height of `sensor`.
 std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vector3d& sensor,
-                                       const GroundPlaneSettings& settings, GroundScratch& scratch,
+                                       const GroundPlaneOptions& options, GroundScratch& scratch,
                                        std::size_t sample_size = default_sample_size);
 
 /// Stores `plane` in the split and fills the two lists of the split. visit(put) must call put(index,

@@ -18,7 +18,7 @@ namespace pcl_bv {
 struct RangeLevel {
   double tolerance, min_squared_range;
 };
-/// Returns the given level for ClusterSettings::tolerance and tolerance_per_metre.
+/// Returns the given level for ClusterOptions::tolerance and tolerance_per_metre.
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level);
 
 /// Unites the clusters of all levels. A point is at a level if its tolerance is at least that of the level.

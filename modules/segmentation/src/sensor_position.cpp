@@ -119,17 +119,17 @@ SensorPosition find_sensor(const PointView& points, const Vector3d& up, const Ve
   return result;
 }
 
-std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneSettings& settings,
+std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneOptions& options,
                                      const Vector3d& sensor, double found) {
   constexpr double min_height = 0.2, min_share = 0.03, max_share = 0.95, max_below_share = 0.1;
   const FloatEnvironment environment;
-  const Vector3d up = normalized_up(settings.up);
-  GroundPlaneSettings search = settings;
+  const Vector3d up = normalized_up(options.up);
+  GroundPlaneOptions search = options;
   search.sensor_height.reset();
   GroundScratch scratch;
   std::vector<Vector3d> directions{{0, 0, 1}, {0, -1, 0}, {0, 1, 0},  {0, 0, -1},
                                    {1, 0, 0}, {-1, 0, 0}, {0, -1, -1}};
-  if (found > 0) directions = {-settings.up};
+  if (found > 0) directions = {-options.up};
   for (const Vector3d& direction : directions) {
     search.up = direction;
     if (dot3(normalized_up(direction), up) > 0.9) continue;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "distance.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
-#include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
-#include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/points/point_view.h"
 #include "plane_search.h"
 #include "polar_cells.h"

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "pcl_bv/kernels/packed_tree.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "spatial_order.h"
 
 namespace pcl_bv {

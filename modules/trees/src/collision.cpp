@@ -11,7 +11,7 @@
 #include "inflated.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/volumes/pair_queries.h"
 #include "rotatable.h"
 #include "sphere_around.h"

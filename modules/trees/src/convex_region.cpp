@@ -10,7 +10,6 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "plane_body.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -70,18 +69,8 @@ class Planes {
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
-  // Returns the region. If the planes along the axes leave its box unbounded, all planes together may bound
-  // it.
-  template <typename Volume>
-  const ConvexRegion& region_within(const Volume& volume) {
-    const Coordinates &low = region_.low, &high = region_.high;
-    if (std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z}) < kInfinity) return region_;
-    if (const auto box = PlaneBody(volume).box()) {
-      region_.low = coordinates(box->min().cwiseMax(vector(low)));
-      region_.high = coordinates(box->max().cwiseMin(vector(high)));
-    }
-    return region_;
-  }
+  // Returns the region. Its box is unbounded along an axis without a plane, which fitted volumes have.
+  const ConvexRegion& region() const { return region_; }
 
  private:
   // Uses only normals exactly along the axis. A nearly aligned normal has another small component. That
@@ -109,14 +98,14 @@ ConvexRegion region_of(const Kdop& kdop) {
     planes.add(kdop.set()->direction(i), kdop.max(i));
     planes.add(-kdop.set()->direction(i), -kdop.min(i));
   }
-  return planes.region_within(kdop);
+  return planes.region();
 }
 
 ConvexRegion region_of(const Hull& hull) {
   Planes planes(hull.aabb());
   for (const HullPlane& plane : hull.planes())
     planes.add(plane.normal, plane.offset);
-  return planes.region_within(hull);
+  return planes.region();
 }
 
 ConvexRegion region_of(const Sphere& sphere) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxPoints = std::numeric_limits<std::int32_t>::max();
 
-void require_usable(const PointView& points, const Execution& execution) {
+void require_usable(const PointView& points) {
   if (points.source != nullptr) throw std::invalid_argument("PointTree: the points must be in memory");
   if (points.count > kMaxPoints || points.first > kMaxPoints - points.count) {
     std::ostringstream what;
@@ -27,8 +27,6 @@ void require_usable(const PointView& points, const Execution& execution) {
          << points.first + points.count - 1;
     throw std::invalid_argument(what.str());
   }
-  if (execution.supports != nullptr)
-    throw std::invalid_argument("PointTree: Execution::supports must be null");
 }
 
 }  // namespace
@@ -42,7 +40,7 @@ PointTree::Scratch& PointTree::scratch() {
 
 void PointTree::assign(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  require_usable(points, execution);
+  require_usable(points);
   try {
     build_tree(points, execution.parallel, scratch(), tree_);
   } catch (...) {
@@ -55,7 +53,7 @@ void PointTree::assign(const PointView& points, const Execution& execution) {
 
 void PointTree::refit(const PointView& cloud, const Execution& execution) {
   const FloatEnvironment environment;
-  require_usable(cloud, execution);
+  require_usable(cloud);
   if (cloud.indices != nullptr || cloud.scalar != tree_.scalar)
     throw std::invalid_argument(
         "PointTree: refit() takes a cloud without an index list and with the tree's scalar type");

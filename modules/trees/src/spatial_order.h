@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pcl_bv/numeric/coordinates.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 

@@ -4,8 +4,8 @@
 // Builds the PackedTree of a PointTree.
 #pragma once
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/packed_tree.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/points/point_view.h"
 #include "spatial_order.h"

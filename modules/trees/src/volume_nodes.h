@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "node_bounds.h"
+#include "box_bounds.h"
 #include "pcl_bv/trees/volume_tree.h"
 #include "volume_boxes.h"
 
@@ -16,28 +16,17 @@ namespace pcl_bv {
 
 struct VolumeTree::Nodes {
   std::vector<AnyVolume> volumes;
-  NodeBounds kind = NodeBounds::aabb;
   VolumeBoxes boxes;
-  NodeShapes shapes;
   std::vector<std::uint32_t> too_flat_for_rays;  // ellipsoids that every ray tests without a box
 
-  /// Builds the boxes and shapes. Sorts the volumes anew if `new_order` is true.
+  /// Builds the boxes. Sorts the volumes anew if `new_order` is true.
   void measure(bool new_order, const Execution& execution);
 
   /// Calls visit(index) for the volumes that may hold a point, and for the volumes without a box. Stops and
   /// returns true when visit() returns true.
   template <typename Visit>
   bool visit_candidates_at(const Coordinates& point, const Visit& visit) const {
-    const BoxQuery query = boxes.query(point, point);
-    if (shapes.none()) return boxes.visit(query, visit);
-    const FramePoint at(boxes, point);
-    for (const std::uint32_t index : boxes.without_box()) {
-      if (visit(index)) return true;
-    }
-    const auto pick = [&](std::size_t group) {
-      return shapes.may_contain(group, overlapping(boxes.levels().groups[group], query), at);
-    };
-    return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.volume_index(item)); });
+    return boxes.visit(boxes.query(point, point), visit);
   }
 
   /// Calls visit(index) for the volumes with a box whose bound(group, k) is at most limit(), in the order of

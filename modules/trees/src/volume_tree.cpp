@@ -21,14 +21,12 @@ bool is_too_flat_for_rays(const AnyVolume& volume) {
          !(ellipsoid->radii().maxCoeff() <= 0x1p20 * ellipsoid->radii().minCoeff());
 }
 
-void require_usable(const std::vector<AnyVolume>& volumes, const Execution& execution) {
+void require_usable(const std::vector<AnyVolume>& volumes) {
   if (volumes.size() > std::numeric_limits<std::int32_t>::max()) {
     std::ostringstream what;
     what << "VolumeTree: takes 0 to 2147483647 volumes, not " << volumes.size();
     throw std::invalid_argument(what.str());
   }
-  if (execution.supports != nullptr)
-    throw std::invalid_argument("VolumeTree: Execution::supports must be null");
 }
 
 }  // namespace
@@ -46,7 +44,6 @@ void VolumeTree::Nodes::measure(bool new_order, const Execution& execution) {
   } else {
     boxes.refit(extents);
   }
-  shapes.measure(kind, boxes, volumes, execution.parallel);
   too_flat_for_rays.clear();
   for (std::uint32_t i = 0; i < volumes.size(); ++i) {
     if (is_too_flat_for_rays(volumes[i])) too_flat_for_rays.push_back(i);
@@ -55,18 +52,17 @@ void VolumeTree::Nodes::measure(bool new_order, const Execution& execution) {
 
 VolumeTree::VolumeTree() : nodes_(std::make_shared<Nodes>()) {}
 
-VolumeTree::VolumeTree(std::vector<AnyVolume> volumes, NodeBounds bounds, const Execution& execution)
+VolumeTree::VolumeTree(std::vector<AnyVolume> volumes, const Execution& execution)
     : nodes_(std::make_shared<Nodes>()) {
   const FloatEnvironment environment;
-  require_usable(volumes, execution);
+  require_usable(volumes);
   nodes_->volumes = std::move(volumes);
-  nodes_->kind = bounds;
   nodes_->measure(true, execution);
 }
 
 void VolumeTree::refit(std::vector<AnyVolume> volumes, const Execution& execution) {
   const FloatEnvironment environment;
-  require_usable(volumes, execution);
+  require_usable(volumes);
   if (volumes.size() != size()) {
     std::ostringstream what;
     what << "VolumeTree: refit() takes " << size() << " volumes, as many as the tree has, not "
@@ -75,7 +71,6 @@ void VolumeTree::refit(std::vector<AnyVolume> volumes, const Execution& executio
   }
   auto nodes = std::make_shared<Nodes>();
   nodes->volumes = std::move(volumes);
-  nodes->kind = nodes_->kind;
   nodes->boxes = nodes_->boxes;
   nodes->measure(false, execution);
   nodes_ = std::move(nodes);
@@ -87,10 +82,6 @@ std::size_t VolumeTree::size() const {
 
 const std::vector<AnyVolume>& VolumeTree::volumes() const {
   return nodes_->volumes;
-}
-
-NodeBounds VolumeTree::node_bounds() const {
-  return nodes_->kind;
 }
 
 void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,

@@ -74,9 +74,7 @@ void visit_ray_candidates(const Nodes& nodes, const Eigen::Vector3d& origin, con
   for (const std::uint32_t index : nodes.too_flat_for_rays)
     visit(index);
   const auto bound = [&](std::size_t group, std::size_t k) {
-    const double enter = enter_box(ray, nodes.boxes.levels().groups[group], k);
-    if (nodes.shapes.none() || enter == kInfinity) return enter;
-    return std::max(enter, nodes.shapes.enter(group * kTreeWidth + k, ray));
+    return enter_box(ray, nodes.boxes.levels().groups[group], k);
   };
   nodes.nearest_first(
       bound, [&] { return ray.time(limit()); }, visit);
@@ -198,9 +196,7 @@ std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, 
     visit(index);
   const double scale = nodes_->boxes.levels().scale;
   const auto bound = [&](std::size_t group, std::size_t k) {
-    const double box = distance_to_box(query_point, nodes_->boxes.levels().groups[group], k);
-    if (nodes_->shapes.none()) return box;
-    return std::max(box, nodes_->shapes.distance(group * kTreeWidth + k, query_point));
+    return distance_to_box(query_point, nodes_->boxes.levels().groups[group], k);
   };
   const auto limit = [&] { return (nearest ? nearest->distance : max_distance) * scale; };
   nodes_->nearest_first(bound, limit, visit);

@@ -85,7 +85,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   } catch (const IoError& error) {
     throw IoError(options.source + ": " + error.what());
   }
-  for (const SinkDescription& sink : options.sinks) {
+  for (const SinkOptions& sink : options.sinks) {
     if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
     claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));

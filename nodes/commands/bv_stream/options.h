@@ -31,7 +31,7 @@ struct StreamOptions {
   std::string range_from;  ///< Where the range was set, see SettingOptions::config().
   ReplayOptions replay;
   Rate rate = Rate::fixed;
-  std::vector<SinkDescription> sinks;
+  std::vector<SinkOptions> sinks;
   std::optional<std::filesystem::path> stats;
   double report_seconds = 0;  ///< Seconds between reports. 0: no reports.
 };

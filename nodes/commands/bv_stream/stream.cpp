@@ -209,7 +209,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
       "--source", options.source, [&](const auto& name) { return open_source(name, options.replay); });
   FramePipeline pipeline(options.config.pipeline);  // reads region files before outputs are opened
   SinkGroup sinks(report_problem);
-  for (const SinkDescription& sink : options.sinks)
+  for (const SinkOptions& sink : options.sinks)
     parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });
   sinks.offer_settings(remote_settings(pipeline));
   Progress progress;

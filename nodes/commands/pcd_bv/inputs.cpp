@@ -113,10 +113,10 @@ Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<
       job.partials.push_back(input.input);
   } else {
     std::vector<TileHeader> headers(inputs.size());
-    for_each_chunk(options.pipeline.parallel_policy(), inputs.size(),
+    for_each_chunk(options.pipeline.execution().parallel, inputs.size(),
                    [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
     job.tiles = std::make_shared<Tiles>(std::move(inputs), std::move(headers),
-                                        thread_count(options.pipeline.parallel_policy()));
+                                        thread_count(options.pipeline.execution().parallel));
   }
   return job;
 }
@@ -189,14 +189,14 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   return jobs;
 }
 
-RawCloud load_cloud(const Job& job, const ParallelPolicy& policy) {
+RawCloud load_cloud(const Job& job, const Execution& execution) {
   if (job.error) throw IoError(*job.error);
   if (is_synth(job.input)) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
   if (job.recording) return load_recorded(job);
-  return read_cloud(job.input, policy, job.bin_fields);
+  return read_cloud(job.input, {job.bin_fields}, execution);
 }
 
 }  // namespace pcl_bv

@@ -12,7 +12,7 @@
 
 #include "options.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "stream/sources/recorded_clouds.h"
 
 namespace pcl_bv {
@@ -51,6 +51,6 @@ inline std::vector<Job> plan_jobs(const Options& options) {
 }
 
 /// Loads the cloud of a job. Throws IoError if that fails, and std::invalid_argument for an unknown scene.
-RawCloud load_cloud(const Job& job, const ParallelPolicy& policy);
+RawCloud load_cloud(const Job& job, const Execution& execution);
 
 }  // namespace pcl_bv

@@ -26,7 +26,7 @@ RawCloud header_of(const PointView& points) {
 
 }  // namespace
 
-LoadedCloud::LoadedCloud(const Job& job, bool in_memory, const ParallelPolicy& policy,
+LoadedCloud::LoadedCloud(const Job& job, bool in_memory, const Execution& execution,
                          const OriginOption& origin) {
   if (job.tiles) {
     tiles_ = job.tiles;
@@ -37,11 +37,11 @@ LoadedCloud::LoadedCloud(const Job& job, bool in_memory, const ParallelPolicy& p
   } else {
     if (!in_memory && !job.error && !job.recording && !is_synth(job.input))
       file_ = CloudFile::open(job.input, job.bin_fields);
-    if (!file_) cloud_ = load_cloud(job, policy);
+    if (!file_) cloud_ = load_cloud(job, execution);
     xyz_ = file_ ? file_->xyz() : cloud_.xyz();
   }
   if (!origin.requested) return;
-  origin_ = origin.at ? *origin.at : rounded_centre(xyz_, policy);
+  origin_ = origin.at ? *origin.at : rounded_centre(xyz_, execution);
   shifted_ = std::make_unique<ShiftedPoints>(xyz_, *origin_);
   points_before_shift_ = std::move(points_);
   xyz_ = view_of(*shifted_, xyz_.count, ScalarType::float64);

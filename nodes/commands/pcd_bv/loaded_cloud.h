@@ -13,10 +13,10 @@ namespace pcl_bv {
 
 class LoadedCloud {
  public:
-  /// With `in_memory`, the threads of the policy read the cloud into memory. A tiled cloud is read into
+  /// With `in_memory`, the threads of the execution read the cloud into memory. A tiled cloud is read into
   /// memory only if it has at most kChunkPoints points. The origin, if requested, is subtracted from the
   /// points of xyz(). Throws as load_cloud(), and TileError for a tiled cloud.
-  LoadedCloud(const Job& job, bool in_memory, const ParallelPolicy& policy, const OriginOption& origin);
+  LoadedCloud(const Job& job, bool in_memory, const Execution& execution, const OriginOption& origin);
 
   /// Returns the cloud with fields, size and viewpoint. It has points only if the cloud is in memory.
   const RawCloud& cloud() const { return file_ ? file_->header() : cloud_; }

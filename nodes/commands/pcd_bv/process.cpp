@@ -126,9 +126,9 @@ std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& 
 Status process(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   Report& report = outcome.report;
   Stopwatch watch;
-  const ParallelPolicy policy = options.pipeline.parallel_policy();
+  const Execution execution = options.pipeline.execution();
   const bool segmented = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
-  LoadedCloud loaded(job, segmented || job.labels, policy, options.origin);
+  LoadedCloud loaded(job, segmented || job.labels, execution, options.origin);
   const double read = watch.lap();
   const std::string note = job.recording ? job.recording->new_note(job.number) : loaded.cloud().note;
   if (!note.empty()) report_problem(job.input + ": " + note);
@@ -155,7 +155,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
     report_problem(job.input + ": " + warning);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
-    report.info = CloudInfo{cloud_statistics(loaded.xyz(), policy), cloud.width, cloud.height, cloud.fields};
+    report.info =
+        CloudInfo{cloud_statistics(loaded.xyz(), execution), cloud.width, cloud.height, cloud.fields};
   }
   const StageTimes& ms = result.ms;
   if (options.timings) report.seconds = {read, (ms.filter + ms.ground + ms.cluster) / 1e3, ms.fit / 1e3};
@@ -205,10 +206,8 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
   const std::vector<const Method*> methods = options.pipeline.methods();
   report = report_of(*all, methods);
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    AnyVolume volume;
-    const EstimationResult result =
-        all->partial.fit(*methods[i], volume, execution_of(options), method_options(options));
-    set_volume(i, result, std::move(volume), report);
+    Fitted<AnyVolume> fitted = all->partial.fit(*methods[i], method_options(options), execution_of(options));
+    set_volume(i, fitted, std::move(fitted.volume), report);
   }
   if (options.timings) report.seconds = {read, 0, watch.lap()};
   return worse(report_failures(report), write_mesh(job, report.clusters));

@@ -40,7 +40,7 @@ void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& 
 }  // namespace
 
 Status process_all(const std::vector<Job>& jobs, const Options& options) {
-  const ParallelPolicy policy = options.pipeline.parallel_policy();
+  const ParallelPolicy policy = options.pipeline.execution().parallel;
   const unsigned threads = thread_count(policy);
   const unsigned workers = jobs.size() >= threads ? threads : 1;
   Options each = options;

@@ -44,7 +44,7 @@ std::string name_without_folders(const Job& job) {
 }  // namespace
 
 Execution execution_of(const Options& options) {
-  return {options.pipeline.parallel_policy(), parse_isa(options.pipeline.isa)};
+  return options.pipeline.execution();
 }
 
 SharePoints::SharePoints(const Tiles& tiles, const PointRange& range,

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "options.h"
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/report/partial_file.h"
 #include "pcl_bv/report/report.h"
 #include "pipeline/filtered_view.h"

@@ -23,9 +23,8 @@ PointView ShiftedPoints::load(std::size_t first, std::size_t count, std::vector<
   return packed_points(buffer.data(), ScalarType::float64, count, first);
 }
 
-Eigen::Vector3d rounded_centre(const PointView& points, const ParallelPolicy& policy) {
-  Aabb box;
-  fit_aabb(points, box, {policy});
+Eigen::Vector3d rounded_centre(const PointView& points, const Execution& execution) {
+  const Aabb box = *fit_aabb(points, execution);
   return box.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box.center().array().round());
 }
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
@@ -27,7 +27,7 @@ class ShiftedPoints final : public PointSource {
 
 /// Returns the centre of the points' axis-aligned box, rounded to whole numbers. Without a valid point,
 /// returns 0.
-Eigen::Vector3d rounded_centre(const PointView& points, const ParallelPolicy& policy);
+Eigen::Vector3d rounded_centre(const PointView& points, const Execution& execution);
 
 /// Returns a copy of all points of a view without gaps, in the scalar type of the view.
 std::vector<std::byte> packed_copy(const PointView& points);

@@ -54,11 +54,11 @@ TileHeader describe_tile(const Job& job) {
   TileHeader header;
   try {
     if (is_file(job) && !job.error) {
-      const CloudHeader found = read_cloud_header(job.input, job.bin_fields);
+      const CloudHeader found = read_cloud_header(job.input, {job.bin_fields});
       header = {found.cloud.size(), found.scalar, found.random_access && found.cloud.size() > kChunkPoints};
       header.note = found.cloud.note;
     } else {
-      const RawCloud cloud = load_cloud(job, Serial{});
+      const RawCloud cloud = load_cloud(job, {Serial{}, Isa::scalar});
       const PointView points = cloud.xyz();
       header = {points.count, points.scalar};
       header.note = cloud.note;
@@ -137,7 +137,7 @@ Tiles::OpenTile Tiles::open_now(std::size_t tile) const {
   OpenTile opened;
   const Identity identity = identity_of(tile);
   if (headers_[tile].random_access) opened.file = CloudFile::open(job.input, job.bin_fields);
-  if (!opened.file) opened.cloud = load_cloud(job, Serial{});
+  if (!opened.file) opened.cloud = load_cloud(job, {Serial{}, Isa::scalar});
   opened.xyz = opened.file ? opened.file->xyz() : opened.cloud.xyz();
   const std::lock_guard lock(mutex_);
   Identity& known = identities_[tile];

@@ -68,7 +68,7 @@ void naming(const std::filesystem::path& path, Write write) {
   }
 }
 
-void write_sequence(const StreetSequenceSpec& spec, const std::filesystem::path& folder) {
+void write_sequence(const StreetSequenceOptions& spec, const std::filesystem::path& folder) {
   naming(folder, [&] { std::filesystem::create_directories(folder); });
   StreetOptions options;
   options.seed = spec.seed;
@@ -78,7 +78,7 @@ void write_sequence(const StreetSequenceSpec& spec, const std::filesystem::path&
   }
 }
 
-void write_sequence(const RuralRoadSequenceSpec& spec, const std::filesystem::path& folder) {
+void write_sequence(const RuralRoadSequenceOptions& spec, const std::filesystem::path& folder) {
   naming(folder, [&] { std::filesystem::create_directories(folder); });
   std::string poses, truth;
   for (std::size_t number = 0; number < spec.frames; ++number) {
@@ -100,7 +100,7 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
   } else if (is_rural_road_sequence(scene)) {
     write_sequence(parse_rural_road_sequence(scene), output);
   } else {
-    const SynthSpec spec = parse_synth(scene);
+    const SynthOptions spec = parse_synth(scene);
     naming(output, [&] {
       create_parent_folders(output);
       write_pcd(output, to_raw_cloud(make_synth(spec)));

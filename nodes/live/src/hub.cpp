@@ -45,7 +45,7 @@ void Hub::notice(const std::string& line) {
     viewer->queue_text(text);
 }
 
-void Hub::offer(std::shared_ptr<RemoteSettings> settings) {
+void Hub::offer(std::shared_ptr<RemoteParameters> settings) {
   settings_ = std::move(settings);
   send_settings();
 }

@@ -64,13 +64,13 @@ class Hub {
   /// that is sent gives the number of skipped warnings.
   void notice(const std::string& line);
 
-  void offer(std::shared_ptr<RemoteSettings> settings);
+  void offer(std::shared_ptr<RemoteParameters> settings);
 
   /// Sends the values of the settings to the viewers that watch them, if the values have changed since they
   /// were last sent.
   void send_settings();
 
-  /// Returns RemoteSettings::description(), or "[]" if there are no settings.
+  /// Returns RemoteParameters::description(), or "[]" if there are no settings.
   std::string description() const;
 
   void join(const std::shared_ptr<Viewer>& viewer);
@@ -95,7 +95,7 @@ class Hub {
   std::string session_;
   std::vector<std::shared_ptr<Channel>> channels_;
   std::set<std::shared_ptr<Viewer>> viewers_;
-  std::shared_ptr<RemoteSettings> settings_;
+  std::shared_ptr<RemoteParameters> settings_;
   std::string sent_values_;
   std::int64_t last_time_ns_ = INT64_MIN;
   std::chrono::steady_clock::time_point last_notice_time_{};

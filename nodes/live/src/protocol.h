@@ -31,7 +31,7 @@ enum class Level : std::uint8_t { info, warning, error };
 std::string status(Level level, const std::string& message);
 
 /// Returns the message with the values of the settings in `names`, or of all settings if `names` is empty.
-/// `settings` is the result of RemoteSettings::values(). `id` is the id of the request, or empty.
+/// `settings` is the result of RemoteParameters::values(). `id` is the id of the request, or empty.
 std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,
                              const std::string& id);
 
@@ -53,7 +53,7 @@ struct GetParameters {
   std::string id;
 };
 struct SetParameters {
-  std::string object;  ///< The argument of RemoteSettings::change().
+  std::string object;  ///< The argument of RemoteParameters::change().
   std::vector<std::string> names;
   std::string id;
 };
@@ -69,8 +69,8 @@ using Request =
 
 /// Limits on the parts of a request that an answer repeats. With these limits, no answer is much longer than
 /// the values of all settings.
-inline constexpr std::size_t kMaxNames = 100;     ///< Of settings, channels or subscriptions.
-inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes of a request's id.
+inline constexpr std::size_t kMaxNames = 100;         ///< Of settings, channels or subscriptions.
+inline constexpr std::size_t kMaxIdLength = 200;      ///< Bytes of a request's id.
 inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status message.
 
 /// Parses a request. Returns InvalidRequest for an invalid request and for a request over the limits.

@@ -120,7 +120,7 @@ void Server::announce_settings(const std::string&, std::int64_t) {
   post_to_server_thread([this] { hub_.send_settings(); });
 }
 
-void Server::offer_settings(const std::shared_ptr<RemoteSettings>& settings) {
+void Server::offer_settings(const std::shared_ptr<RemoteParameters>& settings) {
   post_to_server_thread([this, settings] { hub_.offer(settings); });
 }
 

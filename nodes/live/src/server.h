@@ -32,7 +32,7 @@ class Server final : public MessageSender {
   bool has_subscribers(std::size_t topic) const override;
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override;
   void announce_settings(const std::string& yaml, std::int64_t stamp_ns) override;
-  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override;
+  void offer_settings(const std::shared_ptr<RemoteParameters>& settings) override;
   void notify(const std::string& line) override;
   std::vector<std::string> take_warnings() override;
   void close() override;

@@ -99,7 +99,7 @@ int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
   std::shared_ptr<Tiles> tiles;
   if (options.tiled)
     tiles = std::make_shared<Tiles>(inputs, describe_tiles(ranks, inputs),
-                                    thread_count(options.pipeline.parallel_policy()));
+                                    thread_count(options.pipeline.execution().parallel));
   if (!run_on_all_ranks(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
     return static_cast<int>(Status::misuse);
   const Status status = options.tiled ? process_merged(ranks, jobs.front(), options, interrupted)

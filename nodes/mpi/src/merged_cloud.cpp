@@ -23,6 +23,7 @@
 #include "volume_bytes.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Failure = std::optional<TileFailure>;
@@ -79,7 +80,7 @@ class Attempt {
   Failure read_own_points();
   void merge();
   Failure fit();
-  Failure fit_in_rounds(Fitted& fitted);
+  Failure fit_in_rounds(Fitted<AnyVolume>& fitted);
   Failure check();
   bool run_query(const QueryMessage& query, Failure& failure, OctantPoints& found);
 
@@ -98,7 +99,7 @@ class Attempt {
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
   PartialFile merged_;  // this rank's points; after merge(), all points (first rank; with --check, all)
-  std::vector<Fitted> fitted_;
+  std::vector<Fitted<AnyVolume>> fitted_;
   std::vector<std::size_t> outside_;
   std::size_t rounds_ = 0;
   double cpu_seconds_ = 0;
@@ -113,7 +114,7 @@ Failure Attempt::find_origin() {
   Aabb box;
   const Failure failure = work([&] {
     const PointView all = tiles_.xyz();
-    fit_aabb(all.slice(range_.first, range_.second - range_.first), box, execution_);
+    box = *fit_aabb(all.slice(range_.first, range_.second - range_.first), execution_);
   });
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<double> bounds(6, none);
@@ -137,8 +138,7 @@ Failure Attempt::read_own_points() {
     for (std::size_t i = 0; i < methods_.size(); ++i) {
       if (owner(i) != ranks_.rank()) continue;
       if (!all) all.emplace(tiles_, PointRange{0, tiles_.xyz().count}, origin_, options_);
-      fitted_[i].result =
-          methods_[i]->fit(all->view(), fitted_[i].volume, execution_, method_options(options_));
+      fitted_[i] = methods_[i]->fit(all->view(), method_options(options_), execution_);
     }
   });
   return first_failure(ranks_, failure);
@@ -162,16 +162,13 @@ void Attempt::merge() {
 
 Failure Attempt::fit() {
   for (std::size_t i = 0; i < methods_.size(); ++i) {
-    Fitted& fitted = fitted_[i];
+    Fitted<AnyVolume>& fitted = fitted_[i];
     if (const auto rank = owner(i)) {
       fitted = fitted_from(ranks_.broadcast(*rank == ranks_.rank() ? bytes_of(fitted) : "", *rank));
     } else if (needs_query_rounds(*methods_[i], tiles_)) {
       if (Failure failure = fit_in_rounds(fitted)) return failure;
     } else if (ranks_.first() || options_.check) {
-      work([&] {
-        fitted.result =
-            merged_.partial.fit(*methods_[i], fitted.volume, execution_, method_options(options_));
-      });
+      work([&] { fitted = merged_.partial.fit(*methods_[i], method_options(options_), execution_); });
     }
   }
   return std::nullopt;
@@ -188,7 +185,7 @@ bool Attempt::run_query(const QueryMessage& query, Failure& failure, OctantPoint
 
 // The first rank runs the solver and broadcasts the solver's queries. Each rank answers a query for its own
 // points. An empty message ends the rounds.
-Failure Attempt::fit_in_rounds(Fitted& fitted) {
+Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
   Failure failure;
   OctantPoints found;
   if (ranks_.first()) {
@@ -200,10 +197,11 @@ Failure Attempt::fit_in_rounds(Fitted& fitted) {
                          [](const FarPoint& p) { return p.squared_distance >= 0; });
     };
     try {
-      SphereCertificate certificate;
-      fitted.result = merged_.partial.fit_smallest_sphere(fitted.volume.emplace<Sphere>(), certificate,
-                                                          query_all_ranks, execution_);
-      rounds_ += static_cast<std::size_t>(certificate.passes);
+      const Certified<Sphere, SphereCertificate> sphere =
+          fit_smallest_sphere(merged_.partial, query_all_ranks, execution_);
+      static_cast<EstimationResult&>(fitted) = sphere;
+      fitted.volume = sphere.volume;
+      rounds_ += static_cast<std::size_t>(sphere.certificate.passes);
     } catch (const QueryFailed&) {
     }
     ranks_.broadcast("");
@@ -240,7 +238,7 @@ Failure Attempt::run() {
 Report Attempt::report() const {
   Report report = report_of(merged_, methods_);
   for (std::size_t i = 0; i < methods_.size(); ++i) {
-    set_volume(i, fitted_[i].result, fitted_[i].volume, report);
+    set_volume(i, fitted_[i], fitted_[i].volume, report);
     VolumeEntry& entry = report.clusters.front().volumes[i];
     if (options_.check && entry.failed.empty()) entry.outside = outside_[i];
   }

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 static_assert(std::is_trivially_copyable_v<OctantPoints>);

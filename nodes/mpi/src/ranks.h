@@ -44,7 +44,7 @@ class Ranks {
   std::vector<double> min_over_ranks(std::vector<double> numbers);
 
   /// Sets `of_all` to the farthest points of all ranks. Returns whether `failed` is true on any rank.
-  bool merge_farthest(const OctantPoints& own, bool failed, OctantPoints& of_all);
+  bool merge_farthest(const detail::OctantPoints& own, bool failed, detail::OctantPoints& of_all);
 
   // The following functions send a message from one rank to another.
 

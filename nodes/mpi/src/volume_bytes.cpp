@@ -32,14 +32,13 @@ std::string_view interned(const std::string& reason) {
 
 }  // namespace
 
-std::string bytes_of(const Fitted& fitted) {
-  const EstimationResult& result = fitted.result;
+std::string bytes_of(const Fitted<AnyVolume>& fitted) {
   Fixed fixed;
   std::memset(&fixed, 0, sizeof fixed);
-  fixed.status = result.status;
-  fixed.rank = result.rank;
-  fixed.used = result.used;
-  fixed.dropped = result.dropped;
+  fixed.status = fitted.status;
+  fixed.rank = fitted.rank;
+  fixed.used = fitted.used;
+  fixed.dropped = fitted.dropped;
   double* to = fixed.numbers.data();
   const auto add = [&](const auto& numbers) { to = std::copy_n(numbers.data(), numbers.size(), to); };
   const bool nothing = empty(fitted.volume);
@@ -57,17 +56,18 @@ std::string bytes_of(const Fitted& fitted) {
   } else {
     throw std::invalid_argument("bytes_of: neither a sphere nor a box");
   }
-  return std::string(reinterpret_cast<const char*>(&fixed), sizeof fixed).append(result.reason);
+  return std::string(reinterpret_cast<const char*>(&fixed), sizeof fixed).append(fitted.reason);
 }
 
-Fitted fitted_from(const std::string& bytes) {
+Fitted<AnyVolume> fitted_from(const std::string& bytes) {
   Fixed fixed;
   if (bytes.size() < sizeof fixed) throw std::invalid_argument("fitted_from: ends early");
   std::memcpy(&fixed, bytes.data(), sizeof fixed);
   const double* const numbers = fixed.numbers.data();
   const Eigen::Map<const Eigen::Vector3d> center(numbers), half(numbers + 12);
-  Fitted fitted;
-  fitted.result = {fixed.status, fixed.rank, fixed.used, fixed.dropped, interned(bytes.substr(sizeof fixed))};
+  Fitted<AnyVolume> fitted;
+  static_cast<EstimationResult&>(fitted) = {fixed.status, fixed.rank, fixed.used, fixed.dropped,
+                                            interned(bytes.substr(sizeof fixed))};
   switch (fixed.shape) {
     case Shape::sphere:
       fitted.volume = Sphere(center, numbers[3]);

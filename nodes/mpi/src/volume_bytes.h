@@ -11,17 +11,11 @@
 
 namespace pcl_bv {
 
-/// The result of a fit.
-struct Fitted {
-  EstimationResult result;
-  AnyVolume volume;
-};
-
 /// Serializes a Sphere or an Obb with its exact bits. The methods that need all points and `sphere-exact`
 /// give these volumes. Throws std::invalid_argument for other volumes.
-std::string bytes_of(const Fitted& fitted);
+std::string bytes_of(const Fitted<AnyVolume>& fitted);
 
 /// Inverse of bytes_of(), on a machine with the same memory layout.
-Fitted fitted_from(const std::string& bytes);
+Fitted<AnyVolume> fitted_from(const std::string& bytes);
 
 }  // namespace pcl_bv

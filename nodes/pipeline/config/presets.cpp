@@ -29,9 +29,10 @@ std::vector<const Method*> PipelineConfig::methods() const {
   return all;
 }
 
-ParallelPolicy PipelineConfig::parallel_policy() const {
-  if (threads == 1) return Serial{};
-  return Threads{static_cast<unsigned>(threads)};
+Execution PipelineConfig::execution() const {
+  const UsableIsa instructions = parse_isa(isa);
+  if (threads == 1) return {Serial{}, instructions};
+  return {Threads{static_cast<unsigned>(threads)}, instructions};
 }
 
 QueuePolicy resolved_policy(QueuePolicy policy, bool paced) {

@@ -115,7 +115,7 @@ void set(const Setting&, const std::string& text, std::vector<std::string>& name
   if (!text.empty()) read_text(text, names);
 }
 
-class PipelineSettings final : public RemoteSettings {
+class PipelineSettings final : public RemoteParameters {
  public:
   explicit PipelineSettings(FramePipeline& pipeline) : pipeline_(pipeline) {}
 
@@ -180,7 +180,7 @@ class PipelineSettings final : public RemoteSettings {
 
 }  // namespace
 
-std::unique_ptr<RemoteSettings> remote_settings(FramePipeline& pipeline) {
+std::unique_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline) {
   return std::make_unique<PipelineSettings>(pipeline);
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const SinkDescription& with_created_folder(const SinkDescription& description) {
+const SinkOptions& with_created_folder(const SinkOptions& description) {
   std::error_code failure;
   fs::create_directories(description.target, failure);
   if (!fs::is_directory(description.target)) throw IoError("cannot create this folder");
@@ -35,14 +35,14 @@ std::string numbered(const char* stem, const Frame& frame, std::string_view exte
 class FilesSink : public FrameSink {
  public:
   using Write = void (*)(const fs::path&, const Frame&, const FrameResult&);
-  FilesSink(const SinkDescription& description, Write write_file)
+  FilesSink(const SinkOptions& description, Write write_file)
       : description_(with_created_folder(description)), write_(write_file) {}
   void write(const Frame& frame, const FrameResult& result) override {
     write_(description_.target / numbered("frame", frame, description_.kind->files), frame, result);
   }
 
  private:
-  SinkDescription description_;
+  SinkOptions description_;
   Write write_;
 };
 
@@ -79,7 +79,7 @@ void write_labels(const fs::path& file, const Frame& frame, const FrameResult& r
 
 class VtpSink : public FrameSink {
  public:
-  explicit VtpSink(const SinkDescription& description)
+  explicit VtpSink(const SinkOptions& description)
       : description_(with_created_folder(description)), index_(description.target / "frames.pvd") {}
   void write(const Frame& frame, const FrameResult& result) override {
     const bool tracked = result.config->track.enabled;
@@ -103,7 +103,7 @@ class VtpSink : public FrameSink {
     return pvd_entry({static_cast<double>(frame.header.stamp_ns - *first_stamp_ns_) / 1e9, name, part});
   }
 
-  SinkDescription description_;
+  SinkOptions description_;
   LineFile index_;
   std::string heading_{kPvdBegin};
   std::optional<std::int64_t> first_stamp_ns_;
@@ -111,15 +111,15 @@ class VtpSink : public FrameSink {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> open_vtp(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_vtp(const SinkOptions& description) {
   return std::make_unique<VtpSink>(description);
 }
 
-std::unique_ptr<FrameSink> open_image(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_image(const SinkOptions& description) {
   return std::make_unique<FilesSink>(description, write_image);
 }
 
-std::unique_ptr<FrameSink> open_labels(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_labels(const SinkOptions& description) {
   return std::make_unique<FilesSink>(description, write_labels);
 }
 

@@ -36,7 +36,7 @@ using LinesOfFrame = std::string(const FrameReport&, const ClusterSource&);
 
 class LineSink : public FrameSink {
  public:
-  LineSink(const SinkDescription& description, std::string heading, LinesOfFrame* lines)
+  LineSink(const SinkOptions& description, std::string heading, LinesOfFrame* lines)
       : heading_(std::move(heading)), lines_(lines), file_(description.target) {}
   void write(const Frame& frame, const FrameResult& result) override {
     write(lines_(report_without_clusters(frame, result), cluster_source(result)));
@@ -62,11 +62,11 @@ class LineSink : public FrameSink {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_jsonl(const SinkOptions& description) {
   return std::make_unique<LineSink>(description, "", json_line);
 }
 
-std::unique_ptr<FrameSink> open_csv(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_csv(const SinkOptions& description) {
   return std::make_unique<LineSink>(description, frames_csv_heading(), csv_lines);
 }
 

@@ -42,18 +42,18 @@ class Recorder final : public MessageSender {
 };
 
 template <class Writer>
-std::unique_ptr<FrameSink> open_recording_sink(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_recording_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.points = description.points;
   return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.target)), topics);
 }
 
-std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_mcap_sink(const SinkOptions& description) {
   create_parent_folders(description.target);
   return open_recording_sink<McapWriter>(description);
 }
 
-std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkOptions& description) {
   return open_recording_sink<Rosbag2Writer>(description);
 }
 

@@ -67,7 +67,7 @@ void SinkGroup::add(std::string name, std::unique_ptr<FrameSink> sink) {
   alive_ = true;
 }
 
-void SinkGroup::add(const SinkDescription& description) {
+void SinkGroup::add(const SinkOptions& description) {
   const bool standard = description.target == "-";
   const std::string name =
       standard ? "standard output" : std::string(description.kind->name) + ':' + description.target.string();
@@ -123,7 +123,7 @@ void SinkGroup::each(const Do& what) {
   alive_ = std::any_of(members_.begin(), members_.end(), [](const auto& m) { return m->sink != nullptr; });
 }
 
-void SinkGroup::offer_settings(const std::shared_ptr<RemoteSettings>& settings) {
+void SinkGroup::offer_settings(const std::shared_ptr<RemoteParameters>& settings) {
   each([&](Member& member) { member.sink->offer_settings(settings); });
 }
 

@@ -29,7 +29,7 @@ class FunctionSink : public FrameSink {
 
 // Labelled clouds are made only while there are subscribers. Scenes are not sent, because Foxglove, the only
 // viewer of scenes, also shows markers.
-std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_dds_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.prefix = description.target.string();
   topics.points = true;
@@ -37,7 +37,7 @@ std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
   return make_message_sink(middleware("dds").carrier(""), topics);
 }
 
-std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description) {
+std::unique_ptr<FrameSink> open_ws_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.points = topics.frames = true;
   return make_message_sink(middleware("ws").carrier(description.target.string()), topics);
@@ -68,7 +68,7 @@ std::string sink_syntax() {
   return all;
 }
 
-SinkDescription parse_sink(const std::string& description) {
+SinkOptions parse_sink(const std::string& description) {
   const std::size_t colon = std::min(description.find(':'), description.size());
   for (const SinkKind& kind : sink_kinds()) {
     if (description.compare(0, colon, kind.name) != 0) continue;
@@ -81,7 +81,7 @@ SinkDescription parse_sink(const std::string& description) {
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
 }
 
-std::unique_ptr<FrameSink> make_sink(const SinkDescription& description) {
+std::unique_ptr<FrameSink> make_sink(const SinkOptions& description) {
   if (description.kind == nullptr) throw std::invalid_argument("make_sink: no kind of sink");
   return description.kind->open(description);
 }

@@ -10,13 +10,13 @@
 
 namespace pcl_bv {
 
-std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description);
-std::unique_ptr<FrameSink> open_csv(const SinkDescription& description);
-std::unique_ptr<FrameSink> open_vtp(const SinkDescription& description);
-std::unique_ptr<FrameSink> open_image(const SinkDescription& description);
-std::unique_ptr<FrameSink> open_labels(const SinkDescription& description);
-std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description);
-std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description);
+std::unique_ptr<FrameSink> open_jsonl(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_csv(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_vtp(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_image(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_labels(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_dds_sink(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_ws_sink(const SinkOptions& description);
 
 /// Returns the sink kinds for recordings, or none in a build without the component `recording`.
 std::vector<SinkKind> recording_sinks();

@@ -60,7 +60,7 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
       length, std::move(files), options,
       [fields = options.bin_fields, classes = options.class_field](std::size_t, Frame& frame) {
         check_recording_content(frame.file);
-        const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
+        const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, {fields}));
         frame.points = cloud->xyz();
         frame.intensity = intensity_of(cloud->fields, cloud->data.data(), cloud->point_step);
         if (!classes.empty())
@@ -81,7 +81,7 @@ Pose pose_of(const std::array<double, 12>& rows) {
 
 // The sequence generates poses. A file of poses, if given, replaces them.
 std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const ReplayOptions& options) {
-  const RuralRoadSequenceSpec spec = parse_rural_road_sequence(name.substr(kSynth.size()));
+  const RuralRoadSequenceOptions spec = parse_rural_road_sequence(name.substr(kSynth.size()));
   const bool own_poses = options.poses.empty();
   return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t index, Frame& frame) {
     RuralRoadFrame generated = make_rural_road_frame(spec.options, index);
@@ -96,7 +96,7 @@ std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const Repl
 std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOptions& options) {
   if (options.own_stamps) throw std::invalid_argument("'" + name + "' has no names with times");
   if (is_rural_road_sequence(name.substr(kSynth.size()))) return open_rural_road(name, options);
-  const StreetSequenceSpec spec = parse_street_sequence(name.substr(kSynth.size()));
+  const StreetSequenceOptions spec = parse_street_sequence(name.substr(kSynth.size()));
   StreetOptions street;
   street.seed = spec.seed;
   return make_replay(spec.frames, {}, options, [street](std::size_t index, Frame& frame) {

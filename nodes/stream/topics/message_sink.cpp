@@ -63,7 +63,7 @@ class MessageSink final : public FrameSink {
     carrier_->notify("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
     if (has_subscribers(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
-  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override {
+  void offer_settings(const std::shared_ptr<RemoteParameters>& settings) override {
     carrier_->offer_settings(settings);
   }
   std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }

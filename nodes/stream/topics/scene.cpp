@@ -50,7 +50,7 @@ void add_facts(const FrameResult& result, std::size_t cluster, msg::SceneEntity&
   const auto add = [&](const char* key, const std::string& value) {
     entity.metadata.push_back({key, value});
   };
-  add("points", std::to_string(result.clusters.cluster_size(cluster)));
+  add("points", std::to_string(result.clusters.list_size(cluster)));
   if (!result.class_of.empty()) add("class", std::to_string(result.class_of[cluster]));
   if (result.tracks.empty() || !result.tracks[cluster]) return;
   const TrackEntry& track = *result.tracks[cluster];

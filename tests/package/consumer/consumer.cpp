@@ -48,20 +48,19 @@ int main() {
   const pcl_bv::CloudSummary all = pcl_bv::summarize(*cloud);
   const auto directions = std::make_shared<pcl_bv::KdopSet>(
       std::vector<Eigen::Vector3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 4, 0}});
-  pcl_bv::Kdop kdop;
-  pcl_bv::SlabPoints touching;
-  pcl_bv::fit_kdop(*cloud, directions, kdop, touching, {pcl_bv::OpenMP{2}, pcl_bv::Isa::automatic});
+  const auto touched =
+      pcl_bv::fit_touched_kdop(*cloud, directions, {pcl_bv::OpenMP{2}, pcl_bv::Isa::automatic});
+  const pcl_bv::Kdop& kdop = *touched;
+  const pcl_bv::SlabPoints& touching = touched.certificate;
   const auto hit = kdop.intersect({-5, 0.5, 1}, {1, 0, 0});
-  pcl_bv::Obb obb;
-  pcl_bv::fit_obb(*cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()}, obb);
+  pcl_bv::Obb obb = *pcl_bv::fit_obb(*cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()});
   if (obb.oriented_as(obb) != obb || !obb.contains({0, 0.2, 1})) {
     std::puts("wrong oriented box");
     return 1;
   }
   const pcl_bv::PointGroups groups(pcl_bv::point_view(*cloud));
-  pcl_bv::Kdop same;
-  pcl_bv::fit_kdop(groups.view(), directions, same);
-  if (all.aabb() != kdop.aabb() || touching.min.size() != 4 || !hit || hit->enter > 5 || same != kdop) {
+  pcl_bv::Kdop same = *pcl_bv::fit_kdop(groups.view(), directions);
+  if (all.aabb != kdop.aabb() || touching.min.size() != 4 || !hit || hit->enter > 5 || same != kdop) {
     std::puts("wrong summary or k-DOP");
     return 1;
   }
@@ -69,9 +68,8 @@ int main() {
   pcl::PointCloud<SurveyPoint> survey;
   survey.push_back({5e6, 4e5, 100});
   survey.push_back({5e6 + 1e-9, 4e5, 100});
-  pcl_bv::Aabb box;
-  const pcl_bv::EstimationResult result = pcl_bv::fit_aabb(survey, box);
-  if (result.rank != 1 || box.max().x() != 5e6 + 1e-9) {
+  const auto box = pcl_bv::fit_aabb(survey);
+  if (box.rank != 1 || box->max().x() != 5e6 + 1e-9) {
     std::puts("wrong box");
     return 1;
   }

@@ -15,7 +15,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A scene with all defaults filled in. `points` is exactly the number of points that make_synth() returns.
-struct SynthSpec {
+struct SynthOptions {
   std::string name;
   std::size_t points = 0;
   std::uint64_t seed = 1;
@@ -40,16 +40,16 @@ struct SynthSpec {
 ///
 /// Throws std::invalid_argument for any other text. The message gives the value and the allowed values. The
 /// scenes `paper-*` and `rural-road*` have a fixed size, so any other POINTS throws.
-SynthSpec parse_synth(std::string_view text);
+SynthOptions parse_synth(std::string_view text);
 
 /// Generates the scene. Throws std::invalid_argument for a name that parse_synth() does not know.
-SynthCloud make_synth(const SynthSpec& spec);
+SynthCloud make_synth(const SynthOptions& spec);
 
 /// Returns the names that parse_synth() knows, comma-separated, for help texts.
 std::string synth_names();
 
 /// A sequence of sweeps of the rural road (rural_road.h): frames 0 to `frames` - 1.
-struct RuralRoadSequenceSpec {
+struct RuralRoadSequenceOptions {
   std::size_t frames = 100;
   RuralRoadOptions options;
 };
@@ -59,16 +59,16 @@ bool is_rural_road_sequence(std::string_view text);
 
 /// Parses `rural-road-sequence[-BEAMS][:FRAMES[:SEED]]`. BEAMS is 16, 32, 64 (default) or 128, FRAMES is 1 to
 /// 1000000 (default 100). Throws std::invalid_argument like parse_synth().
-RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text);
+RuralRoadSequenceOptions parse_rural_road_sequence(std::string_view text);
 
 /// A sequence of sweeps of the street (street.h): frames 0 to `frames` - 1.
-struct StreetSequenceSpec {
+struct StreetSequenceOptions {
   std::size_t frames = 22;
   std::uint64_t seed = 1;
 };
 
 /// Parses `street-sequence[:FRAMES[:SEED]]`. FRAMES is 1 to 1000000 (default 22). Throws
 /// std::invalid_argument like parse_synth().
-StreetSequenceSpec parse_street_sequence(std::string_view text);
+StreetSequenceOptions parse_street_sequence(std::string_view text);
 
 }  // namespace pcl_bv

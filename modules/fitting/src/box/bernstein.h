@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 using Linear = std::array<double, 2>;
 using Quadratic = std::array<double, 3>;
@@ -38,4 +38,4 @@ double value_at(std::array<double, n> coefficients, double t) {
   return coefficients[0];
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Matrix3d& axes) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low;
@@ -43,4 +43,4 @@ void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& 
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

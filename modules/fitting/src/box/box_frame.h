@@ -9,7 +9,7 @@
 
 #include "box/silhouette.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 struct BoxFrame {
   Eigen::Matrix3d axes;
@@ -30,4 +30,4 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eige
 void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
                   Silhouette::Projection& projection);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

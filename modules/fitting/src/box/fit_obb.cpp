@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/fit_into.h"
 
 #include <cmath>
 #include <optional>
@@ -14,10 +14,10 @@
 #include "pcl_bv/numeric/exact_sum.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "same_points.h"
-#include "summarize_bounds.h"
+#include "summary.h"
 #include "support/support_search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
@@ -29,14 +29,14 @@ Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
   return scaled / std::sqrt(scaled.squaredNorm());
 }
 
-EstimationResult fit_pca(const PointView& points, Obb& box, const Execution& execution) {
-  const CloudSummary summary = summarize_bounds(points, execution);
+EstimationResult fit_pca(const PointView& points, Obb& box, const FitExecution& execution) {
+  const Summary summary = summarize_bounds(points, execution);
   if (summary.supports.used > 0)
     box = measured_box(principal_axes(summary), points, summary.supports, execution).canonical();
   return summary.result();
 }
 
-EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& execution) {
+EstimationResult fit_dito14(const PointView& points, Obb& box, const FitExecution& execution) {
   const Supports supports = find_supports(points, DirectionSet::dop14, SupportDetail::points, execution);
   if (supports.used > 0) {
     const LocalFrame frame(supports);
@@ -48,8 +48,8 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
   return result_of(supports);
 }
 
-EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution& execution) {
-  const CloudSummary summary = summarize(points, execution);
+EstimationResult fit_minimal(const PointView& points, Obb& box, const FitExecution& execution) {
+  const Summary summary = summarize(points, execution);
   if (summary.supports.used > 0) {
     const LocalFrame frame(summary.supports);
     const Eigen::Matrix3d axes = minimal_axes(points, summary, frame, execution);
@@ -59,7 +59,7 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution&
 }
 
 EstimationResult fit_upright(const PointView& points, const ObbOptions& options, Obb& box,
-                             const Execution& execution) {
+                             const FitExecution& execution) {
   const Eigen::Vector3d up = unit_up(options.up);
   if (options.method == ObbMethod::lshape) require_all_points(execution, "obb-lshape");
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
@@ -114,7 +114,7 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
 // Measures the box of many points. The support search rejects nearly all points in float arithmetic, and its
 // supports are exact.
 Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
-                 const Execution& execution) {
+                 const FitExecution& execution) {
   SupportDirections directions;
   for (int i = 0; i < 3; ++i)
     directions.add(direction(axes.col(i)));
@@ -133,18 +133,18 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
 }  // namespace
 
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
-                 const Execution& execution) {
+                 const FitExecution& execution) {
   constexpr std::size_t few_points = 2048;
   return supports.used + supports.dropped <= few_points ? measure_few(axes, points, supports, execution.isa)
                                                         : measure_many(axes, points, supports, execution);
 }
 
-Eigen::Matrix3d principal_axes(const CloudSummary& summary) {
+Eigen::Matrix3d principal_axes(const Summary& summary) {
   return symmetric_eigen(summary.covariance).vectors;
 }
 
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
-                         const Execution& execution) {
+                         const FitExecution& execution) {
   const FloatEnvironment environment;
   box = Obb();
   switch (options.method) {
@@ -161,4 +161,4 @@ EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb
   return fit_upright(points, options, box, execution);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -26,7 +26,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/obb.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -304,4 +304,4 @@ BoxFrame smallest_box(const BoxFrame& known, const Silhouette& shape) {
   return FlushSearch(known, shape).run();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

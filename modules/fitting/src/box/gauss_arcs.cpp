@@ -8,7 +8,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 GaussArcs::GaussArcs(const Silhouette& shape, SupportGraph& graph) {
   add_nodes(shape);
   arcs.reserve(shape.edges().size() * 5 / 4);
@@ -87,4 +87,4 @@ void GaussArcs::measure(const std::vector<Eigen::Vector3d>& vertices, SupportGra
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "box/silhouette.h"
 #include "box/support_graph.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The arcs of all edges of a hull, and lower bounds of its width.
 struct GaussArcs {
@@ -42,4 +42,4 @@ struct GaussArcs {
   void measure(const std::vector<Eigen::Vector3d>& vertices, SupportGraph& graph);
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,23 +8,23 @@
 #include <cstddef>
 
 #include "local_frame.h"
-#include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/volumes/obb.h"
 #include "small_vector.h"
+#include "summary.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the box along the axes around all valid points. There must be at least one valid point. The box
 /// encloses the points by exact arithmetic, and is tight to a few units in the last place of the extents and
 /// of the centre. The columns of `axes` must be orthonormal to 1e-12. `supports` may be along any set. Needs
 /// a FloatEnvironment.
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
-                 const Execution& execution);
+                 const FitExecution& execution);
 
 /// Returns the eigenvectors of the covariance, in descending order of the eigenvalues.
-Eigen::Matrix3d principal_axes(const CloudSummary& summary);
+Eigen::Matrix3d principal_axes(const Summary& summary);
 
 /// Returns orthonormal axes, the first of which is `e`, a unit vector.
 Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);
@@ -43,15 +43,15 @@ Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const 
 
 /// Returns the axes of the smallest box around the hull. If the hull has more than 128 vertices, it is the
 /// smallest box that a search finds. `summary` must be of the same points.
-Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
-                             const Execution& execution);
+Eigen::Matrix3d minimal_axes(const PointView& points, const Summary& summary, const LocalFrame& frame,
+                             const FitExecution& execution);
 
 /// Returns axes, the first of which is `up`, a unit vector. For the axes of yaw_axes() the area seen from
 /// above is the minimum. For the axes of lshape_axes() the points are closest to the sides. `supports` must
 /// be along dop26, with points.
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                         const Eigen::Vector3d& up, const Execution& execution);
+                         const Eigen::Vector3d& up, const FitExecution& execution);
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                            const Eigen::Vector3d& up, const Execution& execution);
+                            const Eigen::Vector3d& up, const FitExecution& execution);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

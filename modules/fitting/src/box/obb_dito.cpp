@@ -12,7 +12,7 @@
 #include "box/obb_axes.h"
 #include "same_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Points thinner than this limit are flat. Local coordinates have an extent from 1 to 2.
@@ -142,4 +142,4 @@ Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const 
   return best.axes.isIdentity(0) ? best.axes : orthonormal_axes(best.axes);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -25,7 +25,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns random rotations that are the same on every machine. They are computed from seeded random integers,
@@ -77,7 +77,7 @@ constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 // larger than their boxes.
 constexpr std::size_t kGuaranteedStarts = 3;
 
-std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
+std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const Summary& summary,
                                           const LocalFrame& frame, const LocalHull& hull,
                                           const Effort& effort) {
   Supports supports = summary.supports;
@@ -105,7 +105,7 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
 }
 
 void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape,
-                const Execution& execution) {
+                const FitExecution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
   constexpr double kSmaller = 1e-9;  // A smaller decrease of the area is not worth another rotation.
   const std::size_t vertices = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
@@ -119,7 +119,7 @@ void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shap
 }
 
 BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& starts, const Effort& effort,
-                   const Execution& execution) {
+                   const FitExecution& execution) {
   constexpr int kRotations = 3, kLastRotations = 90;
   std::vector<BoxFrame> frames;
   frames.reserve(starts.size());
@@ -143,8 +143,8 @@ BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& 
   return smaller(best_guaranteed, best) ? best_guaranteed : best;
 }
 
-Eigen::Matrix3d solid_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
-                           const LocalHull& hull, const Execution& execution) {
+Eigen::Matrix3d solid_axes(const PointView& points, const Summary& summary, const LocalFrame& frame,
+                           const LocalHull& hull, const FitExecution& execution) {
   const Silhouette shape(hull.local_vertices(), hull.triangles);
   const bool pairs = shape.vertices().size() <= kExhaustive;
   const Effort& effort = pairs ? kBeforePairs : kSearch;
@@ -155,8 +155,8 @@ Eigen::Matrix3d solid_axes(const PointView& points, const CloudSummary& summary,
 
 }  // namespace
 
-Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
-                             const Execution& execution) {
+Eigen::Matrix3d minimal_axes(const PointView& points, const Summary& summary, const LocalFrame& frame,
+                             const FitExecution& execution) {
   if (!(frame.extent() > 0)) return Eigen::Matrix3d::Identity();
   const std::shared_ptr<const LocalHull> shared = shared_hull(points, summary.supports, frame, execution);
   const LocalHull& hull = *shared;
@@ -165,4 +165,4 @@ Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summar
   return solid_axes(points, summary, frame, hull, execution);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

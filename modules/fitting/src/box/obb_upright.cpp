@@ -15,7 +15,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "same_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the unit vector at t. From t = 0 to t = 1 it rotates by 90 degrees. It is not computed by a sine,
@@ -133,14 +133,14 @@ AngleScore refined(AngleScore best, const Closeness& closeness, const Sample& sa
 }  // namespace
 
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                         const Eigen::Vector3d& up, const Execution& execution) {
+                         const Eigen::Vector3d& up, const FitExecution& execution) {
   const Ground ground(up);
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
   return ground.axes_along(smallest_rectangle(outline.data(), outline.size()).side);
 }
 
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                            const Eigen::Vector3d& up, const Execution& execution) {
+                            const Eigen::Vector3d& up, const FitExecution& execution) {
   const Ground ground(up);
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
   const Rectangle rectangle = smallest_rectangle(outline.data(), outline.size());
@@ -163,4 +163,4 @@ Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, c
   return ground.axes_along(direction(best.t));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

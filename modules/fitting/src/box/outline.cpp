@@ -16,7 +16,7 @@
 #include "same_points.h"
 #include "schedule.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the vertical half-spaces through the polygon's edges. Points within a margin of a half-space's
@@ -90,7 +90,7 @@ Eigen::Matrix3d Ground::axes_along(const Eigen::Vector2d& side) const {
 }
 
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                           const Ground& ground, const Execution& execution) {
+                           const Ground& ground, const FitExecution& execution) {
   const HalfSpaces inside =
       outline_half_spaces(points, support_or_all_points(points, supports, frame), frame, ground);
   Outline outline;
@@ -113,4 +113,4 @@ Outline outline_from_above(const PointView& points, const Supports& supports, co
   return outline;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

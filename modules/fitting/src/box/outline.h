@@ -9,11 +9,11 @@
 #include <array>
 
 #include "local_frame.h"
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "small_vector.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The plane perpendicular to `up`, with the orthonormal axes `east` and `north`.
 struct Ground {
@@ -35,6 +35,6 @@ using Outline = SmallVector<Eigen::Vector2d, 1024>;
 /// Returns the convex outline of the points seen from above, in local coordinates, up to rounding. It has one
 /// corner or more. `supports` must be along dop26, with points. The bits are the same for every execution.
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                           const Ground& ground, const Execution& execution);
+                           const Ground& ground, const FitExecution& execution);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 double dot(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -104,4 +104,4 @@ Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count) 
   return best;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

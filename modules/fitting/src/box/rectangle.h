@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Moves the corners of the convex hull to the front, counter-clockwise, and returns their number. It is 1
 /// for equal points and 2 for points on a line. The result has rounding errors. It may be used to choose
@@ -30,4 +30,4 @@ struct Rectangle {
 /// only rectangles along edges are compared. Uses rotating calipers (Toussaint 1983). O(corners).
 Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

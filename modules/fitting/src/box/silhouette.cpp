@@ -11,7 +11,7 @@
 #include "box/rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // An edge as a side of one of its two facets.
@@ -121,4 +121,4 @@ const std::vector<Eigen::Vector2d>& Silhouette::project(const Eigen::Vector3d& u
   return projection.corners;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 
 #include "hull/convex_hull.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Computes the silhouettes of a solid hull under parallel projection. For the hull of a car, which has about
 /// 28 vertices, a silhouette has about 12 corners.
@@ -62,4 +62,4 @@ class Silhouette {
   std::vector<Edge> edges_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

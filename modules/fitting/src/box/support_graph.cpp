@@ -8,7 +8,7 @@
 
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 SupportGraph::SupportGraph(const Silhouette& shape)
     : vertices_(shape.vertices()), first_(vertices_.size() + 1), neighbours_(2 * shape.edges().size()) {
@@ -83,4 +83,4 @@ std::array<std::int32_t, 6> SupportGraph::exact_supports(const Eigen::Matrix3d& 
   return supports;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

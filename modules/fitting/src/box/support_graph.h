@@ -11,7 +11,7 @@
 
 #include "box/silhouette.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The vertices and edges of a hull as a graph, in which the vertex with the maximum projection along a
 /// direction is found by climbing.
@@ -54,4 +54,4 @@ class SupportGraph {
   std::array<LowHigh, 3 * kCells * kCells> near_;  // supports of each cell; opposite cells share an entry
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

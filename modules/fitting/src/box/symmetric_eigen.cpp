@@ -8,7 +8,7 @@
 
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Applies to `a` and `v` the rotation that makes a(p, q) zero.
@@ -61,4 +61,4 @@ SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
   return result;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

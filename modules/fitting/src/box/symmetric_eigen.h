@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 struct SymmetricEigen {
   Eigen::Vector3d values;   ///< Eigenvalues, descending.
@@ -17,4 +17,4 @@ struct SymmetricEigen {
 /// roots, so the bits are the same on every IEEE machine.
 SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "hull/quickhull.h"
 #include "local_frame.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 bool in_line(const std::vector<Coordinates>& points, std::size_t a, std::size_t b, std::size_t c) {
@@ -149,4 +149,4 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   return hull;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

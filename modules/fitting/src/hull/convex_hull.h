@@ -12,7 +12,7 @@
 
 #include "pcl_bv/numeric/coordinates.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Indices of three vertices, counter-clockwise seen from outside.
 using Triangle = std::array<std::int32_t, 3>;
@@ -58,4 +58,4 @@ std::vector<Triangle> keep_extreme(std::vector<Thing>& things) {
 /// counter-clockwise seen from p, -1 if they are clockwise, 0 if p is in the plane.
 int side_of_plane(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& p);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -4,7 +4,7 @@
 // A test whether a difference of doubles is free of rounding.
 #pragma once
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns whether `difference`, which is b - a rounded to a double, equals b - a exactly.
 inline bool is_exact_difference(double b, double a, double difference) {
@@ -12,4 +12,4 @@ inline bool is_exact_difference(double b, double a, double difference) {
   return b - (difference - back) == 0 && -a - back == 0;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

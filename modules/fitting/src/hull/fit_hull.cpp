@@ -8,13 +8,13 @@
 
 #include "hull/hull_fit.h"
 #include "hull/support_tree.h"
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Normals = std::vector<Eigen::Vector3d>;
@@ -73,7 +73,7 @@ void drop_repeated(Normals& normals) {
 // Calls measure(plane) for all planes. A thread takes 100 planes at a time, because a plane takes only about
 // 10 us on a smooth surface.
 template <typename Measure>
-void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
+void for_each_plane(const FitExecution& execution, std::size_t planes, const Measure& measure) {
   constexpr std::size_t kTogether = 100;
   const ParallelPolicy policy = worthwhile(execution, Work::hull_plane, planes);
   for_each_range(policy, planes, kTogether, [&](std::size_t begin, std::size_t end) {
@@ -85,7 +85,7 @@ void for_each_plane(const Execution& execution, std::size_t planes, const Measur
 
 }  // namespace
 
-EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution) {
+EstimationResult fit_hull(const PointView& points, Hull& hull, const FitExecution& execution) {
   hull = Hull();
   return fit_on_hull(points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports&) {
     Normals normals = normals_of(local);
@@ -101,4 +101,4 @@ EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& 
   });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

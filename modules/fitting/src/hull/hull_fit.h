@@ -5,15 +5,16 @@
 #pragma once
 
 #include "hull/local_hull.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Finds the supports and the convex hull, and calls fit(hull, frame, supports). Without a valid point, fit()
 /// is not called. Returns the status, the rank and the counts of the points.
 template <typename Fit>
-EstimationResult fit_on_hull(const PointView& points, const Execution& execution, const Fit& fit) {
+EstimationResult fit_on_hull(const PointView& points, const FitExecution& execution, const Fit& fit) {
   const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used == 0) return result_of(supports);
@@ -23,4 +24,4 @@ EstimationResult fit_on_hull(const PointView& points, const Execution& execution
   return result_of(supports);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Corners {
@@ -100,4 +100,4 @@ HalfSpaces inner_polytope(const PointView& points, const Supports& supports, con
   return result;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,11 +8,11 @@
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/half_spaces.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns half-spaces for list_outside(). Every point of the cloud that list_outside() does not list is
 /// strictly inside the convex hull of the extremal points, by exact arithmetic. The extremal points
 /// themselves are listed. The number of half-spaces is 0 if the extremal points do not span a solid.
 HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

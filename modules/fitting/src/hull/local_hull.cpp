@@ -13,7 +13,7 @@
 #include "same_points.h"
 #include "schedule.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // For at most this number of points the polytope takes more time than it saves. With 300 points of a
@@ -27,7 +27,7 @@ constexpr std::size_t kFewPoints = 500;
 constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
-                                       const LocalFrame& frame, const Execution& execution) {
+                                       const LocalFrame& frame, const FitExecution& execution) {
   std::vector<HullPoint> all;
   const bool held = points.source == nullptr;
   std::size_t most = kManyPoints * 8;
@@ -96,7 +96,7 @@ void find_ends(LocalHull& hull) {
 }  // namespace
 
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                     const Execution& execution) {
+                     const FitExecution& execution) {
   LocalHull hull;
   HalfSpaces inside;
   if (supports.used > kFewPoints) inside = inner_polytope(points, supports, frame);
@@ -126,9 +126,9 @@ LocalHull local_hull(const PointView& points, const Supports& supports, const Lo
 }
 
 std::shared_ptr<const LocalHull> shared_hull(const PointView& points, const Supports& supports,
-                                             const LocalFrame& frame, const Execution& execution) {
+                                             const LocalFrame& frame, const FitExecution& execution) {
   if (execution.supports != nullptr && execution.supports->hull) return execution.supports->hull;
   return std::make_shared<LocalHull>(local_hull(points, supports, frame, execution));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

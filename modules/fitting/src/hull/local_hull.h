@@ -13,12 +13,12 @@
 
 #include "hull/convex_hull.h"
 #include "local_frame.h"
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "point_rank.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A point of the cloud, as stored and in local coordinates.
 struct HullPoint {
@@ -64,10 +64,10 @@ struct LocalHull : Span {
 /// The bits are the same for every execution. O(n) for the points inside the polytope of the extremal points
 /// (Akl, Toussaint 1978), O(m log m) for the m other points. Needs a FloatEnvironment.
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
-                     const Execution& execution);
+                     const FitExecution& execution);
 
-/// Returns the hull in Execution::supports if there is one; otherwise computes it with local_hull().
+/// Returns the hull in FitExecution::supports if there is one; otherwise computes it with local_hull().
 std::shared_ptr<const LocalHull> shared_hull(const PointView& points, const Supports& supports,
-                                             const LocalFrame& frame, const Execution& execution);
+                                             const LocalFrame& frame, const FitExecution& execution);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "hull/exact_difference.h"
 #include "pcl_bv/numeric/constants.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the orientation in double arithmetic, or 0 if rounding could have changed its sign. Each product
@@ -120,4 +120,4 @@ std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points)
   return chain;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "local_frame.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 Quickhull::Quickhull(const std::vector<Coordinates>& points, const std::array<std::int32_t, 4>& corners)
     : points_(points), facet_from_(points.size()) {
@@ -149,4 +149,4 @@ void Quickhull::add_farthest(std::int32_t start) {
   assign_points(waiting, first);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "hull/convex_hull.h"
 #include "pcl_bv/numeric/coordinates.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Begins with a tetrahedron and adds the points outside, the farthest first (Barber, Dobkin, Huhdanpaa
 /// 1996). A point sees a facet if it is strictly above the plane of the facet. From this definition follow
@@ -60,4 +60,4 @@ class Quickhull {
   std::vector<std::int32_t> facet_from_;  // per point, the new facet whose horizon edge begins at the point
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

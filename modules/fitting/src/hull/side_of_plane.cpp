@@ -12,7 +12,7 @@
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Coordinates minus(const Coordinates& b, const Coordinates& a) {
@@ -108,4 +108,4 @@ int side_of_plane(const Coordinates& a, const Coordinates& b, const Coordinates&
   return by_integers(a, b, c, p);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

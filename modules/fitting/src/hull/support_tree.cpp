@@ -16,7 +16,7 @@
 #include "pcl_bv/numeric/exact_dot.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kLeafPoints = 8;
@@ -158,4 +158,4 @@ double SupportTree::max_projection_up(const Eigen::Vector3d& normal) const {
   return projection;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

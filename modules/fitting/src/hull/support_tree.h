@@ -10,7 +10,7 @@
 
 #include "hull/local_hull.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A tree of oriented boxes over points. Each box is oriented along its points, because on a smooth surface
 /// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
@@ -48,4 +48,4 @@ class SupportTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename T>
@@ -35,4 +35,4 @@ NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b) {
 PackedPoints::PackedPoints(const NumberedPoints& points, ScalarType scalar)
     : view_(scalar == ScalarType::float32 ? view_of(points, floats_) : view_of(points, doubles_)) {}
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A point and its number in the whole cloud.
 struct NumberedPoint {
@@ -49,4 +49,4 @@ class PackedPoints {
   PointView view_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

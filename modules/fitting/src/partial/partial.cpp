@@ -10,13 +10,14 @@
 #include "hull/local_hull.h"
 #include "map_chunks.h"
 #include "partial/partial_state.h"
+#include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "point_rank.h"
 #include "schedule.h"
 #include "support/support_search.h"
 
 namespace pcl_bv {
-
+using namespace detail;
 namespace {
 
 // Sets counts, support points and extreme points of a state for more than kMaxStored points. Does not set
@@ -193,7 +194,6 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
 
 Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
   const FloatEnvironment environment;
-  require_matching_supports(points, execution);
   if (points.indices != nullptr) throw std::invalid_argument("Partial: the view has an index list");
   PartialState state;
   state.scalar = points.scalar;
@@ -217,42 +217,52 @@ bool Partial::can_fit(const Method& method) {
   return !method.needs_all_points;
 }
 
-EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Execution& execution,
-                              const MethodOptions& options) const {
+Fitted<AnyVolume> Partial::fit(const Method& method, const MethodOptions& options,
+                               const Execution& execution) const {
   const FloatEnvironment environment;
   if (!can_fit(method)) refuse_partial(method.name);
-  if (execution.supports != nullptr)
-    throw std::invalid_argument("Execution::supports were found for other points");
   if (state_->stores_all()) {
     const PackedPoints all(state_->loose, state_->scalar);
-    return method.fit(all.view(), volume, execution, options);
+    return method.fit(all.view(), options, execution);
   }
   const NumberedPoints points = representative_points(*state_);
   const PackedPoints packed(points, state_->scalar);
   const Supports supports = supports_of(*state_, points, packed.view(), execution);
-  Execution informed = execution;
-  informed.supports = &supports;
-  return method.fit(packed.view(), volume, informed, options);
+  Fitted<AnyVolume> fitted;
+  static_cast<EstimationResult&>(fitted) =
+      fit_method(method, packed.view(), options, fitted.volume, {execution, &supports});
+  return fitted;
 }
 
-EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
-                                              const FarthestQuery& farthest,
-                                              const Execution& execution) const {
+namespace detail {
+
+struct PartialAccess {
+  static const PartialState& state(const Partial& partial) { return *partial.state_; }
+};
+
+Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
+                                                         const FarthestQuery& farthest,
+                                                         const Execution& execution) {
   const FloatEnvironment environment;
-  if (state_->stores_all()) {
-    const PackedPoints all(state_->loose, state_->scalar);
-    return pcl_bv::fit_smallest_sphere(all.view(), sphere, certificate, execution);
+  const PartialState& state = PartialAccess::state(partial);
+  if (state.stores_all()) {
+    const PackedPoints all(state.loose, state.scalar);
+    return pcl_bv::fit_smallest_sphere(all.view(), execution);
   }
-  const NumberedPoints points = representative_points(*state_);
-  const PackedPoints packed(points, state_->scalar);
-  Supports supports = supports_of(*state_, points, packed.view(), execution);
+  const NumberedPoints points = representative_points(state);
+  const PackedPoints packed(points, state.scalar);
+  Supports supports = supports_of(state, points, packed.view(), execution);
   // `farthest` answers with indices in the whole cloud, so the supports must have these indices, too.
-  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {
-    supports.along[k].low_point.index = state_->support_points[2 * k].index;
-    supports.along[k].high_point.index = state_->support_points[2 * k + 1].index;
+  for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
+    supports.along[k].low_point.index = state.support_points[2 * k].index;
+    supports.along[k].high_point.index = state.support_points[2 * k + 1].index;
   }
-  sphere = smallest_sphere(supports, farthest, certificate);
-  return result_of(supports);
+  Certified<Sphere, SphereCertificate> fitted;
+  fitted.volume = smallest_sphere(supports, farthest, fitted.certificate);
+  static_cast<EstimationResult&>(fitted) = result_of(supports);
+  return fitted;
 }
+
+}  // namespace detail
 
 }  // namespace pcl_bv

@@ -20,8 +20,9 @@
 #include "partial/partial_state.h"
 
 namespace pcl_bv {
+using namespace detail;
 
-void require_apart(const PartialState& state) {
+void detail::require_apart(const PartialState& state) {
   bool apart = true;
   std::size_t free = 0;
   for (const MomentNode& node : state.blocks) {

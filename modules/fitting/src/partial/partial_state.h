@@ -14,7 +14,7 @@
 #include "pcl_bv/numeric/directions.h"
 #include "pcl_bv/points/chunks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The data of a Partial. The state depends on the points alone, not on how they were divided into parts or
 /// in which order these were merged.
@@ -45,4 +45,4 @@ inline std::size_t block_of_number(std::size_t number) {
 /// block.
 void require_apart(const PartialState& state);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "spread_directions.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Rated {
@@ -112,4 +112,4 @@ Eigen::Vector3d search_axis(const LocalHull& hull,
   return best.axis;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "hull/local_hull.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Points in local coordinates, projected onto an axis and onto the plane perpendicular to it.
 struct Profile {
@@ -42,4 +42,4 @@ std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull);
 /// the square root.
 Eigen::Vector3d search_axis(const LocalHull& hull, const std::function<double(const Eigen::Vector3d&)>& size);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "hull/hull_fit.h"
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "round/axis_search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Candidate {
@@ -94,11 +94,11 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
 
 }  // namespace
 
-EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const Execution& execution) {
+EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const FitExecution& execution) {
   capsule = Capsule();
   return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
     capsule = find_capsule(hull, frame);
   });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

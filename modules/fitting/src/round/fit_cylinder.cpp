@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "hull/hull_fit.h"
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "round/axis_search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector3d>& vertices) {
@@ -38,7 +38,7 @@ Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const
 
 }  // namespace
 
-EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const Execution& execution) {
+EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const FitExecution& execution) {
   cylinder = Cylinder();
   return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
     const std::vector<Eigen::Vector3d> vertices = search_vertices(hull);
@@ -50,4 +50,4 @@ EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const
   });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

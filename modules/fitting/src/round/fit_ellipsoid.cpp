@@ -7,12 +7,12 @@
 
 #include "box/symmetric_eigen.h"
 #include "hull/hull_fit.h"
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "round/smallest_ellipsoid.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Relative tolerance of kappa (smallest_ellipsoid.cpp). If the solver meets it, the volume exceeds its lower
@@ -81,7 +81,7 @@ void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllip
 }  // namespace
 
 EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
-                               EllipsoidCertificate& certificate, const Execution& execution) {
+                               EllipsoidCertificate& certificate, const FitExecution& execution) {
   ellipsoid = Ellipsoid();
   certificate = EllipsoidCertificate();
   return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
@@ -116,9 +116,4 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
   });
 }
 
-EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid, const Execution& execution) {
-  EllipsoidCertificate certificate;
-  return fit_ellipsoid(points, ellipsoid, certificate, execution);
-}
-
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Lifted = std::array<double, 4>;
@@ -242,4 +242,4 @@ WeightedEllipsoid smallest_ellipsoid(const std::vector<Eigen::Vector3d>& points,
   return found;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Weights of points, and the ellipsoid that they define. With S their weighted covariance and d the number
 /// of dimensions, no ellipsoid around these points has a volume below that of the unit ball times
@@ -31,4 +31,4 @@ struct WeightedEllipsoid {
 WeightedEllipsoid smallest_ellipsoid(const std::vector<Eigen::Vector3d>& points, int dimensions,
                                      double tolerance, int most_iterations);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

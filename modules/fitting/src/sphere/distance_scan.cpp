@@ -13,7 +13,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kBlocksPerChunk = 32;
@@ -51,7 +51,7 @@ void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& 
 
 }  // namespace
 
-DistanceScan::DistanceScan(const PointView& points, const Execution& execution)
+DistanceScan::DistanceScan(const PointView& points, const FitExecution& execution)
     : points_(points),
       parallel_(execution.parallel),
       isa_(execution.isa),
@@ -132,7 +132,7 @@ class DistanceScan::SharedOctants {
 
   void raise(const std::array<double, 8>& greatest) {
     for (std::size_t o = 0; o < 8; ++o)
-      pcl_bv::raise(best_[o], greatest[o]);
+      detail::raise(best_[o], greatest[o]);
   }
 
   void compete(const FarPoint& candidate, std::size_t octant) {
@@ -248,4 +248,4 @@ bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPo
   return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,13 +10,13 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/points/point_source.h"
 #include "small_vector.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The largest squared distance of a point in each block.
 using BlockMaxima = SmallVector<double, 16>;
@@ -26,7 +26,7 @@ using BlockMaxima = SmallVector<double, 16>;
 class DistanceScan {
  public:
   /// Copies the view and the execution, not the points.
-  DistanceScan(const PointView& points, const Execution& execution);
+  DistanceScan(const PointView& points, const FitExecution& execution);
 
   const PointView& points() const { return points_; }
 
@@ -86,4 +86,4 @@ class DistanceScan {
   bool listed_ = false;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -17,7 +17,7 @@
 #include "spread_directions.h"
 #include "support/support_search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 DirectionSet seed_directions(SphereMethod method) {
@@ -65,7 +65,7 @@ std::vector<Direction> epos98_directions() {
 // Returns the first ball of EPOS. If there are no more points than support points, it is the ball of all
 // points (Larsson 2008).
 FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports& supports,
-                    const LocalFrame& frame, const Execution& execution) {
+                    const LocalFrame& frame, const FitExecution& execution) {
   const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(supports.set);
   const bool few = points.count <= ends;
   SeedPoints seeds = few ? SeedPoints(points, supports) : SeedPoints(supports);
@@ -81,7 +81,7 @@ FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports
 }
 
 Sphere grown_sphere(const PointView& points, const SphereOptions& options, const Supports& supports,
-                    const LocalFrame& frame, const Execution& execution) {
+                    const LocalFrame& frame, const FitExecution& execution) {
   const FirstBall ball = options.method == SphereMethod::ritter
                              ? ritter_ball(supports, frame)
                              : epos_ball(points, options.method, supports, frame, execution);
@@ -92,7 +92,7 @@ Sphere grown_sphere(const PointView& points, const SphereOptions& options, const
 }  // namespace
 
 EstimationResult fit_sphere(const PointView& points, const SphereOptions& options, Sphere& sphere,
-                            const Execution& execution) {
+                            const FitExecution& execution) {
   if (options.method == SphereMethod::exact) {
     SphereCertificate certificate;
     return fit_smallest_sphere(points, sphere, certificate, execution);
@@ -111,7 +111,7 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
 }
 
 EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
-                                     const Execution& execution) {
+                                     const FitExecution& execution) {
   const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   DistanceScan scan(points, execution);
@@ -122,4 +122,4 @@ EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, Sp
   return result_of(supports);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // A sphere that only grows. After each step it contains, by exact arithmetic, the sphere before the step.
@@ -112,4 +112,4 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   return sphere.finish();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -5,14 +5,14 @@
 #pragma once
 
 #include "local_frame.h"
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "sphere/distance_scan.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Grows the sphere with this centre and squared radius until it contains every valid point by exact
 /// arithmetic. `squared_radius` is in the unit of the distance kernels (LocalFrame::center()).
 Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eigen::Vector3d& center,
                    double squared_radius, SphereGrowth growth);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

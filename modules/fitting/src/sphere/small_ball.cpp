@@ -10,7 +10,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
@@ -116,7 +116,7 @@ class Step {
         if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
         Vector center;
         const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross3(spokes_[i], spokes_[j])};
-        if (!pcl_bv::solve(rows, {squared_[i] / 2, squared_[j] / 2, 0}, center)) continue;
+        if (!detail::solve(rows, {squared_[i] / 2, squared_[j] / 2, 0}, center)) continue;
         if (offer(1U << i | 1U << j, center, [] { return 0.0; })) return true;
       }
     }
@@ -130,7 +130,7 @@ class Step {
       for (int j = i + 1; j < size_; ++j) {
         for (int k = j + 1; k < size_; ++k) {
           Vector center;
-          if (pcl_bv::solve({spokes_[i], spokes_[j], spokes_[k]},
+          if (detail::solve({spokes_[i], spokes_[j], spokes_[k]},
                             {squared_[i] / 2, squared_[j] / 2, squared_[k] / 2}, center)) {
             const bool holds_all = offer(1U << i | 1U << j | 1U << k, center, [&] {
               const Vector rest = weights({spokes_[i], spokes_[j], spokes_[k]}, center);
@@ -242,4 +242,4 @@ SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const 
   return best;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

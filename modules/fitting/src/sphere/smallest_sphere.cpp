@@ -16,7 +16,7 @@
 #include "sphere/distance_scan.h"
 #include "sphere/sphere_seed.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // A point is outside only if its squared distance exceeds the largest squared distance of the candidates by
@@ -105,4 +105,4 @@ Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
   return {vector(supports.along[0].low_point.point), 0.0};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 
 #include "same_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 SeedPoints::SeedPoints(const Supports& supports) {
   for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
@@ -41,7 +41,7 @@ SmallBall SeedPoints::smallest_ball(const LocalFrame& frame, const SmallBall* st
   SmallVector<Eigen::Vector3d, 128> local(seeds_.size());
   for (std::size_t i = 0; i < seeds_.size(); ++i)
     local[i] = frame.local(seeds_[i].point);
-  return pcl_bv::smallest_ball(local.data(), local.size(), start);
+  return detail::smallest_ball(local.data(), local.size(), start);
 }
 
 double SeedPoints::greatest_distance(const DistanceCenter& center) const {
@@ -51,4 +51,4 @@ double SeedPoints::greatest_distance(const DistanceCenter& center) const {
   return greatest;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

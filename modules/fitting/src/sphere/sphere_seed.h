@@ -9,7 +9,7 @@
 #include "pcl_bv/fitting/supports.h"
 #include "small_vector.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Distinct points of a cloud. Points from the constructor come first, in ascending order of their indices.
 /// Points from add() follow in the order of the calls.
@@ -45,4 +45,4 @@ class SeedPoints {
   SmallVector<Seed, 128> seeds_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& set) {
@@ -20,7 +20,7 @@ std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& 
 
 EstimationResult fit_built_in(const PointView& points, DirectionSet directions,
                               const std::shared_ptr<const KdopSet>& set, Kdop& kdop, SlabPoints* touching,
-                              const Execution& execution) {
+                              const FitExecution& execution) {
   const SupportDetail detail = touching != nullptr ? SupportDetail::points : SupportDetail::bounds;
   const Supports supports = find_supports(points, directions, detail, execution);
   kdop = kdop_of(supports);
@@ -32,7 +32,7 @@ EstimationResult fit_built_in(const PointView& points, DirectionSet directions,
 }
 
 EstimationResult fit_custom(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                            SlabPoints* touching, const Execution& execution) {
+                            SlabPoints* touching, const FitExecution& execution) {
   std::vector<std::array<double, 3>> directions;
   for (std::size_t k = 0; k < set->size(); ++k)
     directions.push_back({set->direction(k).x(), set->direction(k).y(), set->direction(k).z()});
@@ -50,18 +50,9 @@ EstimationResult fit_custom(const PointView& points, const std::shared_ptr<const
   return result_of(find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution));
 }
 
-EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                     SlabPoints* touching, const Execution& execution) {
-  const FloatEnvironment environment;
-  kdop = Kdop(set);
-  const std::optional<DirectionSet> directions = direction_set(set);
-  return directions ? fit_built_in(points, *directions, set, kdop, touching, execution)
-                    : fit_custom(points, set, kdop, touching, execution);
-}
-
 }  // namespace
 
-EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution) {
+EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution& execution) {
   const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
   box = aabb_of(supports);
@@ -69,14 +60,13 @@ EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& e
 }
 
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                          const Execution& execution) {
-  return fit(points, set, kdop, nullptr, execution);
+                          SlabPoints* touching, const FitExecution& execution) {
+  const FloatEnvironment environment;
+  if (touching != nullptr) *touching = SlabPoints();
+  kdop = Kdop(set);
+  const std::optional<DirectionSet> directions = direction_set(set);
+  return directions ? fit_built_in(points, *directions, set, kdop, touching, execution)
+                    : fit_custom(points, set, kdop, touching, execution);
 }
 
-EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                          SlabPoints& touching, const Execution& execution) {
-  touching = SlabPoints();
-  return fit(points, set, kdop, &touching, execution);
-}
-
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,24 +10,25 @@
 #include <cstddef>
 #include <string_view>
 
+#include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/support.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Throws std::invalid_argument if the execution has supports of other points. Every fit calls it, also a fit
 /// that does not use the supports.
-void require_matching_supports(const PointView& points, const Execution& execution);
+void require_matching_supports(const PointView& points, const FitExecution& execution);
 
 /// Returns whether the points are a few points that represent a whole cloud (Supports::moments).
-inline bool represents_cloud(const Execution& execution) {
+inline bool represents_cloud(const FitExecution& execution) {
   return execution.supports != nullptr && execution.supports->moments != nullptr;
 }
 
 /// Throws std::invalid_argument if the points only represent a whole cloud. Called by fits whose volume
 /// depends on all points. `fit` is the name of the fit in the message.
-void require_all_points(const Execution& execution, const char* fit);
+void require_all_points(const FitExecution& execution, const char* fit);
 
 /// Throws the std::invalid_argument of require_all_points().
 [[noreturn]] void refuse_partial(std::string_view fit);
@@ -47,7 +48,7 @@ class SupportSearch {
   void merge(const ChunkSupports& part);
 
   /// Calls find() and merge() for all chunks of the cloud.
-  void run(const PointView& points, const Execution& execution);
+  void run(const PointView& points, const FitExecution& execution);
 
   /// Number of points of the merged chunks that are not valid.
   std::size_t dropped() const { return all_.dropped; }
@@ -78,4 +79,4 @@ Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "schedule.h"
 #include "support/support_search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns whether `known` has all directions of `set`, with support points if `detail` requires them.
@@ -33,7 +33,7 @@ Supports part_of(const Supports& known, DirectionSet set) {
   return part;
 }
 
-Supports find_bounds(const PointView& points, const Execution& execution) {
+Supports find_bounds(const PointView& points, const FitExecution& execution) {
   Supports supports = empty_bounds(points);
   map_chunks<AxisExtents>(
       points, worthwhile(execution, Work::box, points.count),
@@ -43,7 +43,7 @@ Supports find_bounds(const PointView& points, const Execution& execution) {
   return supports;
 }
 
-Supports find_points(const PointView& points, DirectionSet set, const Execution& execution) {
+Supports find_points(const PointView& points, DirectionSet set, const FitExecution& execution) {
   SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
   search.run(points, execution);
   return supports_of_search(search, set, points);
@@ -51,12 +51,12 @@ Supports find_points(const PointView& points, DirectionSet set, const Execution&
 
 }  // namespace
 
-void require_matching_supports(const PointView& points, const Execution& execution) {
+void require_matching_supports(const PointView& points, const FitExecution& execution) {
   if (execution.supports != nullptr && !same_memory(execution.supports->points, points))
-    throw std::invalid_argument("Execution::supports were found for other points");
+    throw std::invalid_argument("FitExecution::supports were found for other points");
 }
 
-void require_all_points(const Execution& execution, const char* fit) {
+void require_all_points(const FitExecution& execution, const char* fit) {
   if (represents_cloud(execution)) refuse_partial(fit);
 }
 
@@ -92,7 +92,7 @@ void SupportSearch::merge(const ChunkSupports& part) {
     keep_larger_projection(directions_.support_direction(end), part.supports[end], all_.supports[end]);
 }
 
-void SupportSearch::run(const PointView& points, const Execution& execution) {
+void SupportSearch::run(const PointView& points, const FitExecution& execution) {
   const Work work = directions_.cube ? Work::cube_support : Work::custom_support;
   map_chunks<ChunkSupports>(
       points, worthwhile(execution, work, directions_.count * points.count),
@@ -144,7 +144,7 @@ void finish_bounds(Supports& supports) {
 }
 
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
-                       const Execution& execution) {
+                       const FitExecution& execution) {
   const FloatEnvironment environment;
   require_matching_supports(points, execution);
   if (execution.supports != nullptr && holds(*execution.supports, set, detail))
@@ -156,7 +156,7 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
 }
 
 CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                             const Execution& execution) {
+                             const FitExecution& execution) {
   const FloatEnvironment environment;
   require_matching_supports(points, execution);
   if (directions.empty()) throw std::invalid_argument("find_supports: no directions");
@@ -195,4 +195,4 @@ EstimationResult result_of(const Supports& supports) {
   return {status, supports.rank, supports.used, supports.dropped, {}};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -41,7 +41,7 @@ class FrameSink {
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// Offers settings that the readers of the results may see and change. Called before the first frame.
-  virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
+  virtual void offer_settings(const std::shared_ptr<RemoteParameters>& /*settings*/) {}
 
   /// Returns the warnings since the last call of take_warnings(), one line each. They affect no frame.
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -50,7 +50,7 @@ class FrameSink {
   virtual void close() {}
 };
 
-struct SinkDescription;
+struct SinkOptions;
 
 /// An entry of the table of sinks.
 struct SinkKind {
@@ -58,7 +58,7 @@ struct SinkKind {
   std::string_view target;  ///< Syntax of the text after the colon, for help: "FOLDER[,points]".
   /// Extension of the files if `target` is a folder with a file per frame; otherwise empty.
   std::string_view files;
-  std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
+  std::unique_ptr<FrameSink> (*open)(const SinkOptions&);
   bool live = false;  ///< Whether it sends to listeners, so that the target is not a file.
 };
 
@@ -69,7 +69,7 @@ const std::vector<SinkKind>& sink_kinds();
 std::string sink_syntax();
 
 /// Which sink to open and where it writes.
-struct SinkDescription {
+struct SinkOptions {
   const SinkKind* kind = nullptr;
   /// File ("-": standard output) or folder. For dds: prefix of the topics. For ws: [HOST:]PORT.
   std::filesystem::path target;
@@ -78,7 +78,7 @@ struct SinkDescription {
 
 /// Parses a description in the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any
 /// other text.
-SinkDescription parse_sink(const std::string& description);
+SinkOptions parse_sink(const std::string& description);
 
 /// Opens a sink.
 ///
@@ -88,7 +88,7 @@ SinkDescription parse_sink(const std::string& description);
 /// single frames (vtp, image, labels) are named by FrameHeader::number.
 ///
 /// Throws IoError if the sink cannot be opened, and std::invalid_argument if `kind` is null.
-std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
+std::unique_ptr<FrameSink> make_sink(const SinkOptions& description);
 
 /// Creates a sink that calls `on_result` with each result. Throws std::invalid_argument if `on_result` is
 /// empty.
@@ -112,10 +112,10 @@ class SinkGroup {
   void add(std::string name, std::unique_ptr<FrameSink> sink);
 
   /// Opens a sink and adds it. Throws as make_sink(); the text of an IoError begins with the sink's name.
-  void add(const SinkDescription& description);
+  void add(const SinkOptions& description);
 
   /// Offers the settings to all sinks added so far.
-  void offer_settings(const std::shared_ptr<RemoteSettings>& settings);
+  void offer_settings(const std::shared_ptr<RemoteParameters>& settings);
 
   /// Write to all sinks except those that have thrown IoError.
   void write(const Frame& frame, const FrameResult& result);

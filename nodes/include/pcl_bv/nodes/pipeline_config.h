@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -57,7 +57,7 @@ struct GroundConfig {
   /// given.
   std::optional<double> sensor_height;
   /// Largest height of ground points above the ground surface, metres. If not given, the default of the
-  /// method (GroundPlaneSettings, GroundZonesSettings).
+  /// method (GroundPlaneOptions, GroundZonesOptions).
   std::optional<double> distance;
   /// Largest angle between the ground and the horizontal, degrees. If not given, the default of the method.
   std::optional<double> max_slope_degrees;
@@ -89,7 +89,7 @@ struct ClusterConfig {
   /// if at least one of them is a core point. A core point has at least `min_points` points within the
   /// tolerance, itself included. With 1, every point is a core point.
   std::size_t min_points = 1;
-  /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterSettings).
+  /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterOptions).
   double tolerance_per_metre = 0;
   Oversized oversized = Oversized::drop;  ///< How objects above max_size are treated.
   /// Integer field of the clouds that holds the points' classes. If set, all points of an object have the
@@ -140,8 +140,8 @@ struct PipelineConfig {
   /// if there is none, or if points have no classes.
   std::vector<const Method*> methods_of(const ClassConfig* own) const;
 
-  /// Returns the execution policy for `threads`.
-  ParallelPolicy parallel_policy() const;
+  /// Returns the execution for `threads` and `isa`. Throws std::invalid_argument if `isa` is not usable.
+  Execution execution() const;
 };
 
 /// Returns a configuration that fits any cloud: no filter, no ground removal, all points in one object,

@@ -12,9 +12,9 @@ class FramePipeline;
 
 /// The settings of a running pipeline as JSON, for another process that shows and changes them. All member
 /// functions may be called from any thread.
-class RemoteSettings {
+class RemoteParameters {
  public:
-  virtual ~RemoteSettings() = default;
+  virtual ~RemoteParameters() = default;
 
   /// Returns a JSON array with one object per setting; it never changes. Each object has "key", "kind"
   /// (number, count, bool, choice or text), "unit" and "about". Some objects have more members:
@@ -36,6 +36,6 @@ class RemoteSettings {
 
 /// Returns the settings of a pipeline. The pipeline must outlive the returned object. Settings that read
 /// files or need other input (filter.regions, cluster.class_field and cluster.classes) cannot be changed.
-std::unique_ptr<RemoteSettings> remote_settings(FramePipeline& pipeline);
+std::unique_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline);
 
 }  // namespace pcl_bv

@@ -19,9 +19,7 @@
 #include <vector>
 
 #include "pcl_bv/estimation/point_cloud_view.h"
-#include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/fitting/methods.h"
 
 namespace pcl_bv {
@@ -69,7 +67,7 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   /// points are dropped, the volume is empty and the status is `no_valid_points`. If the fit fails, the
   /// volume is empty and the result holds the status `failed` and the reason. Throws std::logic_error if no
   /// cloud was set, and std::out_of_range for an index outside the cloud.
-  EstimationResult compute(VolumeT& volume) const { return fit(input(), volume, execution_); }
+  EstimationResult compute(VolumeT& volume) const { return take(fit(input(), execution_), volume); }
 
   /// Fits one volume to each cluster, in order. Clusters are lists of indices into the input cloud; The
   /// indices of setIndices() are ignored. The results have the same bits as one call of compute() per
@@ -84,15 +82,20 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
     volumes.assign(clusters.size(), VolumeT());
     std::vector<EstimationResult> results(clusters.size());
     for_each_view(views, execution_, [&](std::size_t c, const Execution& execution) {
-      results[c] = fit(views[c], volumes[c], execution);
+      results[c] = take(fit(views[c], execution), volumes[c]);
     });
     return results;
   }
 
  protected:
   /// Fits the volume to the points. Each estimator implements this function.
-  virtual EstimationResult fit(const PointView& points, VolumeT& volume,
-                               const Execution& execution) const = 0;
+  virtual Fitted<VolumeT> fit(const PointView& points, const Execution& execution) const = 0;
+
+  /// Moves the volume to `volume` and returns the result.
+  static EstimationResult take(Fitted<VolumeT>&& fitted, VolumeT& volume) {
+    volume = std::move(fitted.volume);
+    return fitted;
+  }
 
   /// Returns the points that compute() fits: the cloud, or its points with the indices that were set. Throws
   /// as compute() does.
@@ -113,15 +116,15 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 
 /// An estimator for a fit without settings.
 template <typename PointT, typename VolumeT,
-          EstimationResult (*fit_points)(const PointView&, VolumeT&, const Execution&)>
+          Fitted<VolumeT> (*fit_points)(const PointView&, const Execution&)>
 class FitEstimation : public BoundingVolumeEstimation<PointT, VolumeT> {
  public:
   using Ptr = pcl::shared_ptr<FitEstimation>;
   using ConstPtr = pcl::shared_ptr<const FitEstimation>;
 
  protected:
-  EstimationResult fit(const PointView& points, VolumeT& volume, const Execution& execution) const override {
-    return fit_points(points, volume, execution);
+  Fitted<VolumeT> fit(const PointView& points, const Execution& execution) const override {
+    return fit_points(points, execution);
   }
 };
 
@@ -164,12 +167,14 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   /// Fits the k-DOP as compute(kdop) does. For each slab, stores in `touching` the indices of the points of
   /// the input cloud that touch its two sides. `touching` is empty if there is no valid point.
   EstimationResult compute(Kdop& kdop, SlabPoints& touching) const {
-    return fit_kdop(this->input(), directions_, kdop, touching, this->execution());
+    auto fitted = fit_touched_kdop(this->input(), directions_, this->execution());
+    touching = std::move(fitted.certificate);
+    return this->take(std::move(fitted), kdop);
   }
 
  protected:
-  EstimationResult fit(const PointView& points, Kdop& kdop, const Execution& execution) const override {
-    return fit_kdop(points, directions_, kdop, execution);
+  Fitted<Kdop> fit(const PointView& points, const Execution& execution) const override {
+    return fit_kdop(points, directions_, execution);
   }
 
  private:
@@ -206,12 +211,14 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const {
     if (options_.method != SphereMethod::exact)
       throw std::invalid_argument("SphereEstimation: compute() with a certificate needs SphereMethod::exact");
-    return fit_smallest_sphere(this->input(), sphere, certificate, this->execution());
+    auto fitted = fit_smallest_sphere(this->input(), this->execution());
+    certificate = fitted.certificate;
+    return this->take(std::move(fitted), sphere);
   }
 
  protected:
-  EstimationResult fit(const PointView& points, Sphere& sphere, const Execution& execution) const override {
-    return fit_sphere(points, options_, sphere, execution);
+  Fitted<Sphere> fit(const PointView& points, const Execution& execution) const override {
+    return fit_sphere(points, options_, execution);
   }
 
  private:
@@ -237,8 +244,8 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
   const Eigen::Vector3d& getUpAxis() const { return options_.up; }
 
  protected:
-  EstimationResult fit(const PointView& points, Obb& box, const Execution& execution) const override {
-    return fit_obb(points, options_, box, execution);
+  Fitted<Obb> fit(const PointView& points, const Execution& execution) const override {
+    return fit_obb(points, options_, execution);
   }
 
  private:
@@ -256,13 +263,14 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
   /// Fits the ellipsoid and stores in `certificate` a proven bound of how much larger it is than the smallest
   /// ellipsoid.
   EstimationResult compute(Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) const {
-    return fit_ellipsoid(this->input(), ellipsoid, certificate, this->execution());
+    auto fitted = fit_smallest_ellipsoid(this->input(), this->execution());
+    certificate = std::move(fitted.certificate);
+    return this->take(std::move(fitted), ellipsoid);
   }
 
  protected:
-  EstimationResult fit(const PointView& points, Ellipsoid& ellipsoid,
-                       const Execution& execution) const override {
-    return fit_ellipsoid(points, ellipsoid, execution);
+  Fitted<Ellipsoid> fit(const PointView& points, const Execution& execution) const override {
+    return fit_ellipsoid(points, execution);
   }
 };
 
@@ -290,9 +298,8 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
   }
 
  protected:
-  EstimationResult fit(const PointView& points, AnyVolume& volume,
-                       const Execution& execution) const override {
-    return fit_smallest(points, candidates_, volume, execution);
+  Fitted<AnyVolume> fit(const PointView& points, const Execution& execution) const override {
+    return fit_smallest(points, candidates_, {}, execution);
   }
 
  private:

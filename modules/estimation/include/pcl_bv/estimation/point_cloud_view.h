@@ -24,7 +24,7 @@ template <typename PointT>
 PointView point_view(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
   static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t),
                 "PCL is built with an index type other than 32-bit integers");
-  return select_points(point_view(cloud), indices.data(), indices.size());
+  return point_view(cloud).subset(indices.data(), indices.size());
 }
 
 }  // namespace pcl_bv

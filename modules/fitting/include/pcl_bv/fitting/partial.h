@@ -8,14 +8,16 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/fitting/smallest_sphere.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+namespace detail {
+struct PartialAccess;
 struct PartialState;
+}  // namespace detail
 
 /// The contribution of some points of a cloud to volumes around the whole cloud. If there are at most
 /// kMaxStored points, all are stored. Of more points a Partial stores the extreme points (the vertices of
@@ -50,17 +52,10 @@ class Partial {
   /// but sphere-exact, because points deep inside the cloud can change these volumes.
   static bool can_fit(const Method& method);
 
-  /// Fits the volume around all points. Returns their status, rank and counts. O(m log m) for m extreme
-  /// points. Throws std::invalid_argument unless can_fit(method), and if Execution::supports is set.
-  EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
-                       const MethodOptions& options = {}) const;
-
-  /// Fits the smallest sphere of all points. Points that are not stored here are queried through `farthest`.
-  /// The result has the same bits as pcl_bv::fit_smallest_sphere() for the whole cloud, for any number of
-  /// points. This requires that `farthest` answers for the same points, with their numbers in the whole cloud
-  /// as indices. `farthest` is not called if all points are stored. Exceptions of `farthest` are passed on.
-  EstimationResult fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
-                                       const FarthestQuery& farthest, const Execution& execution = {}) const;
+  /// Fits the volume around all points. Status, rank and counts are those of all points. O(m log m) for m
+  /// extreme points. Throws std::invalid_argument unless can_fit(method).
+  Fitted<AnyVolume> fit(const Method& method, const MethodOptions& options = {},
+                        const Execution& execution = {}) const;
 
   /// Number of points, valid or not.
   std::size_t size() const;
@@ -74,7 +69,8 @@ class Partial {
   static Partial from_bytes(const std::byte* bytes, std::size_t size);
 
  private:
-  std::shared_ptr<const PartialState> state_;
+  friend struct detail::PartialAccess;
+  std::shared_ptr<const detail::PartialState> state_;
 };
 
 }  // namespace pcl_bv

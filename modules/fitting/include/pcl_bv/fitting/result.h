@@ -38,4 +38,21 @@ struct EstimationResult {
   std::string_view reason{};  ///< Reason of a failure, a string with static lifetime; otherwise empty.
 };
 
+/// A fitted volume, with the status, rank and point counts of the fit.
+template <typename VolumeT>
+struct Fitted : EstimationResult {
+  VolumeT volume{};  ///< The volume; empty without a valid point and after a failure.
+
+  const VolumeT& operator*() const { return volume; }
+  VolumeT& operator*() { return volume; }
+  const VolumeT* operator->() const { return &volume; }
+  VolumeT* operator->() { return &volume; }
+};
+
+/// A fitted volume with a proof of how small it is.
+template <typename VolumeT, typename CertificateT>
+struct Certified : Fitted<VolumeT> {
+  CertificateT certificate{};  ///< The proof.
+};
+
 }  // namespace pcl_bv

@@ -6,20 +6,19 @@
 
 #include <Eigen/Core>
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Supports, centroid and covariance of a cloud, in the points' unit and frame. Without a valid point,
+/// Box, k-DOP, centroid and covariance of a cloud, in the points' unit and frame. Without a valid point,
 /// centroid and covariance are zero and the volumes are empty.
-struct CloudSummary {
-  /// Supports along the 13 directions of dop26, with points. Also holds the counts `used` and `dropped`.
-  Supports supports;
+struct CloudSummary : EstimationResult {
+  Aabb aabb;   ///< The box of fit_aabb().
+  Kdop dop26;  ///< The k-DOP of fit_kdop() along the 13 directions of KdopSet::dop26().
 
   /// Mean of the valid points, which is inside their box. For at most 2^b blocks of 1024 points, the error of
   /// a coordinate is at most (175 + 30 b) 2^-53 of the extent, plus one rounding of the coordinate.
@@ -36,20 +35,11 @@ struct CloudSummary {
   /// whose largest extent is below 1e-99. For these it is a larger power of two, because their squares could
   /// underflow. The eigenvectors of the covariance do not depend on this factor.
   double covariance_scale = 1;
-
-  /// Returns the axis-aligned box of the points.
-  Aabb aabb() const { return aabb_of(supports); }
-
-  /// Returns the k-DOP of the points along the 26 directions.
-  Kdop dop26() const { return kdop_of(supports); }
-
-  /// Returns the status, the rank and the counts of the points.
-  EstimationResult result() const { return result_of(supports); }
 };
 
-/// Computes the supports, the centroid and the covariance of all valid points. O(n). Each chunk is read from
-/// memory once, because it is still in the cache when its moments are computed after its supports. The bits
-/// are the same for every execution. Another order of the points may round centroid and covariance
+/// Computes the box, the k-DOP, the centroid and the covariance of all valid points. O(n). Each chunk is read
+/// from memory once, because it is still in the cache when its moments are computed after its extreme points.
+/// The bits are the same for every execution. Another order of the points may round centroid and covariance
 /// differently.
 ///
 /// The covariance uses the shifted formula in blocks of 1024 points, with sums of squares about a point of

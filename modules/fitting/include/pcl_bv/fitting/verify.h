@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 

@@ -8,7 +8,8 @@
 #include <array>
 #include <cstddef>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A ball around a few points, with the proof that it cannot be smaller.
 struct SmallBall {
@@ -38,4 +39,5 @@ struct SmallBall {
 /// saves the steps to that ball.
 SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const SmallBall* start = nullptr);
 
+}  // namespace detail
 }  // namespace pcl_bv

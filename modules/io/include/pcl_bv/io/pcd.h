@@ -8,7 +8,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -33,13 +33,13 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// are an error if the header says 0 points, as after a recorder stopped before it updated the header.
 /// RawCloud::note also reports a VIEWPOINT other than the identity, which is never applied.
 ///
-/// The policy's threads read the rows of text. The cloud and the error are the same for any number of
+/// The threads of the execution read the rows of text. The cloud and the error are the same for any number of
 /// threads. In addition to the cloud, ascii needs 0.3 MiB of memory per thread (more only if a row is
 /// longer), and binary_compressed needs the size of the file plus the size of the points.
 ///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent or
 /// of an unsupported type.
-RawCloud read_pcd(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
+RawCloud read_pcd(const std::filesystem::path& path, const Execution& execution = {Serial{}, Isa::scalar});
 
 /// Encodings of the points in a .pcd file, named as in the file's line DATA.
 enum class PcdEncoding { ascii, binary, binary_compressed };

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -20,12 +20,18 @@ std::string lower_case_extension(const std::filesystem::path& path);
 /// cannot be read. The error of read_cloud() says why.)
 bool is_cloud_name(const std::filesystem::path& path);
 
-/// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() with `bin_fields` for
-/// .bin, read_las() for .las and .laz, and read_pcd() for all others. The policy's threads read text. Throws
-/// IoError with the reason. For extensions of other known formats (meshes, recordings) the reason includes
-/// advice.
-RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{},
-                    std::size_t bin_fields = 0);
+/// Options of read_cloud().
+struct ReadOptions {
+  /// Number of float32 values per point of .bin files, of which the first three are x, y, z. 0 means 4, or 5
+  /// for names that end in .pcd.bin (nuScenes).
+  std::size_t bin_fields = 0;
+};
+
+/// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() for .bin, read_las() for
+/// .las and .laz, and read_pcd() for all others. The threads of the execution read text. Throws IoError with
+/// the reason. For extensions of other known formats (meshes, recordings) the reason includes advice.
+RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
+                    const Execution& execution = {Serial{}, Isa::scalar});
 
 /// The content of a cloud file's header.
 struct CloudHeader {
@@ -36,6 +42,6 @@ struct CloudHeader {
 
 /// Reads the header of a cloud file. The points are not read. A later read can therefore still find that the
 /// file is cut or damaged. Throws as read_cloud().
-CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields = 0);
+CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace pcl_bv

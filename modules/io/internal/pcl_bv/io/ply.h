@@ -8,7 +8,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -21,6 +21,6 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// anything is allocated. Data after the vertices is ignored, with two exceptions for files whose last
 /// element is `vertex`. Further rows of an ascii file are an error. Further vertices of a binary file are
 /// reported in RawCloud::note. Numbers, threads and errors are as in read_pcd().
-RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
+RawCloud read_ply(const std::filesystem::path& path, const Execution& execution = {Serial{}, Isa::scalar});
 
 }  // namespace pcl_bv

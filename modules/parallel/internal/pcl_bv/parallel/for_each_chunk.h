@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace internal {

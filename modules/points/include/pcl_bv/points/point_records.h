@@ -5,10 +5,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "pcl_bv/points/point_view.h"
 
@@ -40,22 +40,22 @@ PointView view_records(const Record* records, std::size_t count) {
   return view;
 }
 
-/// Returns a view of the points of a cloud that an index list selects, in the order of the list. The cloud
-/// must be whole and in memory; the list must outlive the view. Throws std::out_of_range, naming the index,
-/// if an index is outside the cloud, and std::invalid_argument if the cloud is a slice, has an index list or
-/// has a source.
-inline PointView select_points(const PointView& cloud, const std::int32_t* indices, std::size_t count) {
-  if (cloud.source != nullptr || cloud.indices != nullptr || cloud.first != 0)
-    throw std::invalid_argument("select_points: the cloud must be whole and in memory");
-  for (std::size_t i = 0; i < count; ++i) {
-    if (indices[i] >= 0 && static_cast<std::size_t>(indices[i]) < cloud.count) continue;
-    throw std::out_of_range("point index " + std::to_string(indices[i]) + " is outside the cloud of " +
-                            std::to_string(cloud.count) + " points");
+/// Returns a view of a vector of points: of structs with members x, y, z as view_records() takes them, or of
+/// fixed-size arrays of float or double whose first three elements are x, y, z, such as Eigen::Vector3f,
+/// Eigen::Vector4d or std::array<float, 3>. The vector must outlive the view.
+template <typename Record, typename Allocator>
+PointView view(const std::vector<Record, Allocator>& points) {
+  if constexpr (has_xyz<Record>::value) {
+    return view_records(points.data(), points.size());
+  } else {
+    using Scalar = std::remove_cv_t<std::remove_pointer_t<decltype(std::declval<const Record&>().data())>>;
+    static_assert(std::is_trivially_destructible_v<Record> && sizeof(Record) >= 3 * sizeof(Scalar),
+                  "the point type must hold at least three coordinates itself");
+    if (points.empty()) return {};
+    return PointView::of(points.data()->data(), sizeof(Record), points.size());
   }
-  PointView view = cloud;
-  view.indices = indices;
-  view.count = count;
-  return view;
 }
+template <typename Record, typename Allocator>
+PointView view(const std::vector<Record, Allocator>&& points) = delete;  // the view would outlive the points
 
 }  // namespace pcl_bv

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <vector>
 
 #include "pcl_bv/numeric/coordinates.h"
 
@@ -54,7 +55,7 @@ struct PointView {
 
   /// Returns a view of float or double points (other types do not compile). `xyz` points to x of the first
   /// point; points are `stride` bytes apart, and all `stride` bytes are readable (x is the first member of
-  /// the record). Indices are not checked; select_points() (point_records.h) checks them.
+  /// the record). Indices are not checked; subset() checks them.
   template <typename T, typename = std::enable_if_t<std::is_same_v<T, float> || std::is_same_v<T, double>>>
   static PointView of(const T* xyz, std::size_t stride, std::size_t count,
                       const std::int32_t* indices = nullptr) {
@@ -88,6 +89,17 @@ struct PointView {
   /// Returns the number of bytes from a point's x to its y, and from its y to its z.
   std::size_t step() const { return order == PointOrder::records ? size_of(scalar) : kGroupBytes; }
 
+  /// Returns a view of the points of the cloud with these indices, in the order of `indices`, which must
+  /// outlive the view. An index is a value of index(). O(size), or O(size + count) for a view with an index
+  /// list. Throws std::out_of_range, naming the index, for an index below or above those of this view, and
+  /// std::invalid_argument for points of a source, which can only be visited in their order.
+  PointView subset(const std::int32_t* selected, std::size_t size) const;
+  PointView subset(const std::vector<std::int32_t>& selected) const {
+    return subset(selected.data(), selected.size());
+  }
+  PointView subset(std::vector<std::int32_t>&& selected) const =
+      delete;  // the view would outlive the indices
+
   /// Returns a view of the visited points [begin, begin + n). index() of the returned view is still the index
   /// in the cloud.
   PointView slice(std::size_t begin, std::size_t n) const {
@@ -102,6 +114,24 @@ struct PointView {
     return part;
   }
 };
+
+/// Lists of point indices, one list after the other. Clusters are such lists.
+struct IndexLists {
+  std::vector<std::int32_t> indices;    ///< All lists, concatenated.
+  std::vector<std::size_t> offsets{0};  ///< Start of each list in `indices`; size() + 1 entries.
+
+  /// Returns the number of lists.
+  std::size_t size() const { return offsets.size() - 1; }
+  bool empty() const { return size() == 0; }
+  /// Returns the number of indices in list i.
+  std::size_t list_size(std::size_t i) const { return offsets[i + 1] - offsets[i]; }
+  /// Returns the first index of list i.
+  const std::int32_t* list(std::size_t i) const { return indices.data() + offsets[i]; }
+};
+
+/// Returns one view for each list, of the points of `points` with these indices. The lists must outlive the
+/// views. O(points + indices). Throws as PointView::subset().
+std::vector<PointView> subsets(const PointView& points, const IndexLists& lists);
 
 /// Returns a view of `count` points whose coordinates x, y, z follow one another without gaps. `first` is the
 /// index of the first point in its cloud.

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 
@@ -30,6 +30,6 @@ struct CloudStatistics {
 /// The box and the spacing ignore invalid points and points at (0, 0, 0). The spacing is the median, over at
 /// most 1000 evenly selected points, of the exact distance to the nearest other point. It is missing if fewer
 /// than two points are left. The cost is O(n) if the spacing is similar in all parts of the cloud.
-CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& policy = Serial{});
+CloudStatistics cloud_statistics(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

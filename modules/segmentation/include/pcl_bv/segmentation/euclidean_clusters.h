@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -25,8 +25,8 @@ enum class Oversized : std::uint8_t {
   split
 };
 
-/// Settings of a clustering.
-struct ClusterSettings {
+/// Options of a clustering.
+struct ClusterOptions {
   /// Points nearer to each other than this are linked. Unit of the points; finite and > 0.
   float tolerance;
   /// Clusters with fewer points are dropped.
@@ -48,22 +48,12 @@ struct ClusterSettings {
 };
 
 /// The clusters of a cloud. The largest cluster is first; clusters of equal size are ordered by their
-/// smallest point index. Reusing an object reuses its memory.
-struct Clusters {
-  /// Point indices of all clusters, concatenated. Within a cluster they are ascending.
-  std::vector<std::int32_t> indices;
-  std::vector<std::size_t> offsets{0};  ///< Start of each cluster in `indices`; size() + 1 entries.
-  std::size_t small_points = 0;         ///< Number of points in clusters with fewer than min_size points.
-  std::size_t large_points = 0;         ///< Number of points in clusters with more than max_size points.
-  std::size_t noise_points = 0;         ///< Number of points that are neither core points nor linked to one.
-  std::size_t class_points = 0;         ///< Number of points in dropped classes: ClassSettings::drop.
-
-  /// Returns the number of clusters.
-  std::size_t size() const { return offsets.size() - 1; }
-  /// Returns the number of points in cluster i.
-  std::size_t cluster_size(std::size_t i) const { return offsets[i + 1] - offsets[i]; }
-  /// Returns the indices of the points of cluster i.
-  const std::int32_t* cluster(std::size_t i) const { return indices.data() + offsets[i]; }
+/// smallest point index. Within a cluster the indices are ascending. Reusing an object reuses its memory.
+struct Clusters : IndexLists {
+  std::size_t small_points = 0;  ///< Number of points in clusters with fewer than min_size points.
+  std::size_t large_points = 0;  ///< Number of points in clusters with more than max_size points.
+  std::size_t noise_points = 0;  ///< Number of points that are neither core points nor linked to one.
+  std::size_t class_points = 0;  ///< Number of points in dropped classes: ClassOptions::drop.
 };
 
 /// Finds Euclidean clusters. These are the connected components of the graph that links two points if their
@@ -107,14 +97,18 @@ class EuclideanClusterer {
   /// min_points > 1 it retains 10 bytes per point and 16 bytes per block more. For 2^18 or more blocks, each
   /// call frees most of the memory for blocks before it returns.
   ///
-  /// Throws std::invalid_argument if a setting is outside its range or min_size > max_size, and
+  /// Throws std::invalid_argument if an option is outside its range or min_size > max_size, and
   /// std::length_error if a point index exceeds 2^31 - 1.
-  void extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
-               const ParallelPolicy& policy = Serial{});
+  void extract(const PointView& points, const ClusterOptions& options, Clusters& clusters,
+               const Execution& execution = {});
 
  private:
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };
+
+/// Finds the clusters of EuclideanClusterer with a single call. A program that finds clusters again and again
+/// saves allocations with an EuclideanClusterer of its own.
+Clusters cluster(const PointView& points, const ClusterOptions& options, const Execution& execution = {});
 
 }  // namespace pcl_bv

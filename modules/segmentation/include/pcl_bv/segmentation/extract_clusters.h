@@ -74,13 +74,13 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
   pcl::uindex_t getMaxClusterSize() const { return max_size_; }
 
-  /// Sets the number of points of DBSCAN's core condition (ClusterSettings::min_points). With the default of
+  /// Sets the number of points of DBSCAN's core condition (ClusterOptions::min_points). With the default of
   /// 1 every point is a core point.
   void setMinPoints(pcl::uindex_t points) { min_points_ = points; }
   pcl::uindex_t getMinPoints() const { return min_points_; }
 
   /// Sets the growth of the tolerance with the distance from the origin
-  /// (ClusterSettings::tolerance_per_metre). Default 0.
+  /// (ClusterOptions::tolerance_per_metre). Default 0.
   void setToleranceGrowth(double per_metre) { per_metre_ = per_metre; }
   double getToleranceGrowth() const { return per_metre_; }
 
@@ -90,7 +90,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
 
   /// Sets the number of threads of extract(). 0 means all processors. The default of 1 means the calling
   /// thread. The number never changes the result.
-  void setNumberOfThreads(unsigned threads) { policy_ = Threads{threads}; }
+  void setNumberOfThreads(unsigned threads) { execution_ = Threads{threads}; }
 
   /// Replaces `clusters` by the clusters of the input cloud, or of its points given to setIndices(). The
   /// largest clusters are first. The indices of each cluster are ascending. Each cluster has the header of
@@ -101,13 +101,13 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   /// exceeds the largest, if the growth is not finite and >= 0, or if the growth is not 0 and setMinPoints()
   /// was given more than 1.
   void extract(std::vector<pcl::PointIndices>& clusters) {
-    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_, min_points_,
-                                   static_cast<float>(per_metre_), oversized_};
-    clusterer_.extract(view(), settings, found_, policy_);
+    const ClusterOptions options{static_cast<float>(tolerance_), min_size_, max_size_, min_points_,
+                                 static_cast<float>(per_metre_), oversized_};
+    clusterer_.extract(view(), options, found_, execution_);
     clusters.resize(found_.size());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
       clusters[i].header = input_->header;
-      clusters[i].indices.assign(found_.cluster(i), found_.cluster(i) + found_.cluster_size(i));
+      clusters[i].indices.assign(found_.list(i), found_.list(i) + found_.list_size(i));
     }
   }
 
@@ -117,7 +117,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
                   "PCL is built with an index type other than 32-bit integers");
     if (!input_) throw std::logic_error("EuclideanClusterExtraction: call setInputCloud() before extract()");
     const PointView cloud = view_records(input_->points.data(), input_->size());
-    return indices_ ? select_points(cloud, indices_->data(), indices_->size()) : cloud;
+    return indices_ ? cloud.subset(indices_->data(), indices_->size()) : cloud;
   }
 
   using pcl::PCLBase<PointT>::input_;
@@ -130,7 +130,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   pcl::uindex_t min_points_ = 1;
   double per_metre_ = 0;
   Oversized oversized_ = Oversized::drop;
-  ParallelPolicy policy_ = Serial{};
+  Execution execution_;
   EuclideanClusterer clusterer_;
   Clusters found_;
 };

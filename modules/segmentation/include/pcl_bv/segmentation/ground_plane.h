@@ -13,8 +13,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Settings of split_ground().
-struct GroundPlaneSettings {
+/// Options of split_ground().
+struct GroundPlaneOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
   /// Points at most this far above the plane are ground; metres, > 0.
   double distance = 0.2;
@@ -50,7 +50,7 @@ struct GroundSplit {
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
-  /// Centre of the rings of GroundZones. A position given in the settings is not checked. split_ground() does
+  /// Centre of the rings of GroundZones. A position given in the options is not checked. split_ground() does
   /// not set it.
   SensorPosition sensor{};
   /// Whether GroundZones found no plane and assumed level ground at sensor_height. Not set by split_ground().
@@ -79,12 +79,15 @@ struct GroundSplit {
 /// - No plane is within the limits.
 /// - Each plane has at least a third as many points below it as near it.
 ///
-/// The same points, settings and seed give the same bits. The cost is O(n) in addition to a search of
-/// constant cost. `split` retains 8 bytes per point for the next call. Throws std::invalid_argument for a
-/// setting outside its range and std::length_error if a point index exceeds 2^31 - 1.
+/// The same points and options give the same bits. The cost is O(n) in addition to a search of
+/// constant cost. `split` retains 8 bytes per point for the next call. Throws std::invalid_argument for an
+/// option outside its range and std::length_error if a point index exceeds 2^31 - 1.
 ///
 /// Source: RANSAC (Fischler, Bolles 1981) with the truncated cost MSAC (Torr, Zisserman 2000), then least
 /// squares.
-void split_ground(const PointView& points, const GroundPlaneSettings& settings, GroundSplit& split);
+void split_ground(const PointView& points, const GroundPlaneOptions& options, GroundSplit& split);
+
+/// Returns the split as a new object.
+GroundSplit split_ground(const PointView& points, const GroundPlaneOptions& options = {});
 
 }  // namespace pcl_bv

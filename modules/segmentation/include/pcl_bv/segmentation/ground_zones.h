@@ -10,15 +10,15 @@
 #include <memory>
 #include <optional>
 
-#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 #include "pcl_bv/segmentation/sensor_position.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Settings of GroundZones.
-struct GroundZonesSettings {
+/// Options of GroundZones.
+struct GroundZonesOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
   /// Centre of the rings in the frame of the cloud, metres. If not given, the centre is the origin if the
   /// points lie around the origin, else the estimate of find_sensor().
@@ -68,16 +68,21 @@ class GroundZones {
   /// a sensor height is given, level ground at that height is assumed (GroundSplit::assumed_level). Without a
   /// height nothing is found and all valid points are in `rest`.
   ///
-  /// The same points and settings give the same bits for any number of threads. O(n). Memory of about 40
+  /// The same points and options give the same bits for any number of threads. O(n). Memory of about 40
   /// bytes per point is retained for the next call, which does not allocate for a similar cloud. Throws
-  /// std::invalid_argument for a setting outside its range and std::length_error if a point index exceeds
+  /// std::invalid_argument for an option outside its range and std::length_error if a point index exceeds
   /// 2^31 - 1.
-  void split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split,
-             const ParallelPolicy& policy = Serial{});
+  void split(const PointView& points, const GroundZonesOptions& options, GroundSplit& split,
+             const Execution& execution = {});
 
  private:
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };
+
+/// Splits a cloud by GroundZones with a single call. A program that splits again and again saves allocations
+/// with a GroundZones object of its own.
+GroundSplit split_ground_by_zones(const PointView& points, const GroundZonesOptions& options = {},
+                                  const Execution& execution = {});
 
 }  // namespace pcl_bv

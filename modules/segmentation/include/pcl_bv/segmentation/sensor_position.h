@@ -41,9 +41,9 @@ struct OtherUp {
 /// Searches another up direction, in which many more points of the cloud are ground.
 ///
 /// The directions are z, -y (a camera's frame), y, -z, x, -x and (0, -1, -1) (a camera that looks down). They
-/// are tried in this order, with the distance and slope of `settings`. Directions close to settings.up are
-/// skipped. `found` is the share of ground points for settings.up. If it is above 0, only the direction
-/// opposite to settings.up is tried, because a wall may be larger than the ground. A direction is accepted if
+/// are tried in this order, with the distance and slope of `options`. Directions close to options.up are
+/// skipped. `found` is the share of ground points for options.up. If it is above 0, only the direction
+/// opposite to options.up is tried, because a wall may be larger than the ground. A direction is accepted if
 /// all of these hold:
 /// - It has a ground plane at least 0.2 m below `sensor`.
 /// - At most a tenth as many points are below the plane as near it.
@@ -51,9 +51,9 @@ struct OtherUp {
 /// - This share is at most 95 %, because a cloud of one plane has no clear up direction.
 ///
 /// Returns the first accepted direction. If there is none, returns nothing. Takes at most seven plane
-/// searches among 2048 points, some milliseconds each. Throws std::invalid_argument if settings.up is 0 or
-/// not finite. The other settings are not checked.
-std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneSettings& settings,
+/// searches among 2048 points, some milliseconds each. Throws std::invalid_argument if options.up is 0 or
+/// not finite. The other options are not checked.
+std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneOptions& options,
                                      const Eigen::Vector3d& sensor, double found);
 
 }  // namespace pcl_bv

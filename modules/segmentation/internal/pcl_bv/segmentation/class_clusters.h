@@ -11,12 +11,12 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Settings of one class.
-struct ClassSettings {
+/// Options of one class.
+struct ClassOptions {
   /// Value of the class.
   std::int64_t value = 0;
-  /// Settings of the clusters of this class.
-  ClusterSettings clusters;
+  /// Options of the clusters of this class.
+  ClusterOptions clusters;
   /// Whether the points of this class are left out of all clusters; Clusters::class_points counts them.
   bool drop = false;
 };
@@ -26,15 +26,14 @@ class ClassClusterer {
  public:
   /// Replaces `clusters` by the clusters of all classes. The largest cluster is first; clusters of equal size
   /// are ordered by their smallest point index. Sets class_of[i] to the class of cluster i. classes[i] is the
-  /// class of the point with index i. Classes without an entry in `class_settings` use `defaults`.
+  /// class of the point with index i. Classes without an entry in `class_options` use `defaults`.
   ///
   /// Without valid points there are no clusters. O(points * log(classes)) in addition to the clustering.
-  /// Throws as EuclideanClusterer::extract() does. Throws std::invalid_argument if `class_settings` has a
+  /// Throws as EuclideanClusterer::extract() does. Throws std::invalid_argument if `class_options` has a
   /// class twice or a point has no entry in `classes`.
   void extract(const PointView& points, const std::vector<std::int64_t>& classes,
-               const ClusterSettings& defaults, const std::vector<ClassSettings>& class_settings,
-               Clusters& clusters, std::vector<std::int64_t>& class_of,
-               const ParallelPolicy& policy = Serial{});
+               const ClusterOptions& defaults, const std::vector<ClassOptions>& class_options,
+               Clusters& clusters, std::vector<std::int64_t>& class_of, const Execution& execution = {});
 
  private:
   // The points of a class. Their indices are numbers_[end - count] to numbers_[end - 1].

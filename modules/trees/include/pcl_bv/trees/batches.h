@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/trees/point_tree.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

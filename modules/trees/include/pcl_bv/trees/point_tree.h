@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/packed_tree.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
@@ -55,7 +55,7 @@ class PointTree {
 
   /// Builds the tree of the view's valid points. dropped() returns the number of the other points. O(n log
   /// n). Throws std::invalid_argument unless the points are in memory, their number is at most 2^31 - 1,
-  /// their indices are at most 2^31 - 2 and Execution::supports is null.
+  /// and their indices are at most 2^31 - 2.
   explicit PointTree(const PointView& points, const Execution& execution = {}) { assign(points, execution); }
 
   /// Replaces the points by those of a view, like the constructor. Allocates only if there are more points

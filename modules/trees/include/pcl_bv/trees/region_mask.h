@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/region_states.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
@@ -54,7 +54,7 @@ class RegionMask {
   /// Resizes `inside` to points.count. Sets inside[i] to 1 if contains() holds for the i-th visited point,
   /// else to 0. Points with a NaN or an infinity get 0.
   ///
-  /// The result is the same for every Execution; Execution::supports is ignored. Exceptions of a PointSource
+  /// The result is the same for every Execution. Exceptions of a PointSource
   /// pass through. With at most kFewRegions regions, each point is tested against all regions, which is cheap
   /// for regions whose boxes are far away, and only `inside` is allocated. With more regions, the regions
   /// near each run of points are looked up in a tree if this is cheaper.

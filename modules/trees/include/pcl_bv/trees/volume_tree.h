@@ -12,21 +12,11 @@
 #include <optional>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
-
-/// Bounds of the tree's nodes. Every node has an axis-aligned box; 16 boxes are tested at a time. Slabs or
-/// spheres are tested in addition to the boxes and exclude more nodes. The kind of bounds changes no result.
-enum class NodeBounds : std::uint8_t {
-  aabb,  ///< Boxes only. They are the cheapest to build and to refit.
-  /// Boxes and slabs along the diagonals of the cube (Klosowski et al. 1998). Building takes five times as
-  /// long as with boxes only.
-  dop14,
-  sphere  ///< Boxes and spheres. Building takes twice as long as with boxes only.
-};
 
 /// A volume of a tree and the part of a ray inside the volume.
 struct VolumeHit {
@@ -66,24 +56,19 @@ class VolumeTree {
   /// A tree without volumes.
   VolumeTree();
 
-  /// Builds the tree. O(n log n). Takes 0.2 us per Sphere with boxes only. Takes 2.5 us per Obb, because its
-  /// aabb() is exact. The tree is the same for every Execution. Throws std::invalid_argument for more than
-  /// 2^31 - 1 volumes, or if Execution::supports is not null.
-  explicit VolumeTree(std::vector<AnyVolume> volumes, NodeBounds bounds = NodeBounds::aabb,
-                      const Execution& execution = {});
+  /// Builds the tree. O(n log n). Takes 0.2 us per Sphere and 2.5 us per Obb, because its aabb() is exact.
+  /// The tree is the same for every Execution. Throws std::invalid_argument for more than 2^31 - 1 volumes.
+  explicit VolumeTree(std::vector<AnyVolume> volumes, const Execution& execution = {});
 
   /// Replaces each volume by the volume of the same index, e.g. after the volumes have moved. O(n).
   ///
   /// Queries give the same results as on a new tree. A new tree is faster to query if the volumes have moved
-  /// far. Throws std::invalid_argument, and changes nothing, if the number of volumes differs or
-  /// Execution::supports is not null.
+  /// far. Throws std::invalid_argument, and changes nothing, if the number of volumes differs.
   void refit(std::vector<AnyVolume> volumes, const Execution& execution = {});
 
   std::size_t size() const;  ///< Number of volumes, including empty ones.
   /// Returns the volumes in the order of their indices.
   const std::vector<AnyVolume>& volumes() const;
-  /// Returns the kind of bounds of the nodes.
-  NodeBounds node_bounds() const;
 
   /// Returns whether contains() holds for any volume.
   bool any_containing(const Eigen::Vector3d& point) const;

@@ -18,7 +18,7 @@ namespace pcl_bv {
 /// cloud must be dense and not organised, because PCL's tree requires this.
 template <typename PointT>
 void extract_reference_clusters(const typename pcl::PointCloud<PointT>::ConstPtr& cloud,
-                                const ClusterSettings& settings, Clusters& clusters) {
+                                const ClusterOptions& settings, Clusters& clusters) {
   pcl::EuclideanClusterExtraction<PointT> extraction;
   extraction.setClusterTolerance(settings.tolerance);
   extraction.setMinClusterSize(static_cast<pcl::uindex_t>(settings.min_size));

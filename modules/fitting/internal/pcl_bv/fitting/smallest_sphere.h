@@ -10,11 +10,13 @@
 #include <cstddef>
 #include <functional>
 
-#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_into.h"
+#include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/distances.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A point outside a sphere. If squared_distance < 0, there is no such point.
 struct FarPoint {
@@ -48,4 +50,14 @@ bool answer_farthest(const PointView& points, const DistanceCenter& center, doub
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate);
 
+/// Fits the smallest sphere of all points of a Partial. Points that the Partial does not store are queried
+/// through `farthest`. The result has the same bits as pcl_bv::fit_smallest_sphere() for the whole cloud, for
+/// any number of points. This requires that `farthest` answers for the same points, with their numbers in the
+/// whole cloud as indices. `farthest` is not called if all points are stored. Exceptions of `farthest` are
+/// passed on.
+Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
+                                                         const FarthestQuery& farthest,
+                                                         const Execution& execution = {});
+
+}  // namespace detail
 }  // namespace pcl_bv

@@ -1,31 +1,46 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bounds of a VolumeTree's nodes against their definitions in long double: never beyond what they bound, and
-// no looser than their margins say.
+// Bounds of queries against a VolumeTree's boxes, compared with their definitions in long double. They are
+// never beyond what they bound, and no looser than their margins say.
 
-#include "node_shapes.h"
+#include "box_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
+
+#include "scattered_volumes.h"
+#include "vectors.h"
 
 namespace pcl_bv {
 namespace {
 
 using namespace testing;
-Real distance_to(const Shape& shape, NodeBounds kind, const RealVector& p) {
-  if (kind == NodeBounds::sphere) return (p - shape.center).norm() - shape.radius;
-  Real farthest = 0;
-  for (const Slab& slab : shape.slabs) {
-    const Real s = slab.direction.dot(p);
-    farthest = std::max(farthest, std::max(slab.low - s, s - slab.high) / std::sqrt(3.0L));
-  }
-  return farthest;
-}
+using Real = long double;
+using RealVector = Eigen::Matrix<Real, 3, 1>;
 
-// Where a ray is between the sides of slabs and in a ball, grown; infinity where nothing is left.
+constexpr Real kFar = std::numeric_limits<Real>::infinity();
+
+struct Slab {
+  RealVector direction;
+  Real low, high;
+};
+
+struct Tree {
+  VolumeBoxes boxes;
+
+  explicit Tree(const std::vector<AnyVolume>& volumes) {
+    std::vector<PositionBounds> extents;
+    std::transform(volumes.begin(), volumes.end(), std::back_inserter(extents), extent_of);
+    boxes.build(extents, Serial{});
+  }
+};
+
+// Where a ray enters the slabs, each extended by `growth` on both sides; infinity where it misses them.
 Real enters(const std::vector<Slab>& slabs, const FrameRay& ray, Real growth) {
   const RealVector at = ray.from.at.cast<Real>(), u = ray.u.cast<Real>();
   Real enter = 0, exit = kFar;
@@ -40,17 +55,6 @@ Real enters(const std::vector<Slab>& slabs, const FrameRay& ray, Real growth) {
   return enter - ray.underflow_margin <= exit + ray.underflow_margin
              ? std::max(0.0L, enter - ray.underflow_margin)
              : kFar;
-}
-
-Real enters(const Shape& shape, NodeBounds kind, const FrameRay& ray, Real growth) {
-  if (kind == NodeBounds::dop14) return enters(shape.slabs, ray, growth);
-  const RealVector u = ray.u.cast<Real>(), q = shape.center - ray.from.at.cast<Real>();
-  const Real radius = shape.radius + growth, nearest = q.dot(u) / u.squaredNorm();
-  const Real half = radius * radius - (q - nearest * u).squaredNorm();
-  if (!(radius >= 0 && half >= 0)) return kFar;
-  const Real reach = std::sqrt(half / u.squaredNorm());
-  return nearest + reach >= -2 * ray.underflow_margin ? std::max(0.0L, nearest - reach - ray.underflow_margin)
-                                                      : kFar;
 }
 
 std::vector<Slab> sides(const BoxGroup& group, std::size_t k) {
@@ -87,8 +91,7 @@ std::vector<Tree> trees() {
       for (std::size_t i = 0; scale.offset == 0 && count > 9 && i < 20; ++i)
         volumes[i] = odd_volumes(scale.extent)[i % 12];
       if (scale.offset == 0 && count > 9) volumes[20] = missing_slabs(scale.extent);
-      for (const NodeBounds kind : {NodeBounds::dop14, NodeBounds::sphere})
-        all.emplace_back(volumes, kind);
+      all.emplace_back(volumes);
     }
   }
   return all;
@@ -99,41 +102,6 @@ Vector3d place_in(Random& random, const Tree& tree, int i) {
   constexpr std::array<double, 6> spans = {1, 0.1, 3, 30, 1e3, 1e6};
   return vector(tree.boxes.levels().origin) +
          random.vector(spans[static_cast<std::size_t>(i) % spans.size()]) / tree.boxes.levels().scale;
-}
-
-TEST(NodeBounds, DistancesAreThoseToTheShapesLessTheSlack) {
-  Random random(32);
-  std::size_t apart = 0;
-  for (const Tree& tree : trees()) {
-    for (int i = 0; i < 18; ++i) {
-      const Vector3d p = place_in(random, tree, i);
-      const FramePoint place(tree.boxes, coordinates(p));
-      ASSERT_EQ(place.margin, VolumeBoxes::margin(place.at.cwiseAbs().maxCoeff()));
-      for (std::size_t n = 0; n < tree.expected.size(); ++n) {
-        const Shape& shape = tree.expected[n];
-        const double found = tree.shapes.distance(n, place);
-        const Real expected = std::max(
-            0.0L, distance_to(shape, tree.kind, place.at.cast<Real>()) - 2 * static_cast<Real>(place.margin));
-        if (expected < kFar) {
-          const Real rounding = 1e-12L * (1 + std::abs(expected));
-          const Real above = tree.kind == NodeBounds::dop14 ? 0 : shape.tolerance;
-          ASSERT_LE(found, expected + above + rounding) << n;
-          ASSERT_GE(found, expected - shape.tolerance - rounding) << n;
-        } else {
-          ASSERT_EQ(found, kInfinity);
-        }
-        const std::uint32_t bits = 0x5a5aU << n % 2;
-        ASSERT_EQ(tree.shapes.may_contain(n / kTreeWidth, bits, place) >> n % kTreeWidth & 1U,
-                  found == 0 ? bits >> n % kTreeWidth & 1U : 0U);
-        apart += found > 0 && found < kInfinity;
-        for (const std::uint32_t number : shape.volumes) {
-          if (empty(tree.volumes[number]) || found == 0 || found == kInfinity) continue;
-          ASSERT_LE(found, distance(tree.volumes[number], p) * tree.boxes.levels().scale);
-        }
-      }
-    }
-  }
-  EXPECT_GT(apart, 10000U);
 }
 
 std::vector<FrameRay> rays_through(Random& random, const Tree& tree) {
@@ -163,27 +131,7 @@ void expect_between(double found, Real first, Real last) {
   ASSERT_LE(found, last + 1e-9L * (1 + last));
 }
 
-TEST(NodeBounds, RaysEnterTheShapesGrownByFourTimesTheSlack) {
-  Random random(33);
-  std::size_t hits = 0, misses = 0;
-  for (const Tree& tree : trees()) {
-    for (const FrameRay& ray : rays_through(random, tree)) {
-      for (std::size_t n = 0; n < tree.expected.size(); ++n) {
-        const Shape& shape = tree.expected[n];
-        const Real slack = ray.from.margin, room = shape.tolerance + 0.02L * slack;
-        const double found = tree.shapes.enter(n, ray);
-        ASSERT_NO_FATAL_FAILURE(expect_between(found, enters(shape, tree.kind, ray, 4 * slack + room),
-                                               enters(shape, tree.kind, ray, 4 * slack - room)))
-            << n << " at " << ray.from.at.transpose() << " to " << ray.u.transpose() << ", " << shape.radius;
-        (found < kInfinity ? hits : misses) += found > 0;
-      }
-    }
-  }
-  EXPECT_GT(hits, 1000U);
-  EXPECT_GT(misses, 1000U);
-}
-
-TEST(NodeBounds, BoxesAreAsFarAndEnteredAsTheirSidesSay) {
+TEST(BoxBounds, BoxesAreAsFarAndEnteredAsTheirSidesSay) {
   Random random(34);
   for (const Tree& tree : trees()) {
     const std::vector<BoxGroup>& groups = tree.boxes.levels().groups;
@@ -206,13 +154,6 @@ TEST(NodeBounds, BoxesAreAsFarAndEnteredAsTheirSidesSay) {
       }
     }
   }
-}
-
-TEST(NodeBounds, OfBoxesAloneAreNone) {
-  const Tree tree({Sphere({1, 2, 3}, 1), Sphere()}, NodeBounds::aabb);
-  EXPECT_TRUE(tree.shapes.none());
-  EXPECT_FALSE(Tree(tree.volumes, NodeBounds::sphere).shapes.none());
-  EXPECT_FALSE(Tree(tree.volumes, NodeBounds::dop14).shapes.none());
 }
 
 }  // namespace

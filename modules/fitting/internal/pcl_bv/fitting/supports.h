@@ -10,15 +10,18 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+struct Moments;
+
+namespace [[gnu::visibility("default")]] detail {
 
 /// Minimum and maximum projection n . p of all points p along one direction n. The unit is that of the
 /// coordinates times the length of n.
@@ -36,7 +39,6 @@ enum class SupportDetail {
 };
 
 struct LocalHull;
-struct Moments;
 
 /// Supports of a cloud along directions of the cube.
 struct Supports {
@@ -55,16 +57,28 @@ struct Supports {
   std::shared_ptr<const Moments> moments;
 };
 
+/// An Execution and, for fits that begin with supports, the supports of the points if they are known already.
+struct FitExecution : Execution {
+  FitExecution() = default;
+  FitExecution(const Execution& execution, const Supports* known = nullptr)
+      : Execution(execution), supports(known) {}
+
+  /// The result of find_supports() for the points of the fit, or null. A fit saves a pass over the points if
+  /// the directions and the detail that it needs are in `supports`. Throws std::invalid_argument if they were
+  /// found for another view (same_memory() in point_view.h).
+  const Supports* supports = nullptr;
+};
+
 /// Finds the supports of all valid points along the directions of `set`. Without a valid point, `used` is 0
 /// and all values of `along` are 0. The bits are the same for every execution.
 ///
 /// Takes one SIMD pass over the points in chunks. The few points of each chunk that can be extreme are
-/// compared exactly (docs/numerics.md). If Execution::supports already has the supports, no pass is needed.
-/// Throws std::invalid_argument if Execution::supports were found for other points. The rank takes up to five
-/// more passes if the points are flat to 2^-30 of their extent, unless their plane is perpendicular to a
-/// coordinate axis.
+/// compared exactly (docs/numerics.md). If FitExecution::supports already has the supports, no pass is
+/// needed. Throws std::invalid_argument if FitExecution::supports were found for other points. The rank takes
+/// up to five more passes if the points are flat to 2^-30 of their extent, unless their plane is
+/// perpendicular to a coordinate axis.
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
-                       const Execution& execution);
+                       const FitExecution& execution = {});
 
 /// Returns the volume that the supports bound: the axis-aligned box or the k-DOP of all directions. It is
 /// empty without a valid point.
@@ -86,8 +100,9 @@ struct CustomSupports {
 /// compared exactly, which takes 50 ns for each point and direction.
 ///
 /// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
-/// between 1e-30 and 1e30 in magnitude, and if Execution::supports were found for other points.
+/// between 1e-30 and 1e30 in magnitude, and if FitExecution::supports were found for other points.
 CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                             const Execution& execution = {});
+                             const FitExecution& execution = {});
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Where a computation runs: its threads and its instruction set.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <type_traits>
+#include <utility>
 #include <variant>
+
+#include "pcl_bv/points/isa.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -58,5 +63,19 @@ unsigned thread_count(const ParallelPolicy& policy);
 /// Returns the same policy with at most `threads` threads (0 is treated as 1). For one thread this is Serial.
 /// Throws like thread_count().
 ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
+
+/// The threads and the instruction set of a computation. Neither changes a bit of its result.
+///
+/// A policy converts to an Execution, so a function that takes an Execution also takes `Threads{4}`.
+struct Execution {
+  Execution() = default;
+
+  /// `isa` `automatic` is resolved here, not when the Execution is copied; see UsableIsa.
+  template <typename Policy, typename = std::enable_if_t<std::is_convertible_v<Policy, ParallelPolicy>>>
+  Execution(Policy policy, UsableIsa instructions = {}) : parallel(std::move(policy)), isa(instructions) {}
+
+  ParallelPolicy parallel = Serial{};  ///< The threads.
+  UsableIsa isa;                       ///< The instruction set; by default Isa::automatic, resolved.
+};
 
 }  // namespace pcl_bv

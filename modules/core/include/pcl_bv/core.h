@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Everything for points in memory, without PCL: views of points, ground and clusters, fits, proofs, and trees.
+// Link pcl_bv::core.
+#pragma once
+
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/partial.h"
+#include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/parallel/execution.h"
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_records.h"
+#include "pcl_bv/points/point_source.h"
+#include "pcl_bv/points/point_view.h"
+#include "pcl_bv/segmentation/cloud_statistics.h"
+#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/trees/batches.h"
+#include "pcl_bv/trees/collision.h"
+#include "pcl_bv/trees/point_tree.h"
+#include "pcl_bv/trees/posed_tree.h"
+#include "pcl_bv/trees/region_mask.h"
+#include "pcl_bv/trees/volume_tree.h"
+#include "pcl_bv/volumes/any_volume.h"
+#include "pcl_bv/volumes/frustum.h"
+#include "pcl_bv/volumes/pair_queries.h"

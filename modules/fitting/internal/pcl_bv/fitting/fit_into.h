@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The fits behind fit.h. They write into an existing volume, whose memory they reuse, and they can begin with
+// supports that are known already.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/supports.h"
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution& execution);
+/// Stores the points that touch the slabs in `touching`, unless it is null.
+EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
+                          SlabPoints* touching, const FitExecution& execution);
+EstimationResult fit_sphere(const PointView& points, const SphereOptions& options, Sphere& sphere,
+                            const FitExecution& execution);
+EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
+                                     const FitExecution& execution);
+EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
+                         const FitExecution& execution);
+EstimationResult fit_hull(const PointView& points, Hull& hull, const FitExecution& execution);
+EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const FitExecution& execution);
+EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const FitExecution& execution);
+EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
+                               EllipsoidCertificate& certificate, const FitExecution& execution);
+EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
+                              const MethodOptions& options, AnyVolume& volume, const Method*& winner,
+                              const FitExecution& execution);
+
+/// The implementation of a method.
+struct MethodFit {
+  EstimationResult (*fit)(const PointView&, const MethodOptions&, AnyVolume&, const FitExecution&);
+  std::optional<DirectionSet> directions;  ///< Directions whose supports the method finds first, if any.
+  bool needs_hull = false;                 ///< Whether the method needs the convex hull.
+};
+
+/// Fits the method to the points.
+EstimationResult fit_method(const Method& method, const PointView& points, const MethodOptions& options,
+                            AnyVolume& volume, const FitExecution& execution);
+
+/// Prepares the fits of several methods to the same points. If two or more of the methods find supports
+/// first, and not only along the coordinate axes, these supports are found once. If two or more methods need
+/// the convex hull, it is computed once, with the supports along dop26. The results are stored in `supports`,
+/// which must outlive the returned execution. If neither case applies, `supports` is unused.
+FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
+                            const FitExecution& execution, Supports& supports);
+
+}  // namespace detail
+}  // namespace pcl_bv

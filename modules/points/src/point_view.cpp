@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/points/point_view.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace pcl_bv {
+namespace {
+
+// The smallest index of a view, and the number after the largest.
+struct IndexRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+IndexRange range_of(const PointView& points) {
+  if (points.source != nullptr)
+    throw std::invalid_argument("subset: the points must be in memory, not in a source");
+  if (points.indices == nullptr) return {points.first, points.first + points.count};
+  const auto [low, high] = std::minmax_element(points.indices, points.indices + points.count);
+  if (points.count == 0) return {};
+  return {static_cast<std::size_t>(*low), static_cast<std::size_t>(*high) + 1};
+}
+
+PointView select(const PointView& points, const IndexRange& range, const std::int32_t* selected,
+                 std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto index = static_cast<std::size_t>(selected[i]);
+    if (selected[i] >= 0 && index >= range.begin && index < range.end) continue;
+    throw std::out_of_range(
+        "point index " + std::to_string(selected[i]) + " is outside the cloud, whose indices are " +
+        (range.begin == range.end ? std::string("none")
+                                  : std::to_string(range.begin) + " to " + std::to_string(range.end - 1)));
+  }
+  PointView view = points;
+  // Without an index list, `data` of records is the address of point number `first`.
+  if (points.indices == nullptr && points.data != nullptr && points.order == PointOrder::records)
+    view.data -= points.stride * points.first;
+  view.first = 0;
+  view.indices = selected;
+  view.count = size;
+  return view;
+}
+
+}  // namespace
+
+PointView PointView::subset(const std::int32_t* selected, std::size_t size) const {
+  return select(*this, range_of(*this), selected, size);
+}
+
+std::vector<PointView> subsets(const PointView& points, const IndexLists& lists) {
+  const IndexRange range = range_of(points);
+  std::vector<PointView> views;
+  views.reserve(lists.size());
+  for (std::size_t i = 0; i < lists.size(); ++i)
+    views.push_back(select(points, range, lists.list(i), lists.list_size(i)));
+  return views;
+}
+
+}  // namespace pcl_bv

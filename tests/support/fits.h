@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Fits whose volume and result a test wants apart.
+#pragma once
+
+#include <utility>
+
+#include "pcl_bv/fitting/result.h"
+
+namespace pcl_bv::test {
+
+/// Moves the volume of a fit to `volume` and returns the result of the fit.
+template <typename VolumeT>
+EstimationResult take(Fitted<VolumeT>&& fitted, VolumeT& volume) {
+  volume = std::move(fitted.volume);
+  return fitted;
+}
+
+/// Moves the proof to `certificate`, too.
+template <typename VolumeT, typename CertificateT>
+EstimationResult take(Certified<VolumeT, CertificateT>&& fitted, VolumeT& volume, CertificateT& certificate) {
+  certificate = std::move(fitted.certificate);
+  return take(static_cast<Fitted<VolumeT>&&>(fitted), volume);
+}
+
+}  // namespace pcl_bv::test
