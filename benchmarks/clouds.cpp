@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "meshes.h"
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/synth/synth.h"
 #include "program.h"

@@ -15,10 +15,10 @@
 #include <stdexcept>
 
 #include "cluster_peers.h"
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
-#include "pcl_bv/segmentation/euclidean_clusters.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/segmentation/clusters.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 #include "timing.h"
 

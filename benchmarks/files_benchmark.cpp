@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "child_process.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/synth.h"
 #include "timing.h"
 

@@ -9,7 +9,7 @@
 
 #include <stdexcept>
 
-#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/fitting/fit.h"
 
 namespace pcl_bv::bench {
 namespace {

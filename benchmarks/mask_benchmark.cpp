@@ -14,7 +14,7 @@
 #include "convex_region.h"
 #include "inflated.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "rows.h"
 

@@ -11,8 +11,7 @@
 #include "meshes.h"
 #include "obb_peers.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/verify.h"
-#include "pcl_bv/points/point_records.h"
+#include "pcl_bv/points/point_view.h"
 #include "program.h"
 
 namespace pcl_bv::bench {

@@ -9,7 +9,7 @@
 
 #include "fits.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "rivals.h"
 #include "timing.h"
 

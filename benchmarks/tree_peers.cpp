@@ -10,7 +10,7 @@
 
 #include <limits>
 
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/trees/point_tree.h"
 
 #ifdef PCL_BV_BENCH_NANOFLANN

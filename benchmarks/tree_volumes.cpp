@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/trees/collision.h"
 #include "pcl_bv/trees/volume_tree.h"
 #include "pcl_bv/volumes/pair_queries.h"

@@ -19,7 +19,7 @@
 #include <random>
 #include <vector>
 
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/trees/point_tree.h"
 #include "timing.h"
 #include "tree_rows.h"

@@ -4,7 +4,7 @@
 // A ROS 2 component that receives clouds and publishes markers of the objects in each cloud.
 
 #include <pcl_bv/nodes/frame_pipeline.h>
-#include <pcl_bv/nodes/stream_config.h>
+#include <pcl_bv/nodes/stream_runner.h>
 #include <pcl_bv/nodes/topics.h>
 
 #include <rclcpp/rclcpp.hpp>

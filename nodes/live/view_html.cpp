@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "page.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pipeline/config/settings.h"

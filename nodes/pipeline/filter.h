@@ -14,7 +14,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/points/point_source.h"
-#include "pcl_bv/segmentation/counts.h"
+#include "pcl_bv/segmentation/clusters.h"
 #include "pcl_bv/trees/region_mask.h"
 
 namespace pcl_bv {

@@ -9,7 +9,7 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_source.h"
-#include "pcl_bv/segmentation/counts.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

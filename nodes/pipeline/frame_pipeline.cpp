@@ -16,7 +16,7 @@
 #include "ground.h"
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
 #include "synthetic_sweep.h"
 #include "tracked_volumes.h"

@@ -8,7 +8,8 @@
 
 #include "filter.h"
 #include "ground.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
+#include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
 

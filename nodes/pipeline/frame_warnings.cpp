@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/nodes/frame_warnings.h"
+#include "pcl_bv/nodes/frame_result.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "ground.h"
-#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
 

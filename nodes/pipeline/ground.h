@@ -5,7 +5,7 @@
 #pragma once
 
 #include "pcl_bv/nodes/pipeline_config.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/segmentation/ground.h"
 
 namespace pcl_bv {
 

@@ -3,7 +3,7 @@
 
 // The bins have equal width in the logarithm of the duration.
 
-#include "pcl_bv/nodes/latency.h"
+#include "pcl_bv/nodes/frame_result.h"
 
 #include <algorithm>
 #include <cmath>

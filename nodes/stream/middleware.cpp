@@ -11,7 +11,7 @@
 #include <map>
 #include <mutex>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace {

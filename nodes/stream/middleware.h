@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/nodes/remote_settings.h"
+#include "stream/remote_parameters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -4,7 +4,6 @@
 #include "bind.h"
 #include "labels.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/verify.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {

@@ -8,6 +8,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/report/csv.h"
 #include "pcl_bv/report/meshes.h"
+#include "pcl_bv/report/picture.h"
 #include "picture_object.h"
 #include "raw_cloud_array.h"
 #include "view_html.h"

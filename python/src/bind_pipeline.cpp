@@ -6,7 +6,7 @@
 #include "bind.h"
 #include "config_dict.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/nodes/frame_warnings.h"
+#include "pcl_bv/nodes/frame_result.h"
 #include "result_object.h"
 #include "volume_object.h"
 

@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "bind.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/report/read_volumes.h"

@@ -3,10 +3,10 @@
 
 #include "bind.h"
 #include "clusters_object.h"
-#include "pcl_bv/nodes/frame_warnings.h"
+#include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/cloud_statistics.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "segmentation_docs.h"
 #include "state.h"
 #include "volume_object.h"

@@ -4,8 +4,8 @@
 // The data of Python's Clusters and Ground.
 #pragma once
 
-#include "pcl_bv/segmentation/euclidean_clusters.h"
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/segmentation/clusters.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "precompiled.h"
 
 namespace pcl_bv::python {

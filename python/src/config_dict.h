@@ -5,7 +5,7 @@
 // file.
 #pragma once
 
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 #include "precompiled.h"
 
 namespace pcl_bv::python {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "bind.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 #include "pcl_bv/points/isa.h"
 
 namespace pcl_bv::python {

@@ -4,6 +4,7 @@
 #include "picture_object.h"
 
 #include "arguments.h"
+#include "pcl_bv/report/picture.h"
 #include "view_html.h"
 
 namespace pcl_bv::python {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "arrays.h"
+#include "pcl_bv/report/picture.h"
 #include "result_object.h"
 
 namespace pcl_bv::python {

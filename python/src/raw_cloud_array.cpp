@@ -6,8 +6,8 @@
 #include <set>
 
 #include "arguments.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::python {
 namespace {

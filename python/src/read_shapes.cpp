@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "pcl_bv/volumes/kdop_sets.h"
 #include "read_shapes.h"
 
 #include "arguments.h"
@@ -60,7 +61,7 @@ std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
   auto own = std::make_shared<const KdopSet>(std::move(directions));
   for (const DirectionSet set :
        {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
-    if (*KdopSet::of(set) == *own) return KdopSet::of(set);
+    if (*kdop_set_of(set) == *own) return kdop_set_of(set);
   }
   return own;
 }

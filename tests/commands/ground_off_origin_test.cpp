@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv::test {

@@ -11,8 +11,8 @@
 #include <random>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

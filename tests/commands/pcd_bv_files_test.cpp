@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {

@@ -10,8 +10,8 @@
 #include <map>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

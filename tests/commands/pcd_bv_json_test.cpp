@@ -12,7 +12,7 @@
 
 #include "command.h"
 #include "exact.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

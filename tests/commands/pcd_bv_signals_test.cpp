@@ -18,7 +18,7 @@
 #include <thread>
 
 #include "command.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"

@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "tiles.h"
 
 namespace pcl_bv::test {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dds_test.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 #include "stream/middleware.h"

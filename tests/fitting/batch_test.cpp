@@ -56,5 +56,55 @@ TEST(Batch, LetsExceptionsThrough) {
   EXPECT_THROW(for_each_view(views_of_sizes({10, 20}), {Threads{2}, Isa::scalar}, fail), std::runtime_error);
 }
 
+template <typename VolumeT, typename Fit>
+void expect_single_fits(const std::vector<Fitted<VolumeT>>& all, const std::vector<PointView>& views,
+                        const Fit& fit) {
+  ASSERT_EQ(all.size(), views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Fitted<VolumeT> single = fit(views[i]);
+    EXPECT_TRUE(*all[i] == *single) << i;
+    EXPECT_EQ(all[i].used, single.used) << i;
+    EXPECT_EQ(all[i].dropped, single.dropped) << i;
+    EXPECT_EQ(all[i].status, single.status) << i;
+    EXPECT_EQ(all[i].rank, single.rank) << i;
+  }
+}
+
+TEST(Clusters, AreFittedWithTheBitsOfSingleFits) {
+  test::TestCloud<float> cloud = test::gaussian<float>(600, 4);
+  cloud.xyz[0] = std::numeric_limits<float>::quiet_NaN();
+  IndexLists clusters;  // of 300, 200, 3 and no points; the last has only the invalid point
+  for (const auto& [begin, end] : {std::pair{0, 300}, {300, 500}, {500, 503}, {503, 503}, {0, 1}}) {
+    for (int i = begin; i < end; ++i)
+      clusters.indices.push_back(i);
+    clusters.offsets.push_back(clusters.indices.size());
+  }
+  const PointView points = cloud.view();
+  const std::vector<PointView> views = subsets(points, clusters);
+  for (const Execution& execution : {Execution(), Execution(Threads{3})}) {
+    expect_single_fits(fit_aabb(points, clusters, execution), views, [](auto& v) { return fit_aabb(v); });
+    expect_single_fits(fit_kdop(points, clusters, KdopSet::dop14(), execution), views,
+                       [](auto& v) { return fit_kdop(v, KdopSet::dop14()); });
+    expect_single_fits(fit_sphere(points, clusters, SphereMethod::epos6, execution), views,
+                       [](auto& v) { return fit_sphere(v, SphereMethod::epos6); });
+    expect_single_fits(fit_obb(points, clusters, ObbMethod::yaw, execution), views,
+                       [](auto& v) { return fit_obb(v, ObbMethod::yaw); });
+    expect_single_fits(fit_hull(points, clusters, execution), views, [](auto& v) { return fit_hull(v); });
+    expect_single_fits(fit_cylinder(points, clusters, execution), views,
+                       [](auto& v) { return fit_cylinder(v); });
+    expect_single_fits(fit_capsule(points, clusters, execution), views,
+                       [](auto& v) { return fit_capsule(v); });
+    expect_single_fits(fit_ellipsoid(points, clusters, execution), views,
+                       [](auto& v) { return fit_ellipsoid(v); });
+  }
+}
+
+TEST(Clusters, WithIndicesOutsideTheCloudAreRefused) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 4);
+  const IndexLists clusters{{0, 1, 10}, {0, 2, 3}};
+  EXPECT_THROW(fit_obb(cloud.view(), clusters), std::out_of_range);
+  EXPECT_TRUE(fit_obb(cloud.view(), IndexLists()).empty());
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

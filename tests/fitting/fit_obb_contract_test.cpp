@@ -19,7 +19,6 @@
 #include "numbers.h"
 #include "obbs.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/verify.h"
 
 namespace pcl_bv::detail {
 namespace {

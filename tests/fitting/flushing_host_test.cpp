@@ -16,8 +16,6 @@
 #include "numbers.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/fitting/summary.h"
-#include "pcl_bv/fitting/verify.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -19,7 +19,6 @@
 #include "hull/local_hull.h"
 #include "hull/support_tree.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "solids.h"
 

@@ -10,7 +10,7 @@
 
 #include "clouds.h"
 #include "exact.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv::detail {
 namespace {

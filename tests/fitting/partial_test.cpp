@@ -16,7 +16,7 @@
 #include "clouds.h"
 #include "executions.h"
 #include "fits.h"
-#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/fitting/fit.h"
 #include "sources.h"
 
 namespace pcl_bv::detail {

@@ -3,8 +3,8 @@
 
 // Points that come part by part give what points in memory give.
 
-#include "pcl_bv/points/point_source.h"
 #include "fits.h"
+#include "pcl_bv/points/point_source.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,9 @@
 
 #include "executions.h"
 #include "numbers.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/fitting/summary.h"
-#include "pcl_bv/fitting/verify.h"
 #include "sources.h"
 
 namespace pcl_bv::detail {

@@ -17,7 +17,6 @@
 #include "exact.h"
 #include "fits.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/verify.h"
 #include "round/axis_search.h"
 #include "round/smallest_ellipsoid.h"
 

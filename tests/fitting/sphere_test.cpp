@@ -19,7 +19,6 @@
 #include "fits.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
-#include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {

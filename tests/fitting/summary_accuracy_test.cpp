@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "clouds.h"
-#include "pcl_bv/fitting/summary.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/fit.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,6 @@
 #include "fits.h"
 #include "flush_to_zero.h"
 #include "numbers.h"
-#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_groups.h"
 

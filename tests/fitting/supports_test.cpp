@@ -16,7 +16,7 @@
 #include "exact.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv::detail {
 namespace {

@@ -14,9 +14,9 @@
 #include "executions.h"
 #include "numbers.h"
 #include "obbs.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/fitting/verify.h"
 
 namespace pcl_bv::detail {
 namespace {

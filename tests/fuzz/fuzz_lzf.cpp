@@ -9,7 +9,7 @@
 #include <string>
 
 #include "memory_file.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace {
 

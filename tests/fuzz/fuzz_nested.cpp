@@ -12,10 +12,11 @@
 
 #include "memory_file.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/nodes/remote_settings.h"
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/frame_sink.h"
+#include "pcl_bv/nodes/stream_runner.h"
 #include "pcl_bv/report/read_volumes.h"
 #include "protocol.h"
+#include "stream/remote_parameters.h"
 
 namespace pcl_bv {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "memory_file.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/recording/velodyne.h"
 
 // Any bytes as a capture: every point is finite and within 262 m.

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/report/partial_file.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "memory_file.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "text_rows.h"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "../recording/made_packets.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "sample_clouds.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "files.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace {
 std::function<int(bool is_folder)> on_fsync;

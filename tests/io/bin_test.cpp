@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "files.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A vector like any other, except for what is in it at first.
-#include "pcl_bv/io/byte_buffer.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 #include <gtest/gtest.h>
 

@@ -12,9 +12,8 @@
 
 #include "allocations.h"
 #include "files.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/fitting/verify.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 

@@ -12,7 +12,6 @@
 #include "files.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/io/cloud_file.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"

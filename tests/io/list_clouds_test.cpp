@@ -12,7 +12,7 @@
 #include <string>
 
 #include "files.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "files.h"
 #include "pcl_bv/io/list_clouds.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
 namespace pcl_bv {

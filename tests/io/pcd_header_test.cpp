@@ -10,7 +10,7 @@
 #include <map>
 
 #include "files.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
 namespace pcl_bv {

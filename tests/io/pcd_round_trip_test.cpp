@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "files.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
 namespace pcl_bv {

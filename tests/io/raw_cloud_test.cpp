@@ -12,8 +12,8 @@
 #include <stdexcept>
 
 #include "files.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
 namespace pcl_bv {

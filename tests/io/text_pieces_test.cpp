@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "files.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/ply.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"

@@ -9,9 +9,9 @@
 #include <cstring>
 
 #include "files.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/ply.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {

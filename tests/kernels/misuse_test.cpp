@@ -25,8 +25,8 @@
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/points/point_groups.h"
-#include "pcl_bv/points/point_records.h"
 #include "pcl_bv/points/point_source.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 namespace {
@@ -229,6 +229,26 @@ TEST(Misuse, OnlyFloatsAndDoublesMakeAView) {
   EXPECT_TRUE(MakesAView<double>);
   EXPECT_FALSE(MakesAView<std::int32_t>);
   EXPECT_FALSE(MakesAView<std::uint64_t>);
+}
+
+struct Return {
+  double time, x, y, z;
+  unsigned char ring;
+};
+
+TEST(PointView, OfAVectorHasItsPointsWhateverTheirType) {
+  const std::vector<Eigen::Vector3f> vectors = {{1, 2, 3}, {4, 5, 6}};
+  const std::vector<Eigen::Vector4d> padded = {{1, 2, 3, 9}, {4, 5, 6, 9}};
+  const std::vector<std::array<float, 3>> arrays = {{1, 2, 3}, {4, 5, 6}};
+  const std::vector<Return> records = {{9, 1, 2, 3, 0}, {9, 4, 5, 6, 0}};
+  for (const PointView& points : {view(vectors), view(padded), view(arrays), view(records)}) {
+    ASSERT_EQ(points.count, 2U);
+    EXPECT_EQ(load_point(points, 0), (Coordinates{1, 2, 3}));
+    EXPECT_EQ(load_point(points, 1), (Coordinates{4, 5, 6}));
+  }
+  EXPECT_EQ(view(vectors).scalar, ScalarType::float32);
+  EXPECT_EQ(view(padded).scalar, ScalarType::float64);
+  EXPECT_TRUE(view(std::as_const(*std::make_unique<std::vector<Eigen::Vector3f>>())).empty());
 }
 
 TEST(Misuse, SubsetsHaveTheIndicesOfTheCloud) {

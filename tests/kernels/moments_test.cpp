@@ -12,8 +12,8 @@
 
 #include "clouds.h"
 #include "exact.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "clouds.h"
 #include "pcl_bv/kernels/axis_extents.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_source.h"
 #include "supports_by_definition.h"
 
 namespace pcl_bv {

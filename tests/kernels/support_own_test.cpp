@@ -15,8 +15,8 @@
 #include "clouds.h"
 #include "directions.h"
 #include "exact.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_source.h"
 #include "supports_by_definition.h"
 
 namespace pcl_bv {

@@ -12,8 +12,9 @@
 
 #include "client.h"
 #include "page.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/nodes/frame_sink.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {

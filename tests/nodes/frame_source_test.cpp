@@ -8,7 +8,7 @@
 #include <future>
 
 #include "folder.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What is said of a frame, and what a stream pays for it.
-#include "pcl_bv/nodes/frame_warnings.h"
+#include "pcl_bv/nodes/frame_result.h"
 
 #include <gmock/gmock.h>
 

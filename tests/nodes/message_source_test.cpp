@@ -10,7 +10,7 @@
 #include <deque>
 
 #include "folder.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/messages/serialize.h"
 #include "stream/middleware.h"
 

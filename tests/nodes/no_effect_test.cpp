@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "pcl_bv/nodes/pipeline_config.h"
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "../recording/made_packets.h"
 #include "folder.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {

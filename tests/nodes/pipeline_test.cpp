@@ -15,7 +15,7 @@
 #include "clouds.h"
 #include "executions.h"
 #include "frames.h"
-#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/segmentation/up.h"
 

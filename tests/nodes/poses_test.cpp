@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "folder.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "folder.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/nodes/remote_settings.h"
+#include "pcl_bv/nodes/frame_sink.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pipeline/config/settings.h"
+#include "stream/remote_parameters.h"
 
 namespace pcl_bv {
 namespace {
@@ -21,7 +22,7 @@ using testing::HasSubstr;
 struct Remote {
   Json values() const { return Json::parse(settings->values()); }
   FramePipeline pipeline;
-  std::unique_ptr<RemoteParameters> settings = remote_settings(pipeline);
+  std::shared_ptr<RemoteParameters> settings = remote_settings(pipeline);
 };
 
 TEST(RemoteParameters, DescribeEverySettingOfThePipelineAndHaveItsValue) {

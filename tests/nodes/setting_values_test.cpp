@@ -12,8 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/nodes/remote_settings.h"
+#include "pcl_bv/nodes/frame_sink.h"
 #include "pipeline/config/settings.h"
+#include "stream/remote_parameters.h"
 
 namespace pcl_bv {
 namespace {

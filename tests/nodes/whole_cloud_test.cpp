@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "frames.h"
-#include "pcl_bv/fitting/verify.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/messages/types.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/topics.h"

@@ -16,8 +16,8 @@
 #include "pcl_bv/nodes/cluster_pipeline.h"
 #include "pcl_bv/nodes_pcl/grabber.h"
 #include "pcl_bv/nodes_pcl/live_window.h"
-#include "pcl_bv/nodes_pcl/reference_clusters.h"
 #include "pcl_bv/synth/street.h"
+#include "reference_clusters.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,7 @@
 #include "db3_pages.h"
 #include "made_mcap.h"
 #include "made_packets.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "recording_files.h"
 
 namespace pcl_bv {

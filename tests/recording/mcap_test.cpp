@@ -8,7 +8,7 @@
 #include <random>
 
 #include "made_mcap.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "pcl_bv/recording/recording.h"
 #include "recording_files.h"

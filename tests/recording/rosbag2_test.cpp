@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "pcl_bv/recording/rosbag2_writer.h"
 #include "recording_files.h"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace {

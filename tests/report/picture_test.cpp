@@ -16,7 +16,7 @@
 
 #include "clouds.h"
 #include "files.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pixels.h"
 
 namespace pcl_bv {

@@ -14,6 +14,7 @@
 #include <regex>
 
 #include "clouds.h"
+#include "pcl_bv/report/picture.h"
 #include "pixels.h"
 
 namespace pcl_bv {

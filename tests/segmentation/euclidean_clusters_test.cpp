@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The rules of the result: order, sizes, indices, bad points, bad settings, reuse.
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "pcl_bv/segmentation/counts.h"
 #include "reference.h"
 
 namespace {

@@ -73,7 +73,7 @@ TEST(GroundPlaneAtTheLimits, DropsInvalidPointsAndKeepsTheOrderOfTheView) {
   const Cloud<float> cloud{{0, 0, 0}, {nan, 0, 0}, {4, 0, 0},   {0, 4, infinity}, {0, 4, 0},
                            {4, 4, 5}, {4, 4, 0},   {1, 1, nan}, {9, 9, 9}};
   const std::array<std::int32_t, 10> indices{6, 5, 4, 3, 2, 1, 0, 7, 5, 4};
-  PointView some = view(cloud);
+  PointView some = scene_view(cloud);
   some.indices = indices.data();
   some.count = indices.size();
   GroundSplit result;
@@ -81,10 +81,10 @@ TEST(GroundPlaneAtTheLimits, DropsInvalidPointsAndKeepsTheOrderOfTheView) {
   EXPECT_TRUE(result.found);
   EXPECT_THAT(result.ground, ElementsAre(6, 4, 2, 0, 4));
   EXPECT_THAT(result.rest, ElementsAre(5, 5));
-  split_ground(view(cloud).slice(2, 5), {}, result);
+  split_ground(scene_view(cloud).slice(2, 5), {}, result);
   EXPECT_THAT(result.ground, ElementsAre(2, 4, 6));
   EXPECT_THAT(result.rest, ElementsAre(5));
-  split_ground(view(Cloud<float>(100, {nan, nan, nan})), {}, result);
+  split_ground(scene_view(Cloud<float>(100, {nan, nan, nan})), {}, result);
   EXPECT_FALSE(result.found);
   EXPECT_THAT(result.rest, IsEmpty());
 }
@@ -174,11 +174,11 @@ TEST(GroundPlaneAtTheLimits, ASecondCallOfTheSameSizeAllocatesNothing) {
   Cloud<float> cloud;
   add_plane<float>(cloud, 50'000, 20, 0, 0, 0, 0, 0.1F);
   GroundSplit result;
-  split_ground(view(cloud), {}, result);
+  split_ground(scene_view(cloud), {}, result);
   for (auto& p : cloud)
     p[2] += 1;
   const std::size_t before = allocations();
-  split_ground(view(cloud), {}, result);
+  split_ground(scene_view(cloud), {}, result);
   EXPECT_EQ(allocations(), before);
   EXPECT_NEAR(result.offset, 1, 0.05);
 }
@@ -220,7 +220,7 @@ TEST(GroundPlaneAtTheLimits, BadSettingsAreNamedWithTheirRange) {
 
 TEST(GroundPlaneAtTheLimits, PointNumbersBeyondAnIndexAreRefused) {
   const Cloud<float> cloud(2, {1, 2, 3});
-  PointView last = view(cloud);
+  PointView last = scene_view(cloud);
   GroundSplit result;
   last.first = (std::size_t{1} << 31) - 2;
   split_ground(last, {}, result);

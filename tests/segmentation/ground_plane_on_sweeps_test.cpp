@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <string>
 
-#include "pcl_bv/io/pcd.h"
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The ground plane on scenes whose ground is known by construction.
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/segmentation/ground.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/segmentation/ground.h"
 
 namespace pcl_bv {
 
@@ -21,14 +21,14 @@ template <typename T>
 using Cloud = std::vector<std::array<T, 3>>;
 
 template <typename T>
-PointView view(const Cloud<T>& cloud) {
+PointView scene_view(const Cloud<T>& cloud) {
   return PointView::of(cloud.empty() ? nullptr : cloud[0].data(), sizeof(std::array<T, 3>), cloud.size());
 }
 
 template <typename T>
 GroundSplit split(const Cloud<T>& cloud, const GroundPlaneOptions& settings = {}) {
   GroundSplit result;
-  split_ground(view(cloud), settings, result);
+  split_ground(scene_view(cloud), settings, result);
   return result;
 }
 

@@ -13,8 +13,8 @@
 
 #include <Eigen/Geometry>
 
-#include "pcl_bv/io/pcd.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The ground of many planes on scenes whose ground is known by construction: a sensor 1.7 m above it.
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/segmentation/ground.h"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(GroundZones, FollowTheGround) {
     Cloud<float> cloud = ground_of(height);
     const std::size_t ground = cloud.size();
     add_boxes(cloud, height);
-    expect_split(split(view(cloud)), ground, cloud.size());
+    expect_split(split(scene_view(cloud)), ground, cloud.size());
   }
 }
 
@@ -93,11 +93,11 @@ TEST(GroundZones, FollowTheGroundWithThousandsOfPointsAPatch) {
       const double x = 5 + 0.04 * i, y = 0.04 * k - 8;
       cloud.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(hill(x, y))});
     }
-  expect_split(split(view(cloud)), cloud.size(), cloud.size());
+  expect_split(split(scene_view(cloud)), cloud.size(), cloud.size());
 }
 
 TEST(GroundZones, ClimbARampThatBeginsWithinAPatch) {
-  const GroundSplit result = split(view(ground_of(ramp)));
+  const GroundSplit result = split(scene_view(ground_of(ramp)));
   EXPECT_GE(result.ground.size(), 39'400U);  // of 40'500; 36'641 without a look for ramps
 }
 
@@ -106,14 +106,14 @@ TEST(GroundZones, FollowASlopeAsSteepAsAllowed) {
   settings.max_slope_degrees = 45;
   for (const Height height : {steep_along_x, steep_along_y}) {
     const Cloud<float> cloud = ground_of(height);
-    expect_split(split(view(cloud), settings), cloud.size(), cloud.size());
+    expect_split(split(scene_view(cloud), settings), cloud.size(), cloud.size());
   }
 }
 
 TEST(GroundZones, EndWhereASlopeIsSteeperThanAllowed) {
   for (const Height height : {bank_along_x, bank_along_y}) {
     const Cloud<float> cloud = ground_of(height);
-    const GroundSplit result = split(view(cloud));
+    const GroundSplit result = split(scene_view(cloud));
     ASSERT_TRUE(result.found);
     for (const std::int32_t i : result.ground)
       ASSERT_LT(cloud[static_cast<std::size_t>(i)][2], 0) << i;
@@ -130,7 +130,7 @@ TEST(GroundZones, GoWhereOnePlaneCannot) {
 }
 
 TEST(GroundZones, KnowTheHeightOfTheSensor) {
-  const GroundSplit result = split(view(ground_of(camber)));
+  const GroundSplit result = split(scene_view(ground_of(camber)));
   ASSERT_TRUE(result.found);
   EXPECT_NEAR(-result.offset / result.normal.z(), 1.7, 0.02);
   EXPECT_NEAR(-result.normal.x() / result.normal.z(), 0.05, 0.005);
@@ -146,7 +146,7 @@ TEST(GroundZones, TakeAWrongSensorHeightAsAHint) {
     add_boxes(cloud, hill);
     GroundZonesOptions settings;
     settings.sensor_height = height;
-    expect_split(split(view(cloud), settings), ground, cloud.size());
+    expect_split(split(scene_view(cloud), settings), ground, cloud.size());
   }
 }
 
@@ -161,7 +161,7 @@ TEST(GroundZones, TakeReflectionsBelowAsGroundButAreNotDrawnDownByThem) {
   }
   const std::size_t low = cloud.size();
   add_boxes(cloud, camber);
-  expect_split(split(view(cloud)), low, cloud.size());
+  expect_split(split(scene_view(cloud)), low, cloud.size());
 }
 
 TEST(GroundZones, DoNotTakeAWallsFootForGround) {
@@ -172,7 +172,7 @@ TEST(GroundZones, DoNotTakeAWallsFootForGround) {
     for (float z = -1.6F; z < 1; z += 0.05F)  // 0.1 m above the ground and more
       cloud.push_back({x, 6, z});
   }
-  expect_split(split(view(cloud)), ground, cloud.size());
+  expect_split(split(scene_view(cloud)), ground, cloud.size());
 }
 
 // Nothing of the road is seen for 28 m, in which it climbs by 3 m: the sectors beside know it.
@@ -184,13 +184,13 @@ TEST(GroundZones, GoOnWhereALorryHidesTheRoad) {
     for (float z = -1.3F; z < 2; z += 0.05F)
       cloud.push_back({12, y, z});
   }
-  expect_split(split(view(cloud)), ground, cloud.size());
+  expect_split(split(scene_view(cloud)), ground, cloud.size());
 }
 
 // 0.56 m deep and 6 m wide.
 TEST(GroundZones, GoOnBehindADitch) {
   const Cloud<float> cloud = ground_of(ditch);
-  const GroundSplit result = split(view(cloud));
+  const GroundSplit result = split(scene_view(cloud));
   const auto behind = [&](std::int32_t i) { return cloud[static_cast<std::size_t>(i)][1] > 13; };
   const std::vector<std::int32_t> all = numbers(0, cloud.size());
   const auto there = std::count_if(all.begin(), all.end(), behind);
@@ -212,7 +212,7 @@ TEST(GroundZones, RiseUnderTheSensorWithTheGroundAroundIt) {
       }
     }
     cloud.push_back({0.3F, 0.1F, -1.4F});
-    const GroundSplit result = split(view(cloud), settings);
+    const GroundSplit result = split(scene_view(cloud), settings);
     EXPECT_EQ(result.rest, numbers(height == mound ? cloud.size() : cloud.size() - 1, cloud.size()));
   }
 }
@@ -221,7 +221,7 @@ TEST(GroundZones, AreNoneWithoutPoints) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const Cloud<float>& cloud :
        {Cloud<float>{}, Cloud<float>{{nan, 0, 0}, {0, INFINITY, 0}}, Cloud<float>{{1, 2, 3}}}) {
-    const GroundSplit result = split(view(cloud));
+    const GroundSplit result = split(scene_view(cloud));
     EXPECT_FALSE(result.found);
     EXPECT_TRUE(result.ground.empty());
     EXPECT_EQ(result.rest.size(), cloud.size() == 1 ? 1U : 0U);
@@ -231,7 +231,7 @@ TEST(GroundZones, AreNoneWithoutPoints) {
 
 TEST(GroundZones, AreAllOfABareField) {
   const Cloud<float> cloud = ground_of(level);
-  EXPECT_EQ(split(view(cloud)).ground, numbers(0, cloud.size()));
+  EXPECT_EQ(split(scene_view(cloud)).ground, numbers(0, cloud.size()));
 }
 
 TEST(GroundZones, AreNoneBeforeAWall) {
@@ -240,23 +240,23 @@ TEST(GroundZones, AreNoneBeforeAWall) {
     for (float z = -1; z < 3; z += 0.1F)
       cloud.push_back({7, y, z});
   }
-  EXPECT_FALSE(split(view(cloud)).found);
+  EXPECT_FALSE(split(scene_view(cloud)).found);
   GroundZonesOptions settings;
   settings.sensor_height = 1.7;
-  const GroundSplit result = split(view(cloud), settings);
+  const GroundSplit result = split(scene_view(cloud), settings);
   EXPECT_TRUE(result.found);  // Level ground 1.7 m below, of which nothing is seen.
   EXPECT_EQ(result.rest, numbers(0, cloud.size()));
 }
 
 TEST(GroundZones, SkipPointsWithAnyCoordinateNotFinite) {
   Cloud<float> cloud = ground_of(hill);
-  const GroundSplit before = split(view(cloud));
+  const GroundSplit before = split(scene_view(cloud));
   Cloud<float> spoiled;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     spoiled.push_back(cloud[i]);
     spoiled.push_back({i % 3 == 0 ? NAN : 1.F, i % 3 == 1 ? INFINITY : 1.F, i % 3 == 2 ? -INFINITY : 1.F});
   }
-  const GroundSplit result = split(view(spoiled));
+  const GroundSplit result = split(scene_view(spoiled));
   for (const auto* list : {&result.ground, &result.rest}) {
     for (const std::int32_t i : *list)
       ASSERT_EQ(i % 2, 0);
@@ -273,7 +273,7 @@ TEST(GroundZones, FollowTheUpAxis) {
     SCOPED_TRACE(axis);
     GroundZonesOptions settings;
     settings.up = axis_up(axis);
-    const GroundSplit result = split(view(turned(upright, axis)), settings);
+    const GroundSplit result = split(scene_view(turned(upright, axis)), settings);
     EXPECT_GT(result.normal.dot(settings.up), 0.99);
     expect_split(result, ground, upright.size());
   }
@@ -284,7 +284,7 @@ TEST(GroundZones, AreLevelAtTheSensorsHeightWhereNoneAreSeen) {
   settings.up = {0, -3, 4};
   settings.sensor = {10, 20, 30};
   settings.sensor_height = 1.5;
-  const GroundSplit result = split(view(Cloud<float>{{10, 20, 30}}), settings);
+  const GroundSplit result = split(scene_view(Cloud<float>{{10, 20, 30}}), settings);
   EXPECT_EQ(result.normal, Eigen::Vector3d(0, -0.6, 0.8));
   EXPECT_EQ(result.offset, -0.6 * 20 + 0.8 * 30 - 1.5);
   EXPECT_EQ(result.rest, numbers(0, 1));
@@ -299,28 +299,28 @@ TEST(GroundZones, FindTheSensorInTheMapsFrame) {
   Cloud<double> map;
   for (const auto& p : local)
     map.push_back({4e5 + p[0], 5e6 + p[1], 300.0 + p[2]});
-  expect_split(split(view(map), settings), ground, map.size());
+  expect_split(split(scene_view(map), settings), ground, map.size());
   settings.sensor_height = 1.7;
-  expect_split(split(view(map), settings), ground, map.size());
+  expect_split(split(scene_view(map), settings), ground, map.size());
 }
 
 TEST(GroundZones, NameTheCloudsPointsThroughListsAndSlices) {
   Cloud<float> cloud = ground_of(hill);
   const std::size_t ground = cloud.size();
   add_boxes(cloud, hill);
-  const GroundSplit whole = split(view(cloud));
+  const GroundSplit whole = split(scene_view(cloud));
   std::vector<std::int32_t> all = numbers(0, cloud.size());
-  PointView listed = view(cloud);
+  PointView listed = scene_view(cloud);
   listed.indices = all.data();
   EXPECT_EQ(split(listed).ground, whole.ground);
   Cloud<float> longer(1000, {0, 0, 50});
   longer.insert(longer.end(), cloud.begin(), cloud.end());
-  const GroundSplit sliced = split(view(longer).slice(1000, cloud.size()));
+  const GroundSplit sliced = split(scene_view(longer).slice(1000, cloud.size()));
   ASSERT_EQ(sliced.ground.size(), whole.ground.size());
   for (std::size_t i = 0; i < whole.ground.size(); ++i)
     ASSERT_EQ(sliced.ground[i], whole.ground[i] + 1000);
   EXPECT_LT(sliced.ground.back(), static_cast<std::int32_t>(1000 + ground));
-  PointView listed_of_slice = view(longer).slice(1000, cloud.size());
+  PointView listed_of_slice = scene_view(longer).slice(1000, cloud.size());
   listed_of_slice.indices = all.data();
   const GroundSplit both = split(listed_of_slice);
   EXPECT_EQ(both.ground, whole.ground);
@@ -334,7 +334,7 @@ TEST(GroundZones, OutliveGreatCoordinates) {
   const std::size_t ground = cloud.size();
   cloud.push_back({1e99, -1e99, 1e99});
   cloud.push_back({-3e38, 3e38, 1});
-  const GroundSplit result = split(view(cloud));
+  const GroundSplit result = split(scene_view(cloud));
   ASSERT_TRUE(result.found);
   EXPECT_GE(result.ground.size(), ground);
   EXPECT_EQ(result.ground.size() + result.rest.size(), cloud.size());
@@ -344,7 +344,7 @@ TEST(GroundZones, RefuseSettingsOutOfRange) {
   const auto refuses = [](auto change) {
     GroundZonesOptions settings;
     change(settings);
-    EXPECT_THROW(split(view(Cloud<float>{{0, 0, 0}}), settings), std::invalid_argument);
+    EXPECT_THROW(split(scene_view(Cloud<float>{{0, 0, 0}}), settings), std::invalid_argument);
   };
   for (const double bad : {0.0, -1.0, double{INFINITY}, double{NAN}})
     refuses([bad](auto& s) { s.distance = bad; });
@@ -364,7 +364,7 @@ TEST(GroundZones, AreTheSameFromAnyNumberOfThreads) {
   add_boxes(cloud, hill);
   for (std::size_t i = 0; i < cloud.size(); i += 700)
     cloud[i][0] = std::numeric_limits<float>::quiet_NaN();
-  const PointView all = view(cloud);
+  const PointView all = scene_view(cloud);
   ASSERT_GT(all.count, 25'000U);  // in parts
   GroundZonesOptions tilted;
   tilted.up = {0.1, -0.2, 1};
@@ -392,7 +392,7 @@ TEST(GroundZones, OfAUsedObjectAreThoseOfAFreshOneAndTakeNoMemory) {
   std::vector<GroundSplit> fresh;
   for (Cloud<float>& cloud : clouds) {
     add_boxes(cloud, hill);
-    fresh.push_back(split(view(cloud)));
+    fresh.push_back(split(scene_view(cloud)));
   }
   GroundZones zones;
   GroundSplit used;
@@ -400,7 +400,7 @@ TEST(GroundZones, OfAUsedObjectAreThoseOfAFreshOneAndTakeNoMemory) {
   for (int pass = 0; pass < 3; ++pass) {
     if (pass == 1) before = allocations();
     for (std::size_t i = 0; i < clouds.size(); ++i) {
-      zones.split(view(clouds[i]), {}, used);
+      zones.split(scene_view(clouds[i]), {}, used);
       EXPECT_TRUE(used.ground == fresh[i].ground && used.rest == fresh[i].rest);
       EXPECT_TRUE(used.normal == fresh[i].normal && used.offset == fresh[i].offset);
     }

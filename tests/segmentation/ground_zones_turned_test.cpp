@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "ground_scenes.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "pcl_bv/segmentation/ground.h"
 
 namespace pcl_bv {
 namespace {
@@ -28,14 +28,14 @@ double camber(double x, double y) {
 
 // Of how many points the side differs between a cloud and the same one turned.
 std::size_t moved(const Cloud<float>& upright, const Eigen::Matrix3d& rotation) {
-  const GroundSplit expected = split(view(upright));
+  const GroundSplit expected = split(scene_view(upright));
   const Cloud<float> cloud = turned(upright, rotation);
   GroundZonesOptions settings;
   settings.up = 0.3 * rotation.col(2);
-  const GroundSplit result = split(view(cloud), settings);
+  const GroundSplit result = split(scene_view(cloud), settings);
   EXPECT_LT((result.normal - rotation * expected.normal).norm(), 1e-3);
   settings.up *= 0x1p-500;
-  const GroundSplit same = split(view(cloud), settings);
+  const GroundSplit same = split(scene_view(cloud), settings);
   EXPECT_TRUE(same.ground == result.ground && same.normal == result.normal && same.offset == result.offset);
   std::vector<std::int32_t> others;
   std::set_symmetric_difference(result.ground.begin(), result.ground.end(), expected.ground.begin(),

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace pcl_bv::test {
 

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "pcl_bv/segmentation/ground_zones.h"
-#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {

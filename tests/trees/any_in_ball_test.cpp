@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "each_point.h"
+#include "point_tree_state.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -17,12 +18,12 @@ void expect_decided_at_the_nearest(const PointView& cloud, const std::vector<Vec
   const EachPoint points(cloud);
   for (const Isa isa : usable_isas()) {
     const PointTree tree(cloud, {Serial{}, isa});
-    ASSERT_GT(tree.packed().boxes.levels, 2U) << "boxes are looked at below those it starts with";
+    ASSERT_GT(packed_tree(tree).boxes.levels, 2U) << "boxes are looked at below those it starts with";
     for (const Vector3d& place : places) {
       const double square = points.near(place, kInfinity).front().squared_distance;
       const Coordinates center = coordinates(place);
-      EXPECT_TRUE(any_in_ball(tree.isa(), tree.packed(), center, square)) << isa_name(isa);
-      EXPECT_FALSE(any_in_ball(tree.isa(), tree.packed(), center, square * (1 - 0x1p-40))) << isa_name(isa);
+      EXPECT_TRUE(any_in_ball(tree.isa(), packed_tree(tree), center, square)) << isa_name(isa);
+      EXPECT_FALSE(any_in_ball(tree.isa(), packed_tree(tree), center, square * (1 - 0x1p-40))) << isa_name(isa);
     }
   }
 }

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "fits.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "pcl_bv/trees/volume_tree.h"
 #include "pcl_bv/volumes/pair_queries.h"

@@ -4,6 +4,7 @@
 // A tree answers as if each point were asked, whatever the cloud and however it is run.
 
 #include "pcl_bv/trees/point_tree.h"
+#include "point_tree_state.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -107,15 +108,15 @@ TYPED_TEST(PointTreeOf, IsTheSameForEveryExecution) {
     cloud.xyz[i] = std::numeric_limits<TypeParam>::quiet_NaN();
   const PointTree serial(cloud.view());
   for (const auto& [name, execution] : test::every_execution())
-    EXPECT_TRUE(same_bytes(PointTree(cloud.view(), execution).packed(), serial.packed())) << name;
+    EXPECT_TRUE(same_bytes(packed_tree(PointTree(cloud.view(), execution)), packed_tree(serial))) << name;
 }
 
 TYPED_TEST(PointTreeOf, HasBoxesThatHoldTheirPointsByExactArithmetic) {
   using test::Rational;
   for (const auto& cloud : test::nasty_clouds<TypeParam>()) {
     const PointTree tree(cloud.view());
-    const BoxLevels& boxes = tree.packed().boxes;
-    const PointView points = tree.packed().view();
+    const BoxLevels& boxes = packed_tree(tree).boxes;
+    const PointView points = packed_tree(tree).view();
     for (std::size_t i = 0; i < points.count; ++i) {
       const Coordinates p = load_point(points, i);
       std::size_t item = i / kTreeWidth;
@@ -157,7 +158,7 @@ TYPED_TEST(PointTreeOf, AnswersForPointsThatMoved) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     moved.xyz[3 * (20 + axis) + axis] = std::numeric_limits<TypeParam>::infinity();
   for (std::size_t packet : {0, 5, 187})  // all that is first in a packet
-    moved.xyz[3 * static_cast<std::size_t>(tree.packed().indices[packet * kTreeWidth])] =
+    moved.xyz[3 * static_cast<std::size_t>(packed_tree(tree).indices[packet * kTreeWidth])] =
         std::numeric_limits<TypeParam>::quiet_NaN();
   tree.refit(moved.view());
   const EachPoint points(moved.view());
@@ -193,11 +194,11 @@ TEST(PointTree, CopiesAnswerOnTheirOwn) {
   copy = tree;
   tree = *&tree;
   tree.assign(next.view());
-  EXPECT_TRUE(same_bytes(copy.packed(), PointTree(cloud.view()).packed()));
-  EXPECT_TRUE(same_bytes(tree.packed(), PointTree(next.view()).packed()));
+  EXPECT_TRUE(same_bytes(packed_tree(copy), packed_tree(PointTree(cloud.view()))));
+  EXPECT_TRUE(same_bytes(packed_tree(tree), packed_tree(PointTree(next.view()))));
   tree = std::move(copy);
   tree.refit(cloud.view());
-  EXPECT_TRUE(same_bytes(tree.packed(), PointTree(cloud.view()).packed()));
+  EXPECT_TRUE(same_bytes(packed_tree(tree), packed_tree(PointTree(cloud.view()))));
 }
 
 TEST(PointTree, IsFoundFromWhereSquaresOfItsUnitLeaveTheRange) {

@@ -16,8 +16,8 @@
 #include "clouds.h"
 #include "executions.h"
 #include "inflated.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "sources.h"
 

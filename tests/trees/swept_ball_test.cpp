@@ -4,6 +4,7 @@
 // A moving ball is shown all points that it may touch, and few others.
 
 #include "pcl_bv/kernels/swept_ball.h"
+#include "point_tree_state.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ using namespace testing;
 // Keeps what it is shown, and always says the same time.
 struct Shown final : PacketVisitor {
   explicit Shown(const PointTree& tree, float until)
-      : latest(until), points(tree.packed().boxes.child_counts[0] * kTreeWidth) {}
+      : latest(until), points(packed_tree(tree).boxes.child_counts[0] * kTreeWidth) {}
 
   float visit(std::size_t packet, std::uint32_t bits) override {
     EXPECT_NE(bits, 0U);
@@ -65,7 +66,7 @@ double enter_time(const BoxLevels& boxes, std::size_t packet, const Ray& ray, co
 
 void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const SweptBall& ball,
                               const Shown& shown) {
-  const PointView places = tree.packed().view();
+  const PointView places = packed_tree(tree).view();
   for (std::size_t i = 0; i < shown.points.size(); ++i) {
     if (!shown.points[i]) continue;
     ASSERT_LT(i, places.count);
@@ -77,13 +78,13 @@ void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const Swept
   const auto pad = static_cast<double>(ball.margin), last = static_cast<double>(shown.latest);
   for (std::size_t n = 0; n < shown.packets.size(); ++n) {
     // One is shown before there is a latest time.
-    const double enter = enter_time(tree.packed().boxes, shown.packets[n], ray, ball, 1.01 * pad);
+    const double enter = enter_time(packed_tree(tree).boxes, shown.packets[n], ray, ball, 1.01 * pad);
     ASSERT_LE(enter, n == 0 ? std::numeric_limits<double>::max() : 1.0001 * last + 0.01 * pad);
   }
 }
 
 void expect_all_that_is_touched(const PointTree& tree, const Ray& ray, double until, const Shown& shown) {
-  const PointView places = tree.packed().view();
+  const PointView places = packed_tree(tree).view();
   for (std::size_t i = 0; i < places.count; ++i) {
     const auto inside =
         Sphere(vector(load_point(places, i)), ray.radius).intersect(ray.origin, ray.direction);
@@ -97,10 +98,10 @@ using ScalarTypes = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(SweptBallOf, ScalarTypes);
 
 void expect_shown(const PointTree& tree, const Ray& ray, double until) {
-  const SweptBall ball(tree.packed().boxes, coordinates(ray.origin), coordinates(ray.direction), ray.radius);
+  const SweptBall ball(packed_tree(tree).boxes, coordinates(ray.origin), coordinates(ray.direction), ray.radius);
   for (const double end : {kInfinity, until}) {
     Shown shown(tree, end == until ? ball.latest_entry(until) : std::numeric_limits<float>::max());
-    visit_along(tree.isa(), tree.packed(), ball, shown);
+    visit_along(tree.isa(), packed_tree(tree), ball, shown);
     ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
     ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
   }
@@ -124,7 +125,7 @@ TYPED_TEST(SweptBallOf, IsShownAllThatItTouchesAndOnlyWhatIsNear) {
 TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
   const auto cloud = test::gaussian<double>(1000, 2, 3, 50);
   const PointTree tree(cloud.view());
-  const BoxLevels& boxes = tree.packed().boxes;
+  const BoxLevels& boxes = packed_tree(tree).boxes;
   for (const double radius : {0.0, 1e-3, 1.0, 40.0}) {
     for (const double away : {0.0, 10.0, 1e5}) {
       const Vector3d origin = vector(boxes.origin) + Vector3d(-away, 1, 2), direction(1e-7, -40, 3e-20);

@@ -117,8 +117,8 @@ TYPED_TEST(TreeBuildOf, MakesBoxesThatTouchTheirPointsFromAllSides) {
   for (const auto& cloud : test::nasty_clouds<TypeParam>()) {
     SCOPED_TRACE(cloud.name);
     const PointTree tree(cloud.view());
-    const BoxLevels& boxes = tree.packed().boxes;
-    const PointView points = tree.packed().view();
+    const BoxLevels& boxes = packed_tree(tree).boxes;
+    const PointView points = packed_tree(tree).view();
     std::size_t width = kTreeWidth;
     for (std::size_t level = 0; level < boxes.levels; ++level, width *= kTreeWidth) {
       for (std::size_t item = 0; item < boxes.child_counts[level]; ++item) {
@@ -143,7 +143,7 @@ TYPED_TEST(TreeBuildOf, NamesNothingWhereAPacketLacksPoints) {
   const auto cloud = test::gaussian<TypeParam>(21, 1);
   PointTree tree(test::gaussian<TypeParam>(32, 2).view());
   tree.assign(cloud.view());
-  const std::vector<std::int32_t>& numbers = tree.packed().indices;
+  const std::vector<std::int32_t>& numbers = packed_tree(tree).indices;
   ASSERT_EQ(numbers.size(), 32U);
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), -1), 11);
 }

@@ -12,7 +12,7 @@
 #include "clouds.h"
 #include "executions.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/volumes/pair_queries.h"
 #include "scattered_volumes.h"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pcl_bv/volumes/kdop_set.h"
+#include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/volumes/kdop_set.h"
+#include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv::testing {
 

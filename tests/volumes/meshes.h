@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace pcl_bv::testing {
 

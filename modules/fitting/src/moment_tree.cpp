@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv::detail {
 namespace {

@@ -9,7 +9,7 @@
 #include "local_frame.h"
 #include "map_chunks.h"
 #include "moment_tree.h"
-#include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"

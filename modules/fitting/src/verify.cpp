@@ -4,7 +4,7 @@
 // Exact predicates in rational arithmetic. Before that, a double computation with a rigorous error bound
 // accepts nearly all points that are inside.
 
-#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/fitting/fit.h"
 
 #include <algorithm>
 #include <array>

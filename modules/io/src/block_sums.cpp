@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "pcl_bv/io/posix_file.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/io/byte_buffer.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 #include <sys/mman.h>
 

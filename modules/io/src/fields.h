@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {

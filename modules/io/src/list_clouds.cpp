@@ -9,8 +9,8 @@
 #include <string>
 #include <system_error>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <string>
 
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 

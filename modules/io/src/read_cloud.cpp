@@ -14,7 +14,6 @@
 #include "pcd_format.h"
 #include "pcl_bv/io/bin.h"
 #include "pcl_bv/io/las.h"
-#include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/ply.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "ply_format.h"

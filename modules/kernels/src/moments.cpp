@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "preconditions.h"
 #include "references.h"
 #include "targets.h"

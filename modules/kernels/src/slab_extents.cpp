@@ -7,7 +7,7 @@
 
 #include "pcl_bv/kernels/slab_extents.h"
 
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "preconditions.h"
 #include "references.h"
 #include "targets.h"

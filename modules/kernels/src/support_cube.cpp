@@ -5,7 +5,7 @@
 // no multiplications.
 
 #include "pcl_bv/kernels/support.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "references.h"
 #include "support_plan.h"
 #include "targets.h"

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "references.h"
 
 namespace pcl_bv {

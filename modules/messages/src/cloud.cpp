@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/messages/serialize.h"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 

@@ -12,7 +12,7 @@
 #include <new>
 #include <string>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "formats.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace {

@@ -14,7 +14,7 @@
 #include "chunked_reader.h"
 #include "db3_pages.h"
 #include "formats.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "sqlite_error.h"
 
 namespace pcl_bv {

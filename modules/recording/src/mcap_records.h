@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 namespace mcap {

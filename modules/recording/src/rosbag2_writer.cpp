@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "sqlite_error.h"
 
 namespace pcl_bv {

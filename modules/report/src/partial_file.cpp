@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_json.h"
 
 namespace pcl_bv {

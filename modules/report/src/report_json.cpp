@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "json_text.h"
-#include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace pcl_bv {
 

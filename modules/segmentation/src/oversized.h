@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace pcl_bv {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "pcl_bv/numeric/vector3.h"
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/segmentation/ground.h"
 
 namespace pcl_bv {
 

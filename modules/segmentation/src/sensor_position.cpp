@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/segmentation/sensor_position.h"
+#include "pcl_bv/segmentation/ground.h"
 
 #include <algorithm>
 #include <array>

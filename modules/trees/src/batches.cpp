@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/trees/batches.h"
+#include "pcl_bv/trees/point_tree.h"
 
 #include <algorithm>
 #include <numeric>
@@ -10,6 +10,7 @@
 #include "argument_checks.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "point_tree_state.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -80,7 +81,7 @@ void nearest(const PointTree& tree, const PointView& query_points, std::vector<N
   query_blocks(query_points.count, execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Coordinates point = load_point(query_points, i);
-      if (is_valid(point)) found[i] = find_nearest(execution.isa, tree.packed(), point, limit).value_or(none);
+      if (is_valid(point)) found[i] = find_nearest(execution.isa, packed_tree(tree), point, limit).value_or(none);
     }
   });
 }
@@ -108,7 +109,7 @@ void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::
   query_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Sphere& sphere = spheres[i];
-      inside[i] = static_cast<std::uint8_t>(!sphere.empty() && any_in_ball(execution.isa, tree.packed(),
+      inside[i] = static_cast<std::uint8_t>(!sphere.empty() && any_in_ball(execution.isa, packed_tree(tree),
                                                                            coordinates(sphere.center()),
                                                                            sphere.max_squared_distance()));
     }

@@ -55,8 +55,8 @@ bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen:
 bool is_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
                double margin) {
   const ConvexBody body = volume.body.transformed(pose);
-  const PointView view = points.packed().view();
-  return walk_inside(points.isa(), points.packed(),
+  const PointView view = packed_tree(points).view();
+  return walk_inside(points.isa(), packed_tree(points),
                      inflated(transformed(volume.rotatable_volume, pose), margin),
                      [&](std::size_t packet, std::uint32_t bits) {
                        for (; bits != 0; bits &= bits - 1) {

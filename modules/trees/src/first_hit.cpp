@@ -8,7 +8,7 @@
 #include "argument_checks.h"
 #include "pcl_bv/kernels/swept_ball.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/trees/point_tree.h"
+#include "point_tree_state.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -65,8 +65,8 @@ std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, cons
   if (!(radius >= 0 && radius <= kMaxCoordinate))
     throw_out_of_range_value("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
-  if (direction.isZero(0)) return smallest_index_inside(isa_, tree_, Sphere(origin, radius));
-  return FirstHit(tree_, origin, direction, radius).among(isa_);
+  if (direction.isZero(0)) return smallest_index_inside(isa(), state().tree, Sphere(origin, radius));
+  return FirstHit(state().tree, origin, direction, radius).among(isa());
 }
 
 }  // namespace pcl_bv

@@ -10,7 +10,7 @@
 #include "body_distance.h"
 #include "box_walk.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/trees/point_tree.h"
+#include "point_tree_state.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -60,7 +60,7 @@ std::optional<PointDistance> PointTree::nearest_to(const AnyVolume& volume, doub
   const FloatEnvironment environment;
   require_distance("PointTree", max_distance);
   if (pcl_bv::empty(volume)) return std::nullopt;
-  return NearestToVolume(tree_, volume, max_distance).run();
+  return NearestToVolume(state().tree, volume, max_distance).run();
 }
 
 }  // namespace pcl_bv

@@ -11,7 +11,7 @@
 #include "argument_checks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "tree_build.h"
+#include "point_tree_state.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -31,48 +31,84 @@ void require_usable(const PointView& points) {
 
 }  // namespace
 
-struct PointTree::Scratch : TreeScratch {};
+const PackedTree& packed_tree(const PointTree& tree) {
+  return tree.state().tree;
+}
 
-PointTree::Scratch& PointTree::scratch() {
-  if (!scratch_.scratch) scratch_.scratch = std::make_shared<Scratch>();
-  return *scratch_.scratch;
+PointTree::PointTree() = default;
+PointTree::PointTree(const PointView& points, const Execution& execution) {
+  assign(points, execution);
+}
+PointTree::~PointTree() = default;
+PointTree::PointTree(PointTree&&) noexcept = default;
+PointTree& PointTree::operator=(PointTree&&) noexcept = default;
+
+PointTree::PointTree(const PointTree& other) {
+  *this = other;
+}
+
+PointTree& PointTree::operator=(const PointTree& other) {
+  if (this == &other || (!state_ && !other.state_)) return *this;
+  if (!state_) state_ = std::make_unique<State>();
+  state_->tree = other.state().tree;
+  state_->isa = other.state().isa;
+  state_->dropped = other.state().dropped;
+  return *this;
+}
+
+const PointTree::State& PointTree::state() const {
+  static const State empty;
+  return state_ ? *state_ : empty;
+}
+
+std::size_t PointTree::size() const {
+  return state().tree.count;
+}
+
+std::size_t PointTree::dropped() const {
+  return state().dropped;
+}
+
+UsableIsa PointTree::isa() const {
+  return state().isa;
 }
 
 void PointTree::assign(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
   require_usable(points);
+  if (!state_) state_ = std::make_unique<State>();
   try {
-    build_tree(points, execution.parallel, scratch(), tree_);
+    build_tree(points, execution.parallel, state_->scratch, state_->tree);
   } catch (...) {
-    tree_ = {};
+    state_->tree = {};
     throw;
   }
-  dropped_ = points.count - tree_.count;
-  isa_ = execution.isa;
+  state_->dropped = points.count - state_->tree.count;
+  state_->isa = execution.isa;
 }
 
 void PointTree::refit(const PointView& cloud, const Execution& execution) {
   const FloatEnvironment environment;
   require_usable(cloud);
-  if (cloud.indices != nullptr || cloud.scalar != tree_.scalar)
+  if (cloud.indices != nullptr || cloud.scalar != state().tree.scalar)
     throw std::invalid_argument(
         "PointTree: refit() takes a cloud without an index list and with the tree's scalar type");
   const auto lacks = [&](std::int32_t index) {
     return index >= 0 && static_cast<std::size_t>(index) - cloud.first >= cloud.count;
   };
-  if (const auto at = std::find_if(tree_.indices.begin(), tree_.indices.end(), lacks);
-      at != tree_.indices.end()) {
+  const std::vector<std::int32_t>& indices = state().tree.indices;
+  if (const auto at = std::find_if(indices.begin(), indices.end(), lacks); at != indices.end()) {
     throw std::invalid_argument("PointTree: refit(): the cloud has no point " + std::to_string(*at) +
                                 ", which is in the tree");
   }
-  refit_tree(cloud, execution.parallel, scratch(), tree_);
+  if (state_) refit_tree(cloud, execution.parallel, state_->scratch, state_->tree);
 }
 
 std::optional<Neighbor> PointTree::nearest(const Eigen::Vector3d& point, double max_distance) const {
   const FloatEnvironment environment;
   const double limit = square_limit(max_distance);
   if (!is_valid(coordinates(point))) return std::nullopt;
-  return find_nearest(isa_, tree_, coordinates(point), limit);
+  return find_nearest(isa(), state().tree, coordinates(point), limit);
 }
 
 void PointTree::nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
@@ -80,26 +116,26 @@ void PointTree::nearest(const Eigen::Vector3d& point, std::size_t k, std::vector
   const FloatEnvironment environment;
   const double limit = square_limit(max_distance);
   found.clear();
-  if (is_valid(coordinates(point))) list_nearest(isa_, tree_, coordinates(point), k, limit, found);
+  if (is_valid(coordinates(point))) list_nearest(isa(), state().tree, coordinates(point), k, limit, found);
 }
 
 void PointTree::near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const {
   const FloatEnvironment environment;
   const double limit = square_limit(distance);
   found.clear();
-  if (is_valid(coordinates(point))) list_in_ball(isa_, tree_, coordinates(point), limit, found);
+  if (is_valid(coordinates(point))) list_in_ball(isa(), state().tree, coordinates(point), limit, found);
 }
 
 bool PointTree::any_near(const Eigen::Vector3d& point, double distance) const {
   const FloatEnvironment environment;
   const double limit = square_limit(distance);
-  return is_valid(coordinates(point)) && any_in_ball(isa_, tree_, coordinates(point), limit);
+  return is_valid(coordinates(point)) && any_in_ball(isa(), state().tree, coordinates(point), limit);
 }
 
 bool PointTree::any_inside(const Sphere& sphere) const {
   const FloatEnvironment environment;
   return !sphere.empty() &&
-         any_in_ball(isa_, tree_, coordinates(sphere.center()), sphere.max_squared_distance());
+         any_in_ball(isa(), state().tree, coordinates(sphere.center()), sphere.max_squared_distance());
 }
 
 }  // namespace pcl_bv

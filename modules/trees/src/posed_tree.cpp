@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/trees/posed_tree.h"
+#include "pcl_bv/trees/point_tree.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -58,7 +58,7 @@ PosedTree::PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose) : tre
   const FloatEnvironment environment;
   require_rigid(pose);
   back_ = inverse(pose);
-  rounding_ = round_trip_error(back_, pose, max_taxicab_norm(tree.packed().boxes));
+  rounding_ = round_trip_error(back_, pose, max_taxicab_norm(packed_tree(tree).boxes));
 }
 
 std::optional<Neighbor> PosedTree::nearest(const Eigen::Vector3d& point, double max_distance) const {

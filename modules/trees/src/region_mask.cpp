@@ -9,6 +9,7 @@
 #include "argument_checks.h"
 #include "convex_region.h"
 #include "inflated.h"
+#include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
@@ -56,26 +57,42 @@ std::size_t threads_for_chunks(std::size_t chunks) {
 
 }  // namespace
 
-RegionMask::RegionMask(const std::vector<Region>& regions)
-    : volumes_(inflated_volumes(regions)), tests_(tests_of(volumes_)) {
-  if (volumes_.size() > kFewRegions) boxes_ = boxes_of(volumes_);
+struct RegionMask::State {
+  std::vector<AnyVolume> volumes;  // inflated, without the empty ones
+  RegionTests tests;
+  std::shared_ptr<const VolumeBoxes> boxes;  // null for at most kFewRegions volumes
+
+  bool contains(const Eigen::Vector3d& point) const;
+  void mark(const PointView& chunk, std::uint8_t* marks, const Execution& execution) const;
+};
+
+RegionMask::RegionMask(const std::vector<Region>& regions) {
+  std::vector<AnyVolume> volumes = inflated_volumes(regions);
+  RegionTests tests = tests_of(volumes);
+  std::shared_ptr<const VolumeBoxes> boxes;
+  if (volumes.size() > kFewRegions) boxes = boxes_of(volumes);
+  state_ = std::make_shared<State>(State{std::move(volumes), std::move(tests), std::move(boxes)});
 }
 
 bool RegionMask::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
+  return state_->contains(point);
+}
+
+bool RegionMask::State::contains(const Eigen::Vector3d& point) const {
   const Coordinates position = coordinates(point);
   if (!is_valid(position)) return false;
   const auto contains_point = [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); };
-  if (!boxes_) return std::any_of(volumes_.begin(), volumes_.end(), contains_point);
-  return boxes_->visit(boxes_->query(position, position),
-                       [&](std::uint32_t index) { return contains_point(volumes_[index]); });
+  if (!boxes) return std::any_of(volumes.begin(), volumes.end(), contains_point);
+  return boxes->visit(boxes->query(position, position),
+                      [&](std::uint32_t index) { return contains_point(volumes[index]); });
 }
 
-void RegionMask::mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const {
-  if (boxes_) {
-    region_states_by_runs(execution.isa, points, tests_, *boxes_, marks);
+void RegionMask::State::mark(const PointView& points, std::uint8_t* marks, const Execution& execution) const {
+  if (boxes) {
+    region_states_by_runs(execution.isa, points, tests, *boxes, marks);
   } else {
-    region_states(execution.isa, points, tests_, marks);
+    region_states(execution.isa, points, tests, marks);
   }
   for (std::size_t i = 0; i < points.count; ++i) {
     const void* const unclear =
@@ -95,7 +112,7 @@ void RegionMask::mark(const PointView& points, std::vector<std::uint8_t>& inside
                  [&](std::size_t chunk) {
                    const FloatEnvironment environment;
                    const LoadedPoints part = load_chunk(points, chunk);
-                   mark_chunk(part.view(), inside.data() + chunk * kChunkPoints, execution);
+                   state_->mark(part.view(), inside.data() + chunk * kChunkPoints, execution);
                  });
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "pcl_bv/kernels/run_boxes.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "spatial_order.h"
 
 namespace pcl_bv {

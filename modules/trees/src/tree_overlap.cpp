@@ -32,7 +32,7 @@ class TreeOverlap {
  private:
   bool near(const PlainBox& box) const {
     const AnyVolume moved = inflated(Obb(Aabb(box.low, box.high)).transformed(pose_), margin_);
-    return walk_inside(points_.isa(), points_.packed(), moved,
+    return walk_inside(points_.isa(), packed_tree(points_), moved,
                        [](std::size_t, std::uint32_t) { return true; });
   }
 
@@ -58,12 +58,12 @@ class TreeOverlap {
 // at least 2^-500.
 bool any_within(const PointTree& points, const TransformedPoint& point, double distance) {
   const double limit = distance + point.error;
-  return any_in_ball(points.isa(), points.packed(), point.position, limit * limit * (1 + 0x1p-48));
+  return any_in_ball(points.isa(), packed_tree(points), point.position, limit * limit * (1 + 0x1p-48));
 }
 
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
                   double margin) {
-  return TreeOverlap(points, others.packed(), pose, margin).visit(others.packed().boxes.levels - 1, 0);
+  return TreeOverlap(points, packed_tree(others), pose, margin).visit(packed_tree(others).boxes.levels - 1, 0);
 }
 
 }  // namespace pcl_bv

@@ -182,6 +182,16 @@ Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   return {center.point, axis, multiply_up(radius, 1 + 0x1p-48), multiply_up(height, 1 + 0x1p-48)};
 }
 
+FloatCylinder Cylinder::cast_float() const {
+  const FloatEnvironment environment;
+  const Eigen::Vector3f none = Eigen::Vector3f::Constant(static_cast<float>(kNan));
+  if (empty()) return {none, none, -1.0F};
+  const Eigen::Vector3f center = center_.cast<float>(), axis = axis_.cast<float>();
+  const double moved = (center.cast<double>() - center_).norm();
+  const double rotated = 2 * (axis.cast<double>() - axis_).norm();
+  return {center, axis, float_up((radius_ + moved + rotated * half_height_) * (1 + 1e-12))};
+}
+
 bool operator==(const Cylinder& a, const Cylinder& b) {
   const FloatEnvironment environment;
   if (a.empty() || b.empty()) return a.empty() && b.empty();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/volumes/kdop_set.h"
+#include "pcl_bv/volumes/kdop.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/volumes/kdop_sets.h"
 
 namespace pcl_bv {
 namespace {
@@ -71,7 +72,7 @@ KdopSet::KdopSet(std::vector<Eigen::Vector3d> directions) : directions_(std::mov
   basis_ = find_basis(directions_);
 }
 
-const Pointer& KdopSet::of(DirectionSet set) {
+const Pointer& kdop_set_of(DirectionSet set) {
   static const std::array<KdopSet, 4> sets{
       KdopSet(directions_of(DirectionSet::dop6)), KdopSet(directions_of(DirectionSet::dop14)),
       KdopSet(directions_of(DirectionSet::dop18)), KdopSet(directions_of(DirectionSet::dop26))};
@@ -79,6 +80,22 @@ const Pointer& KdopSet::of(DirectionSet set) {
   static const std::array<Pointer, 4> pointers{unowned(sets[0]), unowned(sets[1]), unowned(sets[2]),
                                                unowned(sets[3])};
   return pointers[static_cast<std::size_t>(set)];
+}
+
+const Pointer& KdopSet::dop6() {
+  return kdop_set_of(DirectionSet::dop6);
+}
+
+const Pointer& KdopSet::dop14() {
+  return kdop_set_of(DirectionSet::dop14);
+}
+
+const Pointer& KdopSet::dop18() {
+  return kdop_set_of(DirectionSet::dop18);
+}
+
+const Pointer& KdopSet::dop26() {
+  return kdop_set_of(DirectionSet::dop26);
 }
 
 bool operator==(const KdopSet& a, const KdopSet& b) {

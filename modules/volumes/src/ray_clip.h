@@ -12,7 +12,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/volumes/ray_interval.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace pcl_bv::volumes_internal {
 

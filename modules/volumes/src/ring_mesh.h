@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace pcl_bv::volumes_internal {
 

@@ -10,8 +10,8 @@
 #include "commands/shared/output_claims.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pipeline/config/names.h"
 
 namespace pcl_bv {

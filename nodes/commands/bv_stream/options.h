@@ -13,7 +13,7 @@
 
 #include "pcl_bv/nodes/frame_sink.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
 

@@ -18,10 +18,10 @@
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/nodes/frame_sink.h"
-#include "pcl_bv/nodes/frame_warnings.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {

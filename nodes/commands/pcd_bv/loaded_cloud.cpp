@@ -5,7 +5,7 @@
 
 #include "loaded_cloud.h"
 
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 #include "shifted_points.h"
 #include "tiles.h"
 

@@ -14,6 +14,7 @@
 #include "commands/shared/values.h"
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/report/picture.h"
 #include "pipeline/config/names.h"
 #include "pipeline/config/settings.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "commands/shared/messages.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 

@@ -7,7 +7,7 @@
 
 #include "copy_points.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 

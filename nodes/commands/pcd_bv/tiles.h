@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "inputs.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {

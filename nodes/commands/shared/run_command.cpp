@@ -8,7 +8,7 @@
 #include <string>
 
 #include "messages.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "standard_streams.h"
 #include "values.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command_line.h"
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
 

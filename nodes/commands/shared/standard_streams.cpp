@@ -13,8 +13,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
 

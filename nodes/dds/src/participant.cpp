@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::dds {
 namespace {

@@ -11,7 +11,7 @@
 #include "cdr_type.h"
 #include "endpoints.h"
 #include "participant.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::dds {
 namespace {

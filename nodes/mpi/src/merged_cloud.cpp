@@ -19,7 +19,6 @@
 #include "commands/shared/messages.h"
 #include "failures.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/verify.h"
 #include "volume_bytes.h"
 
 namespace pcl_bv {

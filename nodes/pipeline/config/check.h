@@ -13,7 +13,7 @@
 
 #include "settings.h"
 
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
 

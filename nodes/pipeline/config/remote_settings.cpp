@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/nodes/remote_settings.h"
+#include "pcl_bv/nodes/frame_sink.h"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +16,7 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/points/isa.h"
 #include "settings.h"
+#include "stream/remote_parameters.h"
 
 namespace pcl_bv {
 namespace {
@@ -180,7 +181,7 @@ class PipelineSettings final : public RemoteParameters {
 
 }  // namespace
 
-std::unique_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline) {
+std::shared_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline) {
   return std::make_unique<PipelineSettings>(pipeline);
 }
 

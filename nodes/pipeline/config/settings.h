@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {

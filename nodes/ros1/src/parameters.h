@@ -6,7 +6,7 @@
 
 #include <ros/node_handle.h>
 
-#include "pcl_bv/nodes/stream_config.h"
+#include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
 

@@ -9,8 +9,9 @@
 
 #include "line_file.h"
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/report/meshes.h"
+#include "pcl_bv/report/picture.h"
 #include "sinks.h"
 
 namespace pcl_bv {

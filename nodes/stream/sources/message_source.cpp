@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pcl_bv/nodes/cloud_message.h"
+#include "pcl_bv/nodes/topics.h"
 #include "sources.h"
 
 namespace pcl_bv {

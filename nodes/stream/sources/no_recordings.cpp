@@ -4,7 +4,7 @@
 // Used instead of recorded.cpp, packets.cpp and recording_sink.cpp in builds without the component
 // `recording`.
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "sources.h"
 #include "stream/sinks/sinks.h"
 

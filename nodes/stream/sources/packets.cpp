@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/recording/velodyne.h"
 #include "recorded_clouds.h"
 #include "sources.h"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "pcl_bv/io/io_error.h"
-#include "pcl_bv/nodes/cloud_message.h"
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/recording/velodyne.h"
 #include "recorded_clouds.h"

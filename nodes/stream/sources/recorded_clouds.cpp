@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/cloud.h"
-#include "pcl_bv/nodes/cloud_message.h"
+#include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/recording/velodyne.h"
 #include "sources.h"

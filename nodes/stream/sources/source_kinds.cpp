@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "message_source.h"
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/rural_road.h"

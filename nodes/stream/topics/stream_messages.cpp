@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "pcl_bv/nodes/topics.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_source.h"
 #include "pipeline/config/settings.h"
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "pcl_bv/nodes/topics.h"
-#include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace pcl_bv {
 namespace {

@@ -12,7 +12,7 @@
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
-#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv::detail {
 

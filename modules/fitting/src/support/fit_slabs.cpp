@@ -6,6 +6,7 @@
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/volumes/kdop_sets.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& set) {
   for (const auto built_in :
        {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
-    if (set == KdopSet::of(built_in)) return built_in;
+    if (set == kdop_set_of(built_in)) return built_in;
   }
   return std::nullopt;
 }

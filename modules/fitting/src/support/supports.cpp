@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/volumes/kdop_sets.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -178,7 +179,7 @@ Aabb aabb_of(const Supports& supports) {
 }
 
 Kdop kdop_of(const Supports& supports) {
-  const std::shared_ptr<const KdopSet>& set = KdopSet::of(supports.set);
+  const std::shared_ptr<const KdopSet>& set = kdop_set_of(supports.set);
   if (supports.used == 0) return Kdop(set);
   SlabVector low(static_cast<Eigen::Index>(set->size())), high = low;
   for (std::size_t k = 0; k < set->size(); ++k) {

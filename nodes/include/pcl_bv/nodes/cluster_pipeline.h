@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

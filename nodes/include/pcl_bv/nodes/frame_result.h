@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The result of one frame.
+// The result of one frame, the warnings about it, and percentiles of its times.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,13 +16,35 @@
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/points/point_source.h"
-#include "pcl_bv/report/frame_report.h"
-#include "pcl_bv/report/picture.h"
 #include "pcl_bv/report/report.h"
-#include "pcl_bv/segmentation/euclidean_clusters.h"
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/segmentation/clusters.h"
+#include "pcl_bv/segmentation/ground.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+struct Picture;
+
+/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. A histogram with logarithmic bins, each 1 %
+/// longer than the bin before. Never allocates.
+class LatencyHistogram {
+ public:
+  /// Adds a duration in milliseconds. Durations below 1 us go into the first bin and durations above 1000 s
+  /// into the last bin, but max() is exact. Negative durations and NaN are treated as 0.
+  void add(double milliseconds);
+
+  std::uint64_t count() const { return count_; }
+  double max() const { return max_; }  ///< Longest duration, milliseconds; 0 if empty.
+
+  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed. It is the
+  /// nearest rank, at most 1 % above the exact value. Returns 0 if the histogram is empty.
+  double percentile(double share) const;
+
+ private:
+  static constexpr std::size_t kBinCount = 2084;  // ln(1e9) / ln(1.01) + 1
+  std::array<std::uint32_t, kBinCount> bins_{};
+  std::uint64_t count_ = 0;
+  double max_ = 0;
+};
 
 /// Wall-clock milliseconds of each stage. `total` covers all stages except decode.
 struct StageTimes {
@@ -130,5 +153,27 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 /// Without clustering, it shows the points that passed the filter and are not ground. Refers to `frame`,
 /// `result` and `labels`.
 Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
+
+/// Detects results that a user should not trust:
+/// - no ground, little ground or only ground;
+/// - a cloud that does not surround its sensor or is upside down;
+/// - many points far away;
+/// - a sensor height that fits no plane;
+/// - stamps of tracked frames that do not advance.
+class FrameWarnings {
+ public:
+  /// Returns the warnings about a result, one line each. The lines name settings by their keys. Each kind of
+  /// warning is returned once per configuration. `frame` is the frame of `result`; its points must be in
+  /// memory if ground was removed.
+  ///
+  /// O(1), except for the search for another up direction, which takes milliseconds. It happens at most once
+  /// for a frame without ground and once for a frame with little ground.
+  std::vector<std::string> take(const Frame& frame, const FrameResult& result);
+
+ private:
+  std::shared_ptr<const PipelineConfig> config_;
+  std::uint32_t returned_ = 0;  // kinds already returned, one bit each
+  bool searched_ = false;       // whether little ground has led to a search for another up direction
+};
 
 }  // namespace pcl_bv

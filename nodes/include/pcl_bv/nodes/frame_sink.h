@@ -14,12 +14,17 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_result.h"
-#include "pcl_bv/nodes/latency.h"
-#include "pcl_bv/nodes/remote_settings.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+class FramePipeline;
+class RemoteParameters;
+
+/// Returns the settings of a pipeline for SinkGroup::offer_settings(), so that viewers can change them. The pipeline must outlive the returned object. Settings that read
+/// files or need other input (filter.regions, cluster.class_field and cluster.classes) cannot be changed.
+std::shared_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline);
 
 /// Thrown if a pipe has no reader any more. A program that prints should then end, without reporting a
 /// failure.

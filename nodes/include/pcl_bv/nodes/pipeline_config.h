@@ -16,7 +16,7 @@
 
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/parallel/execution.h"
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
 

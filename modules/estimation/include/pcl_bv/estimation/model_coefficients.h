@@ -9,15 +9,12 @@
 
 #include <initializer_list>
 
-#include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/directed.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/obb.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace pcl_bv {
-namespace estimation_internal {
+namespace detail {
 
 inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
   pcl::ModelCoefficients result;
@@ -26,28 +23,26 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
   return result;
 }
 
-}  // namespace estimation_internal
+}  // namespace detail
 
 /// Returns the coefficients for PCLVisualizer::addCube(): translation x y z, rotation as a quaternion x y z
 /// w, and the sizes along axes 0, 1 and 2 of the box (for an upright box: length, width, height). The
 /// coefficients are rounded to float, so the model may not enclose the box.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
-  const FloatEnvironment environment;
   const Eigen::Vector3d& c = box.center();
   const Eigen::Vector3d size = box.empty() ? c : Eigen::Vector3d(2 * box.half_extents());
   const Eigen::Vector4d q = box.empty() ? Eigen::Vector4d::Constant(c.x()) : box.quaternion().coeffs();
-  return estimation_internal::as_floats(
+  return detail::as_floats(
       {c.x(), c.y(), c.z(), q.x(), q.y(), q.z(), q.w(), size.x(), size.y(), size.z()});
 }
 
 /// Returns the coefficients for PCLVisualizer::addSphere() and SACMODEL_SPHERE, namely centre and radius of
 /// Sphere::cast_float(), which encloses the sphere.
 inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
-  const FloatEnvironment environment;
   const Eigen::Vector3d& c = sphere.center();
-  if (sphere.empty()) return estimation_internal::as_floats({c.x(), c.y(), c.z(), -1});
+  if (sphere.empty()) return detail::as_floats({c.x(), c.y(), c.z(), -1});
   const FloatSphere f = sphere.cast_float();
-  return estimation_internal::as_floats({f.center.x(), f.center.y(), f.center.z(), f.radius});
+  return detail::as_floats({f.center.x(), f.center.y(), f.center.z(), f.radius});
 }
 
 /// Returns the coefficients for PCLVisualizer::addCylinder() and SACMODEL_CYLINDER: a point on the axis (the
@@ -55,15 +50,9 @@ inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
 /// to float moves the axis; the radius is inflated by the largest movement between the ends, so the model
 /// encloses the cylinder.
 inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
-  const FloatEnvironment environment;
-  const Eigen::Vector3d& c = cylinder.center();
-  if (cylinder.empty()) return estimation_internal::as_floats({kNan, kNan, kNan, kNan, kNan, kNan, -1});
-  const Eigen::Vector3f center = c.cast<float>(), axis = cylinder.axis().cast<float>();
-  const double moved = (center.cast<double>() - c).norm();
-  const double rotated = 2 * (axis.cast<double>() - cylinder.axis()).norm();
-  const double inflated_radius = (cylinder.radius() + moved + rotated * cylinder.half_height()) * (1 + 1e-12);
-  return estimation_internal::as_floats(
-      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(inflated_radius)});
+  const FloatCylinder f = cylinder.cast_float();
+  return detail::as_floats(
+      {f.center.x(), f.center.y(), f.center.z(), f.axis.x(), f.axis.y(), f.axis.z(), f.radius});
 }
 
 }  // namespace pcl_bv

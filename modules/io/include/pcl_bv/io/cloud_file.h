@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/points/point_source.h"
 

@@ -7,15 +7,71 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "pcl_bv/io/byte_buffer.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Error thrown if a file cannot be read or written. what() is the reason in one line, without the file's
+/// name. The caller adds the name as the user gave it.
+class IoError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Returns the text in quotes, for an error message. Texts of more than 40 characters are cut and end in
+/// "...'". Each byte that is not printable ASCII becomes `?`.
+std::string in_quotes(std::string_view text);
+
+namespace internal {
+void* allocate_buffer(std::size_t bytes);
+void free_buffer(void* memory, std::size_t bytes) noexcept;
+}  // namespace internal
+
+/// Standard allocator that leaves value-initialised elements uninitialised, such as the new elements of
+/// std::vector::resize(). Blocks of 4 MiB or more are aligned to 2 MiB, and the operating system is advised
+/// to use huge pages of 2 MiB for them.
+template <typename T>
+class BufferAllocator {
+ public:
+  using value_type = T;
+
+  BufferAllocator() = default;
+  template <typename U>
+  BufferAllocator(const BufferAllocator<U>&) noexcept {}
+
+  /// Returns uninitialised memory for `n` elements. Throws std::bad_alloc.
+  T* allocate(std::size_t n) {
+    if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+    return static_cast<T*>(internal::allocate_buffer(n * sizeof(T)));
+  }
+  /// Frees memory that allocate(n) returned.
+  void deallocate(T* memory, std::size_t n) noexcept { internal::free_buffer(memory, n * sizeof(T)); }
+
+  /// Leaves the element uninitialised if it is of a trivial type.
+  template <typename U>
+  void construct(U* at) noexcept {
+    ::new (static_cast<void*>(at)) U;
+  }
+  /// Constructs an element from these values.
+  template <typename U, typename... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+  }
+
+  friend bool operator==(const BufferAllocator&, const BufferAllocator&) { return true; }
+  friend bool operator!=(const BufferAllocator&, const BufferAllocator&) { return false; }
+};
+
+/// Vector of bytes. resize() leaves the new bytes uninitialised. Write them before reading them.
+using ByteBuffer = std::vector<std::byte, BufferAllocator<std::byte>>;
 
 /// One field of a point record. Its type and size are as in the .pcd format.
 struct PointField {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Readers of cloud files, and the writer of .pcd.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 
@@ -43,5 +43,48 @@ struct CloudHeader {
 /// Reads the header of a cloud file. The points are not read. A later read can therefore still find that the
 /// file is cut or damaged. Throws as read_cloud().
 CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Reads a .pcd file in ascii, binary or binary_compressed encoding (also with blocks that were stored
+/// without compression). The file must have fields x, y and z (or X, Y and Z) of float32, float64 or integer
+/// types. The three types may differ (see RawCloud::xyz()). All other fields are read, too.
+///
+/// Sizes in the header are checked against the size of the file before anything is allocated. A file of 0
+/// points gives an empty cloud.
+///
+/// Values in ascii files:
+/// - Numbers are rounded to the nearest value of their field's type. Numbers outside its range become
+///   infinity or zero.
+/// - "nan" and "inf" in any case are accepted for floating-point fields only.
+/// - Integer fields accept whole numbers in any notation (1.0, 1e3). -1 in an unsigned field becomes the
+///   maximum.
+/// - Any other text is an error in a coordinate. In another field it becomes 0 or NaN, and RawCloud::note
+///   reports it.
+/// - Rows after the last point are an error.
+///
+/// Further points after the last point of a binary file are not read, and RawCloud::note reports them. They
+/// are an error if the header says 0 points, as after a recorder stopped before it updated the header.
+/// RawCloud::note also reports a VIEWPOINT other than the identity, which is never applied.
+///
+/// The threads of the execution read the rows of text. The cloud and the error are the same for any number of
+/// threads. In addition to the cloud, ascii needs 0.3 MiB of memory per thread (more only if a row is
+/// longer), and binary_compressed needs the size of the file plus the size of the points.
+///
+/// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent or
+/// of an unsupported type.
+RawCloud read_pcd(const std::filesystem::path& path, const Execution& execution = {Serial{}, Isa::scalar});
+
+/// Encodings of the points in a .pcd file, named as in the file's line DATA.
+enum class PcdEncoding { ascii, binary, binary_compressed };
+
+/// Writes all fields of the cloud, its width, height and viewpoint, through write_file_atomically(). The
+/// values read back bit for bit, with two exceptions. The ascii encoding does not store the sign and payload
+/// of a NaN. The binary_compressed encoding leaves out padding (fields named "_"), because PCL's reader does
+/// not expect padding there.
+///
+/// Throws IoError if the file cannot be written, if an ascii cloud has a field of type F and size 1 or 2, or
+/// if a binary_compressed cloud has more than 4e9 bytes of points. Throws std::invalid_argument for a cloud
+/// that violates the rules of RawCloud.
+void write_pcd(const std::filesystem::path& path, const RawCloud& cloud,
+               PcdEncoding encoding = PcdEncoding::binary);
 
 }  // namespace pcl_bv

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

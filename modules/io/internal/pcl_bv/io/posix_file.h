@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

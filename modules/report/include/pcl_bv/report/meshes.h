@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/report/report.h"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/segmentation/counts.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

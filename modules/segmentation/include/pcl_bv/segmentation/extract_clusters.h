@@ -15,8 +15,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pcl_bv/points/point_records.h"
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/points/point_view.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace pcl::search {
 template <typename PointT>

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/clusters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -6,18 +6,22 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "pcl_bv/kernels/packed_tree.h"
 #include "pcl_bv/parallel/execution.h"
+#include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+struct PackedTree;
 
 /// The first point that a moving sphere touches. The centre of the sphere is then at origin + t direction.
 struct PointHit {
@@ -51,12 +55,17 @@ struct PointDistance {
 class PointTree {
  public:
   /// An empty tree.
-  PointTree() = default;
+  PointTree();
 
   /// Builds the tree of the view's valid points. dropped() returns the number of the other points. O(n log
   /// n). Throws std::invalid_argument unless the points are in memory, their number is at most 2^31 - 1,
   /// and their indices are at most 2^31 - 2.
-  explicit PointTree(const PointView& points, const Execution& execution = {}) { assign(points, execution); }
+  explicit PointTree(const PointView& points, const Execution& execution = {});
+  ~PointTree();
+  PointTree(const PointTree& other);
+  PointTree& operator=(const PointTree& other);
+  PointTree(PointTree&&) noexcept;  ///< The other tree is then empty.
+  PointTree& operator=(PointTree&&) noexcept;
 
   /// Replaces the points by those of a view, like the constructor. Allocates only if there are more points
   /// than in any earlier call. If it throws std::invalid_argument, as the constructor does, the tree is
@@ -72,10 +81,10 @@ class PointTree {
   /// an index list or has another scalar type.
   void refit(const PointView& cloud, const Execution& execution = {});
 
-  std::size_t size() const { return tree_.count; }  ///< Number of points in the tree.
-  std::size_t dropped() const { return dropped_; }  ///< Number of points of the view that were not valid.
+  std::size_t size() const;     ///< Number of points in the tree.
+  std::size_t dropped() const;  ///< Number of points of the view that were not valid.
   /// Whether the tree has no points.
-  bool empty() const { return tree_.count == 0; }
+  bool empty() const { return size() == 0; }
 
   /// Returns the point of the tree nearest to the query point, if it is within `max_distance`.
   ///
@@ -128,30 +137,86 @@ class PointTree {
   std::optional<PointHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     double radius) const;
 
-  /// Returns the points and boxes, for callers that traverse the tree themselves.
-  const PackedTree& packed() const { return tree_; }
   /// Returns the instruction set of the queries, which is that of the last build.
-  UsableIsa isa() const { return isa_; }
+  UsableIsa isa() const;
 
  private:
-  // Buffers for building, retained for the next cloud. Copies of a tree do not share them.
-  struct Scratch;
-  struct ReusedScratch {
-    ReusedScratch() = default;
-    ReusedScratch(const ReusedScratch&) {}
-    // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): each tree retains its own buffers.
-    ReusedScratch& operator=(const ReusedScratch&) { return *this; }
-    ReusedScratch(ReusedScratch&&) = default;
-    ReusedScratch& operator=(ReusedScratch&&) = default;
-    std::shared_ptr<Scratch> scratch;
-  };
+  friend const PackedTree& packed_tree(const PointTree& tree);
+  struct State;
 
-  Scratch& scratch();
+  const State& state() const;
 
-  PackedTree tree_;
-  UsableIsa isa_ = Isa::scalar;
-  std::size_t dropped_ = 0;
-  ReusedScratch scratch_;
+  std::unique_ptr<State> state_;  // null for a tree that was never assigned
+};
+
+/// Lists of neighbours, concatenated. The neighbours of query point i are neighbors[first[i]] to
+/// neighbors[first[i + 1] - 1].
+struct NeighborLists {
+  /// The neighbours of all query points.
+  std::vector<Neighbor> neighbors;
+  /// Start of each query point's list in `neighbors`, and at the end the size of `neighbors`.
+  std::vector<std::size_t> first;
+};
+
+/// Resizes `found` to the number of query points. Sets found[i] to PointTree::nearest() of the i-th query
+/// point, or to index -1 and distance infinity if there is none. Throws std::invalid_argument if the query
+/// points are not in memory, or if max_distance is negative or NaN.
+void nearest(const PointTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
+             double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
+
+/// Lists the k nearest points of each query point, in ascending order of Neighbor. Throws like nearest()
+/// above.
+void nearest(const PointTree& tree, const PointView& query_points, std::size_t k, NeighborLists& found,
+             double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
+
+/// Lists all points within `distance` of each query point, in ascending order of Neighbor. Throws like
+/// nearest().
+void near(const PointTree& tree, const PointView& query_points, double distance, NeighborLists& found,
+          const Execution& execution = {});
+
+/// Resizes `inside` to the number of volumes. Sets inside[i] to 1 if PointTree::any_inside() holds for volume
+/// i, else to 0.
+void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
+                const Execution& execution = {});
+void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
+                std::vector<std::uint8_t>& inside, const Execution& execution = {});
+
+/// The points of a PointTree after a rigid motion. The points are not moved. Instead, each query is moved to
+/// the tree's frame.
+///
+/// The tree must outlive this object. A query volume is moved back and inflated, which covers the rounding of
+/// the inverse matrix. So every point is found whose image (by exact arithmetic on the stored matrix) is
+/// inside the volume. Points outside are found only if they are within about 1e-15 of the coordinates. Query
+/// points are rounded when they are moved back, and distances are computed in the tree's frame. Query points
+/// and distances are accurate to about 1e-15 of the coordinates.
+class PosedTree {
+ public:
+  /// Places `tree` at `pose`, the transform from the tree's frame to the frame of the queries. Throws
+  /// std::invalid_argument unless the pose is finite and its axes are unit vectors and orthogonal to 1e-6.
+  PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose);
+
+  /// Like the PointTree member functions of the same name, with arguments in the frame of the queries.
+  std::optional<Neighbor> nearest(const Eigen::Vector3d& point,
+                                  double max_distance = std::numeric_limits<double>::infinity()) const;
+  void nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
+               double max_distance = std::numeric_limits<double>::infinity()) const;
+  void near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const;
+
+  /// Like the PointTree member functions of the same name, with the volume in the frame of the queries.
+  bool any_inside(const AnyVolume& volume) const;
+  std::size_t count_inside(const AnyVolume& volume) const;
+  void all_inside(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
+
+  /// Like PointTree::first_hit(), with origin and direction in the frame of the queries.
+  std::optional<PointHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                    double radius) const;
+
+ private:
+  AnyVolume moved_back(const AnyVolume& volume) const;
+
+  const PointTree& tree_;
+  Eigen::Isometry3d back_;  // inverse of the pose
+  double rounding_;         // bound of |back_ (pose p) - p| for points p of the tree
 };
 
 }  // namespace pcl_bv

@@ -9,14 +9,11 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
-
-class VolumeBoxes;
 
 /// A volume inflated by `padding` in every direction. The padding is in the unit of the points, 0 to 1e100.
 ///
@@ -65,11 +62,9 @@ class RegionMask {
   static constexpr std::size_t kFewRegions = 12;
 
  private:
-  void mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const;
+  struct State;
 
-  std::vector<AnyVolume> volumes_;  // inflated, without the empty ones
-  RegionTests tests_;
-  std::shared_ptr<const VolumeBoxes> boxes_;  // null for at most kFewRegions volumes
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace pcl_bv

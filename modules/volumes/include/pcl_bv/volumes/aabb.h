@@ -8,8 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "pcl_bv/volumes/mesh.h"
-#include "pcl_bv/volumes/ray_interval.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -13,11 +13,10 @@
 #include "pcl_bv/volumes/capsule.h"
 #include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/ellipsoid.h"
+#include "pcl_bv/volumes/geometry.h"
 #include "pcl_bv/volumes/hull.h"
 #include "pcl_bv/volumes/kdop.h"
-#include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/obb.h"
-#include "pcl_bv/volumes/ray_interval.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

@@ -8,10 +8,17 @@
 #include <optional>
 
 #include "pcl_bv/volumes/aabb.h"
-#include "pcl_bv/volumes/mesh.h"
-#include "pcl_bv/volumes/ray_interval.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// A float copy of a Cylinder's axis and radius. The infinite cylinder around the axis encloses the Cylinder:
+/// the radius includes the distance by which rounding moves the axis. An empty cylinder has centre and axis
+/// NaN and radius -1.
+struct FloatCylinder {
+  Eigen::Vector3f center, axis;
+  float radius;
+};
 
 /// A cylinder in the frame and unit of its points: the closed set of all p = center + q with
 /// |q x axis| <= radius |axis| and |q . axis| <= half_height |axis|. The axis has length 1 up to rounding.
@@ -69,6 +76,9 @@ class Cylinder {
   /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the scaling
   /// error of the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
+
+  /// Returns a float copy of axis and radius. The infinite cylinder around it encloses the cylinder.
+  FloatCylinder cast_float() const;
 
  private:
   Eigen::Vector3d center_, axis_;

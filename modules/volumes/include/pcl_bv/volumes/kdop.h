@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// k-DOPs and their sets of directions.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +13,50 @@
 #include <vector>
 
 #include "pcl_bv/volumes/aabb.h"
-#include "pcl_bv/volumes/kdop_set.h"
-#include "pcl_bv/volumes/mesh.h"
-#include "pcl_bv/volumes/ray_interval.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// An immutable list of the directions of a k-DOP, one per slab. k is twice the number of directions.
+/// Directions may have any length. The built-in directions have components 0 and +-1 and are not normalised,
+/// so that projections need no multiplication. See Klosowski et al. 1998 and Karlsson, Winberg and Larsson
+/// 2010, section 2.
+class KdopSet {
+ public:
+  static constexpr std::size_t min_size = 3;
+  static constexpr std::size_t max_size = 49;
+
+  /// Makes a set of your own directions. Throws std::invalid_argument unless there are 3 to 49 directions,
+  /// all finite, each with a largest component from 1e-30 to 1e30 in magnitude. Also throws unless the
+  /// directions span space, that is, unless three of them, normalised, have a determinant of at least 1e-6 in
+  /// magnitude.
+  explicit KdopSet(std::vector<Eigen::Vector3d> directions);
+
+  /// The built-in sets have the first 3, the first 7, the first 3 and last 6, or all of the directions (1,0,0)
+  /// (0,1,0) (0,0,1), (1,1,1) (1,1,-1) (1,-1,1) (1,-1,-1), (1,1,0) (1,-1,0) (1,0,1) (1,0,-1) (0,1,1) (0,1,-1).
+  /// The pointers own nothing, so copying a pointer changes no atomic reference count.
+  static const std::shared_ptr<const KdopSet>& dop6();
+  static const std::shared_ptr<const KdopSet>& dop14();
+  static const std::shared_ptr<const KdopSet>& dop18();
+  static const std::shared_ptr<const KdopSet>& dop26();
+
+  std::size_t size() const { return directions_.size(); }  ///< Number of directions: half of k.
+  const Eigen::Vector3d& direction(std::size_t i) const { return directions_[i]; }  ///< Not normalised.
+
+  /// Returns the indices of three linearly independent, well-conditioned directions. In the built-in sets,
+  /// they are 0, 1 and 2.
+  const std::array<std::size_t, 3>& basis() const { return basis_; }
+
+ private:
+  std::vector<Eigen::Vector3d> directions_;
+  std::array<std::size_t, 3> basis_;
+};
+
+/// Returns whether both sets have the same directions in the same order.
+bool operator==(const KdopSet& a, const KdopSet& b);
+inline bool operator!=(const KdopSet& a, const KdopSet& b) {
+  return !(a == b);
+}
 
 /// One number per slab, stored inline without an allocation.
 using SlabVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1>;

@@ -9,8 +9,7 @@
 #include <optional>
 
 #include "pcl_bv/volumes/aabb.h"
-#include "pcl_bv/volumes/mesh.h"
-#include "pcl_bv/volumes/ray_interval.h"
+#include "pcl_bv/volumes/geometry.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -90,19 +90,6 @@ struct PackedTree {
   }
 };
 
-/// A point of a cloud and its squared distance from a query point. The squared distance is (dx dx + dy dy) +
-/// dz dz, where d is the point minus the query point. Each step is rounded to double.
-struct Neighbor {
-  std::int32_t index;
-  double squared_distance;
-};
-
-/// Orders neighbours by distance. Neighbours at equal distances are ordered by index.
-inline bool operator<(const Neighbor& a, const Neighbor& b) {
-  return a.squared_distance < b.squared_distance ||
-         (a.squared_distance == b.squared_distance && a.index < b.index);
-}
-
 /// Returns whether any point has a squared distance (see Neighbor) of at most `limit` from `center`.
 ///
 /// This function and the three functions below give the same result for every `isa`. They find no point in an

@@ -3,12 +3,9 @@
 
 #pragma once
 
-#include <memory>
 #include <string>
 
 namespace [[gnu::visibility("default")]] pcl_bv {
-
-class FramePipeline;
 
 /// The settings of a running pipeline as JSON, for another process that shows and changes them. All member
 /// functions may be called from any thread.
@@ -33,9 +30,5 @@ class RemoteParameters {
   /// the allowed values.
   virtual std::string change(const std::string& object) = 0;
 };
-
-/// Returns the settings of a pipeline. The pipeline must outlive the returned object. Settings that read
-/// files or need other input (filter.regions, cluster.class_field and cluster.classes) cannot be changed.
-std::unique_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline);
 
 }  // namespace pcl_bv

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

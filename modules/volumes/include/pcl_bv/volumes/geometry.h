@@ -1,9 +1,23 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Results of the member functions mesh() and intersect() of the volumes.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// A closed polygon mesh in the frame and unit of the volume that it describes.
+///
+/// Faces are convex and counter-clockwise seen from outside. An empty volume has an empty mesh. A flat volume
+/// has faces of area 0, or two faces that coincide.
+struct Mesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::vector<std::int32_t>> faces;  ///< Indices into `vertices`, in order around each face.
+};
 
 /// The part of the ray origin + t * direction, t >= 0, that is inside a volume: enter <= t <= exit. The
 /// parameter t is in units of the direction's length, so the segment with t <= 1 meets the volume if

@@ -12,13 +12,10 @@
 #include <vector>
 
 #include "pcl_bv/points/point_view.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
-
-/// Labels of points that belong to no cluster. kLabelGround is for ground, kLabelNone for all others.
-inline constexpr std::uint32_t kLabelGround = 4294967294;
-inline constexpr std::uint32_t kLabelNone = 4294967295;
 
 /// A volume, and the colour and label with which it is drawn.
 struct PictureVolume {
