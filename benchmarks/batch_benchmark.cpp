@@ -17,6 +17,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;

@@ -9,6 +9,7 @@
 #include "rows.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 const std::vector<std::string> kBoth = {"aabb", "dop26"};

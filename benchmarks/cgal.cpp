@@ -23,6 +23,7 @@
 #endif
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 #ifdef PCL_BV_BENCH_CGAL
 namespace {

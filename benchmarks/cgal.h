@@ -7,6 +7,7 @@
 #include "peers.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// "cgal-min-sphere" (CGAL::Min_sphere_d in double) and "cgal-min-sphere-of-spheres"
 /// (CGAL::Min_sphere_of_spheres_d in double, radii of 0), which solve what sphere-exact solves. Their

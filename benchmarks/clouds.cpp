@@ -18,6 +18,7 @@
 #include "shapes.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Coordinates = std::span<const float>;

@@ -21,6 +21,7 @@
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// Sizes that, at 16 bytes a point, fit the first, second and third level of cache, and none.
 inline constexpr std::size_t kL1 = 2048, kL2 = 32'768, kL3 = 1'000'000, kMemory = 16'000'000;

@@ -23,6 +23,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 /// Scenes: "street" (a LiDAR sweep above ground), "street-whole" (with its ground), "sweep" (the first of

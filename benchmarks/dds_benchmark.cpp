@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bv_stream between ROS 2's topics on the loopback: clouds of 2 MB, 20 a second, from this process, and the markers of
-// their objects back in it. Counters: how many were answered, milliseconds from sending a cloud to having its markers,
-// and what bv_stream has resident after a tenth of the time and at its end. PCL_BV_BENCH_CLOUDS: how many (600).
+// bv_stream between ROS 2's topics on the loopback: clouds of 2 MB, 20 a second, from this process, and the
+// markers of their objects back in it. Counters: how many were answered, milliseconds from sending a cloud to
+// having its markers, and what bv_stream has resident after a tenth of the time and at its end.
+// PCL_BV_BENCH_CLOUDS: how many (600).
 
 #include <benchmark/benchmark.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -14,7 +16,6 @@
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 #include "child_process.h"
 #include "pcl_bv/messages/results.h"
@@ -24,6 +25,7 @@
 #include "stream/middleware.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -80,7 +82,8 @@ class Talk {
   void listen_until(Clock::time_point end) {
     for (Clock::time_point now; (now = Clock::now()) < end;) {
       ReceivedMessage message;
-      if (!markers_->next(message, std::chrono::duration_cast<std::chrono::milliseconds>(end - now))) continue;
+      if (!markers_->next(message, std::chrono::duration_cast<std::chrono::milliseconds>(end - now)))
+        continue;
       const auto came = Clock::now();
       msg::MarkerArray array;
       read_cdr(message.data, message.size, array);
@@ -109,7 +112,8 @@ class Talk {
 
 void clouds_to_markers(benchmark::State& state) {
   const char* const wanted = std::getenv("PCL_BV_BENCH_CLOUDS");
-  const auto clouds = static_cast<std::uint32_t>(times_in_this_run(wanted == nullptr ? 600 : std::atoi(wanted)));
+  const auto clouds =
+      static_cast<std::uint32_t>(times_in_this_run(wanted == nullptr ? 600 : std::atoi(wanted)));
   for (auto _ : state) {
     const RunningProcess node({PCL_BV_BIN_DIR "/bv_stream", "--source", "dds:/points", "--sink", "dds:/bv"});
     Talk talk;
@@ -123,7 +127,9 @@ void clouds_to_markers(benchmark::State& state) {
     talk.listen_until(Clock::now() + 4 * kPeriod);
     const std::vector<double> ms = talk.latencies();
     if (ms.empty()) throw std::runtime_error("no answer");
-    const auto at = [&](double share) { return ms[static_cast<std::size_t>(share * static_cast<double>(ms.size() - 1))]; };
+    const auto at = [&](double share) {
+      return ms[static_cast<std::size_t>(share * static_cast<double>(ms.size() - 1))];
+    };
     state.counters["sent"] = clouds;
     state.counters["answered"] = static_cast<double>(ms.size());
     state.counters["p50_ms"] = at(0.5);
@@ -140,6 +146,8 @@ void clouds_to_markers(benchmark::State& state) {
 int main(int argc, char** argv) {
   setenv("ROS_LOCALHOST_ONLY", "1", 1);
   setenv("ROS_DOMAIN_ID", std::to_string(1 + getpid() % 200).c_str(), 1);
-  benchmark::RegisterBenchmark("dds/clouds-to-markers", pcl_bv::bench::clouds_to_markers)->Iterations(1)->UseRealTime();
+  benchmark::RegisterBenchmark("dds/clouds-to-markers", pcl_bv::bench::clouds_to_markers)
+      ->Iterations(1)
+      ->UseRealTime();
   return pcl_bv::bench::run_program(argc, argv);
 }

@@ -19,6 +19,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 namespace fs = std::filesystem;

@@ -12,6 +12,7 @@
 #include "pcl_bv/fitting/fit.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 const std::string kWithPoints = "-points";

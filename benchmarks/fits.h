@@ -11,6 +11,7 @@
 #include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// A method of fitting/methods.h, with "+sequential", "+stationary" or "+deferred" after it grown that way;
 /// or "dop26-points": the extremes of a 26-DOP and the points that reach them.

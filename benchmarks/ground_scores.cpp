@@ -15,6 +15,7 @@
 #include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void add_frame(FramePipeline& pipeline, const RuralRoadOptions& options, std::size_t number,

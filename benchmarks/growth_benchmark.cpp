@@ -7,6 +7,7 @@
 #include "rows.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void add_size(std::size_t points) {

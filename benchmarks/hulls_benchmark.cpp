@@ -19,6 +19,7 @@
 #endif
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void describe_volume(benchmark::State& state, const Fit& fit, const Cloud& cloud) {

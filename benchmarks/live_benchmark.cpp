@@ -25,6 +25,7 @@
 #include "program.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Clock = std::chrono::steady_clock;

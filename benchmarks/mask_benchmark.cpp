@@ -19,6 +19,7 @@
 #include "rows.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 // The links of a robot, within a metre of the sensor and about 0.3 m in size: boxes, spheres, oriented boxes,

@@ -6,6 +6,7 @@
 #include "plain_dop.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 template <std::size_t directions>
 PlainDop naive_dop(const float* xyzw, std::size_t points) {

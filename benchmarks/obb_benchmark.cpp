@@ -20,6 +20,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 constexpr int kTurns = 9, kTurnsOfTheSlow = 3;  // 0.3 s each on 100 k points

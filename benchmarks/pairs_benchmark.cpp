@@ -10,6 +10,7 @@
 #include "rows.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void over_scalar() {

@@ -12,6 +12,7 @@
 #include "radii.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 const std::vector<CloudName>& point_sets() {

@@ -23,6 +23,7 @@
 #endif
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Direction = std::array<double, 3>;

@@ -12,6 +12,7 @@
 #include "rivals.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// A peer runs on layouts "xyz" and "packed" as it would in its own home: the clouds that it takes are given.
 struct Peer {

@@ -28,6 +28,7 @@
 #include "program.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 constexpr std::size_t kWarmUp = 5;

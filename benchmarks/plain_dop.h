@@ -10,6 +10,7 @@
 #include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// Bounds along as many directions as were asked for.
 struct PlainDop {

@@ -6,6 +6,7 @@
 #include "plain_dop.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 #define PCL_BV_EACH_DIRECTION(DO) \
   DO(0, x)                        \

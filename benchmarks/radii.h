@@ -9,6 +9,7 @@
 #include "rows.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 inline const std::vector<std::string>& sphere_methods() {
   static const std::vector<std::string> names = {"sphere-ritter", "sphere-epos6",  "sphere-epos14",

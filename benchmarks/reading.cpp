@@ -14,6 +14,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 Reading::Reading(const Cloud& cloud, unsigned threads)
     : words_(reinterpret_cast<const std::uint64_t*>(cloud.view.data)),

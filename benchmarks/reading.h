@@ -13,6 +13,7 @@
 #include "pcl_bv/points/isa.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// The best way found, among instruction sets, streams and cuts, to read all bytes of a cloud's records.
 class Reading {

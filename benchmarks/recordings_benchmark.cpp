@@ -21,6 +21,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 std::vector<std::byte> message_of(std::size_t points, std::size_t frame) {
@@ -108,9 +109,9 @@ void add_view() {
 
 int main(int argc, char** argv) {
   using namespace pcl_bv::bench;
-  add_reading("none", pcl_bv::Compression::none);
-  add_reading("lz4", pcl_bv::Compression::lz4);
-  add_reading("zstd", pcl_bv::Compression::zstd);
+  add_reading("none", pcl_bv::detail::Compression::none);
+  add_reading("lz4", pcl_bv::detail::Compression::lz4);
+  add_reading("zstd", pcl_bv::detail::Compression::zstd);
   add_view();
   return run_program(argc, argv);
 }

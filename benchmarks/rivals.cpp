@@ -18,8 +18,9 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv::bench {
+using namespace detail;
 namespace HWY_NAMESPACE {
-using namespace pcl_bv::HWY_NAMESPACE;  // of load-inl.h
+using namespace pcl_bv::detail::HWY_NAMESPACE;  // of load-inl.h
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Named variables, not arrays: vectors of SVE have no size that the compiler knows.
@@ -178,6 +179,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pcl_bv::bench {
+using namespace detail;
 
 std::uint64_t read_words(Isa isa, const std::uint64_t* words, std::size_t count, unsigned streams) {
   static constexpr KernelTable<std::uint64_t(const std::uint64_t*, std::size_t, unsigned)> kTable =

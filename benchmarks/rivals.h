@@ -14,6 +14,7 @@
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 /// The exclusive or of all 64-bit words of an array, each vector loaded once: nothing that looks at all bytes
 /// can be faster than the best number of `streams` (1, 2, 4 or 8 places that are read in turn).

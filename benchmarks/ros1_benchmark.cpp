@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two nodelets in one manager, this process, get the same clouds in turns, as from a driver in the manager: ours, and pcl_ros'
-// EuclideanClusterExtraction (packages libpcl-ros-dev and libpcl-ros-segmentation0d; without them there is no row). Timed is
-// from sending a cloud, a street without its ground, to the first message of the answer: ours is one message with volumes,
-// pcl_ros sends a cloud for each cluster. `ratio` is the median of the pairs.
+// Two nodelets in one manager, this process, get the same clouds in turns, as from a driver in the manager:
+// ours, and pcl_ros' EuclideanClusterExtraction (packages libpcl-ros-dev and libpcl-ros-segmentation0d;
+// without them there is no row). Timed is from sending a cloud, a street without its ground, to the first
+// message of the answer: ours is one message with volumes, pcl_ros sends a cloud for each cluster. `ratio` is
+// the median of the pairs.
 
 #include <benchmark/benchmark.h>
 #include <nodelet/loader.h>
@@ -30,6 +31,7 @@
 #include "program.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,7 +91,8 @@ class Nodelet {
     });
     const nodelet::M_string remappings{{ros::names::resolve("points"), "/" + in}};
     if (!manager.load("/" + name, type, remappings, {})) throw std::runtime_error("cannot load " + type);
-    wait_for([&] { return clouds_.getNumSubscribers() > 0 && answers_.getNumPublishers() > 0; }, "a nodelet does not come");
+    wait_for([&] { return clouds_.getNumSubscribers() > 0 && answers_.getNumPublishers() > 0; },
+             "a nodelet does not come");
   }
 
   double seconds_of(const sensor_msgs::PointCloud2ConstPtr& cloud) {
@@ -155,9 +158,10 @@ void over_pcl_ros(benchmark::State& state, const std::string& volume) {
   ros.setParam("/ours/volumes", volume);
   ros.setParam("/ours/threads", static_cast<int>(state.range(0)));
   nodelet::Loader manager;
-  Nodelet<sensor_msgs::PointCloud2> theirs(ros, manager, "theirs", "pcl/EuclideanClusterExtraction", "theirs/input",
-                                           "theirs/output");
-  Nodelet<visualization_msgs::MarkerArray> ours(ros, manager, "ours", "pcl_bv/ClusterVolumes", "clouds", "markers");
+  Nodelet<sensor_msgs::PointCloud2> theirs(ros, manager, "theirs", "pcl/EuclideanClusterExtraction",
+                                           "theirs/input", "theirs/output");
+  Nodelet<visualization_msgs::MarkerArray> ours(ros, manager, "ours", "pcl_bv/ClusterVolumes", "clouds",
+                                                "markers");
   std::vector<sensor_msgs::PointCloud2ConstPtr> clouds;
   for (std::size_t i = 0; i < (tiny() ? 1U : 10U); ++i)
     clouds.push_back(objects_of_street(i));

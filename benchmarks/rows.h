@@ -18,6 +18,7 @@
 #include "timing.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 template <typename Body>
 benchmark::internal::Benchmark* add(const std::string& work, const std::string& how, const CloudName& cloud,

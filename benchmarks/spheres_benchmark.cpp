@@ -7,6 +7,7 @@
 #include "radii.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void shapes() {

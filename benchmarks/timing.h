@@ -15,6 +15,7 @@
 #include "program.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 template <typename Run>
 double seconds(Run&& run, int times) {

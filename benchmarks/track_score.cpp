@@ -9,6 +9,7 @@
 #include "pipeline/track/assignment.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 std::vector<std::pair<std::size_t, std::size_t>> TrackScore::add(const std::vector<TrueObject>& truths,
                                                                  const std::vector<FoundObject>& found) {

@@ -18,6 +18,7 @@
 #include "track_score.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 constexpr std::size_t kLeast = 10;  // points of an object that is asked for

@@ -16,6 +16,7 @@
 #include "program.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void add_point(TreeCloud& cloud, float x, float y, float z) {

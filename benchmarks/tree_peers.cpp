@@ -18,6 +18,7 @@
 #endif
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Place = pcl::PointXYZ;

@@ -14,6 +14,7 @@
 #include "tree_rows.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 struct Ray {

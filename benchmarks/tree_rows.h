@@ -15,6 +15,7 @@
 #include "tree_inputs.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 
 inline std::string tree_input_name(Isa isa, const std::string& scene, std::size_t points) {
   return std::string(isa_name(isa)) + '/' + scene + "/n:" + std::to_string(points);

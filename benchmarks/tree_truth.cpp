@@ -14,6 +14,7 @@
 #include "program.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 using Place = Eigen::Vector3d;

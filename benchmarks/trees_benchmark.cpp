@@ -7,7 +7,7 @@
 //   tree/over-PEER/WHAT/ISA/SCENE/n:POINTS/threads:1        in turns; WHAT is build or a question or, of a
 //                                                           sweep with the build, sweep-nearest, sweep-radius
 //   tree/over-embree/ray/ISA/SCENE/n:POINTS/threads:1
-//   volumes/over-loop/WHAT/n:VOLUMES/threads:1, volumes/links/ISA/SCENE/n:POINTS/threads:1     tree_volumes.cpp
+//   volumes/over-loop/WHAT/n:VOLUMES/threads:1, volumes/links/ISA/SCENE/n:POINTS/threads:1 tree_volumes.cpp
 //   tree/wrong/ISA/questions:N                              ours against all points (tree_truth.cpp)
 // `wrong` counts a peer's answers that rounding to float does not explain, of `questions`.
 
@@ -26,6 +26,7 @@
 #include "tree_truth.h"
 
 namespace pcl_bv::bench {
+using namespace detail;
 namespace {
 
 void add_build(Isa isa, const std::string& scene, std::size_t points, unsigned threads) {

@@ -84,7 +84,9 @@ function(pcl_bv_library name)
       set(arg_COMPONENT ${name})
     endif()
     install(TARGETS ${target} EXPORT pcl_bv_${arg_COMPONENT})
-    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/include) # all headers of kernels are private
+      install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    endif()
   endif()
 endfunction()
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 SplitMix64::SplitMix64(std::initializer_list<std::uint64_t> keys) : state_(0) {
   for (const std::uint64_t key : keys)
@@ -38,4 +38,4 @@ double SplitMix64::normal() {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(angle);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,6 +16,7 @@
 #include "sweep.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace rural_road {
 namespace {
 

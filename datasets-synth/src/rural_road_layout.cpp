@@ -10,6 +10,7 @@
 #include <numbers>
 
 namespace pcl_bv::rural_road {
+using namespace detail;
 namespace {
 
 enum class Motion : std::uint8_t { static_object, constant_speed, with_sensor_car };

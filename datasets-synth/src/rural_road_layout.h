@@ -11,6 +11,7 @@
 #include "street_layout.h"
 
 namespace pcl_bv::rural_road {
+using namespace detail;
 
 struct PlacedRoadObject {
   PlacedObject object;  ///< Pose and velocity in the fixed frame.

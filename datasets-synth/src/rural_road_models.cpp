@@ -5,7 +5,7 @@
 #include "street_model.h"
 #include "street_parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 Model make_cyclist(SplitMix64& random) {
   const double s = random.uniform(0.95, 1.08);
@@ -48,4 +48,4 @@ Model make_bridge(SplitMix64& random) {
                                             box({{-half_width, 10, -1}, {half_width, 13, soffit}})});
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

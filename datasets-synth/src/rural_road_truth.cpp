@@ -10,7 +10,7 @@
 #include <map>
 #include <string_view>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void append(std::string& text, double value) {
@@ -85,4 +85,4 @@ std::string truth_line(const RuralRoadFrame& frame, std::size_t number) {
   return text + "]}\n";
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,6 +10,7 @@
 #include <numbers>
 
 namespace pcl_bv::rural_road {
+using namespace detail;
 namespace {
 
 constexpr double kBend = 60;             // metres from one bend of the road to the next

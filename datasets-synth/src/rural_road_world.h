@@ -13,6 +13,7 @@
 #include "vec3.h"
 
 namespace pcl_bv::rural_road {
+using namespace detail;
 
 /// Road coordinates: distance along the road and distance left of its middle, metres.
 struct RoadPosition {

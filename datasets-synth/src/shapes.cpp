@@ -9,7 +9,7 @@
 
 #include "pcl_bv/synth/random.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Offset = std::array<double, 3>;
@@ -75,4 +75,4 @@ double bumpy_radius(const std::array<double, 3>& direction, double shape) {
          0.08 * std::sin(6 * direction[2] + 3 * shape);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,6 +12,7 @@
 #include "sweep.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr double dropped_share = 0.015;

@@ -6,7 +6,7 @@
 
 #include "street_parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 /// Lengths in metres. The x positions of the cabin are fractions of the car's length, forward of its middle.
@@ -96,4 +96,4 @@ Model make_car(SplitMix64& random) {
   return assemble(SynthObjectKind::car, std::move(parts));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -126,4 +126,4 @@ double cast_ground(const Ray& ray) {
   return nearest;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "street_layout.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A ray of the sensor from the origin in a unit direction, with the seed of its random numbers.
 struct Ray {
@@ -30,4 +30,4 @@ void cast(const Ray& ray, const PlacedObject& object, Hit& hit);
 /// Returns the range at which the ray hits road, curb or sidewalk; infinity if it hits none.
 double cast_ground(const Ray& ray);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double road_center = 0.5 * (street_curb_left + street_curb_right);
@@ -130,4 +130,4 @@ double min_range(const PlacedObject& object) {
   return std::sqrt(x * x + y * y);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "street_model.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A model placed in the sensor's frame. The local point p is at base + p.x forward + p.y left + p.z up.
 struct PlacedObject {
@@ -34,4 +34,4 @@ std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame);
 /// the range of the object's returns.
 double min_range(const PlacedObject& object);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -6,7 +6,7 @@
 
 #include "street_parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 /// Adds ellipsoids of leaves around the vertical axis, within `radius` of the axis and between the heights
@@ -103,4 +103,4 @@ Model make_bush(SplitMix64& random) {
   return assemble(SynthObjectKind::tree, std::move(parts));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

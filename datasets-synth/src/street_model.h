@@ -10,7 +10,7 @@
 #include "pcl_bv/synth/street.h"
 #include "vec3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The half-space normal . p <= offset.
 struct SolidHalfSpace {
@@ -48,4 +48,4 @@ Model make_low_wall(SplitMix64& random);
 Model make_avenue_tree(SplitMix64& random);
 Model make_bridge(SplitMix64& random);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

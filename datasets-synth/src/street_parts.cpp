@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Vec3 along(Axis axis, double u, double v, double w) {
@@ -75,4 +75,4 @@ Model assemble(SynthObjectKind kind, std::vector<Part> parts) {
   return {kind, std::move(parts), bounds};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "street_model.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 enum class Axis { x, y, z };
 
@@ -38,4 +38,4 @@ void cut(Part& part, Vec3 normal, Vec3 point);
 /// Combines the parts to one model, whose bounds are the union of the parts' bounds.
 Model assemble(SynthObjectKind kind, std::vector<Part> parts);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 /// Adds the object to the columns whose rays may hit it. If the sensor is inside the object's footprint
@@ -64,4 +64,4 @@ std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<Place
   return candidates;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

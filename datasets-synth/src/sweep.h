@@ -9,7 +9,7 @@
 
 #include "street_layout.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the azimuth of the middle of a column, radians. Azimuths run clockwise from pi (backward) to -pi.
 double azimuth_of(double column, std::size_t columns);
@@ -24,4 +24,4 @@ struct Candidate {
 std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
                                                          std::size_t columns);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

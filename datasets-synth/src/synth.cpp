@@ -15,6 +15,7 @@
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::uint64_t max_points = 2'000'000'000;

@@ -7,6 +7,7 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 RawCloud to_raw_cloud(const SynthCloud& cloud) {
   RawCloud raw = make_cloud(cloud.xyz);

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
@@ -41,4 +41,4 @@ inline bool contains_point(const Box3& box, Vec3 p) {
          p.z <= box.hi.z;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

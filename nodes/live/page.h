@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the page as one HTML file, which page/bundle.cmake assembles from the files in page/. The page
 /// connects to the server that it was loaded from. If kPageData is replaced by an element with the id "data"
@@ -15,4 +15,4 @@ std::string_view live_page();
 
 inline constexpr std::string_view kPageData = "<!-- data -->";
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

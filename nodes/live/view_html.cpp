@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/aabb.h"
 #include "pipeline/config/settings.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Encodes bytes as in RFC 4648, with padding.
@@ -110,4 +110,4 @@ std::string view_html(const Frame& frame, const FrameResult& result, const Repor
   return page;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

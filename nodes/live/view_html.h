@@ -12,7 +12,7 @@
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Maximum number of points in a page. Each point takes 22 bytes of text, or 27 with intensity. Larger clouds
 /// are subsampled evenly.
@@ -24,4 +24,4 @@ inline constexpr std::size_t kMaxPagePoints = 500'000;
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
                       const std::vector<std::uint32_t>& labels, std::size_t max_points = kMaxPagePoints);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

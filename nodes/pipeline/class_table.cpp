@@ -3,7 +3,7 @@
 
 #include "class_table.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 ClusterOptions options_of(const ClusterConfig& config) {
@@ -40,4 +40,4 @@ const std::vector<const Method*>& ClassTable::methods_of(std::optional<std::int6
   return default_methods_;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

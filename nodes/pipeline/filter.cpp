@@ -13,7 +13,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/read_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::optional<RegionMask> mask_of(const std::vector<RegionConfig>& regions, bool keep) {
@@ -200,4 +200,4 @@ FilteredView filter_points(const PointView& points, const FilterConfig& config, 
   return view;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

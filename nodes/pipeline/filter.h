@@ -17,7 +17,7 @@
 #include "pcl_bv/segmentation/clusters.h"
 #include "pcl_bv/trees/region_mask.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Whether a point is kept, or the reason why it is dropped. `region` means that the point is inside a region
 /// to drop, or outside all regions to keep.
@@ -109,4 +109,4 @@ inline PointView subset(const PointView& cloud, const std::vector<std::int32_t>&
   return subset(cloud, numbers.data(), numbers.size());
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,8 @@
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/segmentation/clusters.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Result of filter_points().
 struct FilteredView {
@@ -26,4 +27,5 @@ struct FilteredView {
 /// IoError if a region file cannot be read.
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -22,6 +22,7 @@
 #include "tracked_volumes.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 class Stopwatch {

@@ -14,6 +14,7 @@
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 PointView FrameResult::points_after_filter(const PointView& cloud) const {
   if (counts.range + counts.inside == 0) return cloud;

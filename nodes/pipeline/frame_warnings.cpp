@@ -14,6 +14,7 @@
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Smallest share of points beyond 100 m that gives a warning. A sensor on a motorway may have a tenth of its

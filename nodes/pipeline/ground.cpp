@@ -6,6 +6,7 @@
 #include "ground.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 template <typename Settings>
@@ -20,12 +21,12 @@ Settings settings_of(const GroundConfig& config) {
 
 }  // namespace
 
-GroundPlaneOptions plane_settings(const GroundConfig& config) {
+GroundPlaneOptions detail::plane_settings(const GroundConfig& config) {
   return settings_of<GroundPlaneOptions>(config);
 }
 
-void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
-                  const Execution& execution, GroundZones& zones, GroundSplit& split) {
+void detail::split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
+                          const Execution& execution, GroundZones& zones, GroundSplit& split) {
   split.found = false;
   split.ground.clear();
   split.rest.clear();

@@ -7,7 +7,7 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/segmentation/ground.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Smallest number of points for which there are warnings about settings.
 inline constexpr std::size_t kFewPoints = 100;
@@ -21,4 +21,4 @@ GroundPlaneOptions plane_settings(const GroundConfig& config);
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
                   const Execution& execution, GroundZones& zones, GroundSplit& split);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/segmentation/up.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t object_count = 100;
@@ -58,4 +58,4 @@ Frame synthetic_sweep(std::size_t points, const PipelineConfig& config) {
   return frame;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/fitting/fit.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
@@ -91,4 +91,4 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pipeline/track/box_filter.h"
 #include "pipeline/track/tracker.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The time of the tracks. It follows the stamps if they advance, otherwise the recording times. Some drivers
 /// write the same stamp into every message or set their clock back.
@@ -56,4 +56,4 @@ class TrackedVolumes {
   std::vector<BoxFilter> filters_;      // filter of method m of track slot s: s * methods_.size() + m
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

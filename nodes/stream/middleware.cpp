@@ -13,7 +13,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ Middleware& middleware(const std::string& name) {
   return *module;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,8 @@
 
 #include "stream/remote_parameters.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A topic and the type of its messages.
 struct MessageTopic {
@@ -109,4 +110,5 @@ using MiddlewareInstance = Middleware* (*)();
 inline constexpr const char* kMiddlewareVersion = "pcl_bv_middleware_version";
 inline constexpr const char* kMiddlewareInstance = "pcl_bv_middleware";
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -5,7 +5,8 @@
 
 #include <string>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// The settings of a running pipeline as JSON, for another process that shows and changes them. All member
 /// functions may be called from any thread.
@@ -31,4 +32,5 @@ class RemoteParameters {
   virtual std::string change(const std::string& object) = 0;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -19,6 +19,7 @@
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Clock = std::chrono::steady_clock;

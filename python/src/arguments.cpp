@@ -6,6 +6,7 @@
 #include "arrays.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 // Clears Python's current error. Throws the error if it is no Exception, such as a KeyboardInterrupt, because

@@ -11,6 +11,7 @@
 #include "precompiled.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 namespace py = pybind11;
 

@@ -6,6 +6,7 @@
 #include "arguments.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 bool is_real(const py::dtype& type) {

@@ -8,6 +8,7 @@
 #include "precompiled.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// Returns the docstring of a constructor, for inspect.signature(). It is the signature at the beginning of
 /// the docstring of the class.

@@ -7,6 +7,7 @@
 #include "volume_object.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 using namespace py::literals;

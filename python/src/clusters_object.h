@@ -9,6 +9,7 @@
 #include "precompiled.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// The data of Python's Clusters.
 struct ClustersObject {

@@ -10,6 +10,7 @@
 #include "volume_object.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 constexpr const char* kConfigName = "Pipeline";

@@ -9,6 +9,7 @@
 #include "precompiled.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// Returns the configuration.
 ///

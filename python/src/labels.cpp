@@ -8,6 +8,7 @@
 #include "arrays.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 /// Sorts point indices by label, stably. If all labels are less than the number of points, as the labels of

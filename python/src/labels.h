@@ -8,6 +8,7 @@
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// The points of a view, grouped by label: one view per label.
 class LabelGroups {

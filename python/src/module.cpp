@@ -9,6 +9,7 @@
 #include "pcl_bv/points/isa.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 void translate(std::exception_ptr error) {  // NOLINT(performance-unnecessary-value-param): pybind11's type

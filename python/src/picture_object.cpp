@@ -8,6 +8,7 @@
 #include "view_html.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 PictureSize picture_size(py::handle view, py::handle width, py::handle height) {
   const std::string name = text(view, "view");

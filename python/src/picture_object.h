@@ -9,6 +9,7 @@
 #include "result_object.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 struct PictureSize {
   ViewFrom from = ViewFrom::iso;

@@ -10,6 +10,7 @@
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 py::dtype type_of(const RawCloud& cloud) {

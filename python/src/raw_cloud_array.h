@@ -8,6 +8,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// Returns an array of records with the cloud's fields. The array takes over the cloud's memory, without a
 /// copy. The shape is (height, width) for an organised cloud, otherwise (width,). Padding and fields with the

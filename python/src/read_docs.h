@@ -5,6 +5,7 @@
 #pragma once
 
 namespace pcl_bv::python {
+using namespace detail;
 
 inline constexpr const char* read_doc = R"(read(path, *, topic=None, number=0, bin_fields=0, threads=1)
 --

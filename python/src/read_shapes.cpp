@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/volumes/kdop_sets.h"
 #include "read_shapes.h"
+#include "pcl_bv/volumes/kdop_sets.h"
 
 #include "arguments.h"
 #include "arrays.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 constexpr NumberRange any_number{-kNoLimit, kNoLimit};

@@ -8,6 +8,7 @@
 #include "pcl_bv/nodes/frame_result.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// The result for a frame, and the frame's points. Pictures and clusters of the result need these points.
 struct ResultObject {

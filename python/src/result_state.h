@@ -7,6 +7,7 @@
 #include "result_object.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 py::dict state_of_result(const std::shared_ptr<ResultObject>& result);
 std::shared_ptr<ResultObject> result_of_state(py::handle state);

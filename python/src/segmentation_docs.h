@@ -5,6 +5,7 @@
 #pragma once
 
 namespace pcl_bv::python {
+using namespace detail;
 
 inline constexpr const char* clusters_doc =
     R"(The clusters of a cloud, in descending order of size. Clusters of equal size are ordered by their

@@ -7,6 +7,7 @@
 #include "arguments.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// Returns make(), which constructs an object from a state. Turns any error except MemoryError and
 /// KeyboardInterrupt into a ValueError such as "Sphere: invalid pickled state".

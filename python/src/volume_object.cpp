@@ -9,6 +9,7 @@
 #include <set>
 
 namespace pcl_bv::python {
+using namespace detail;
 namespace {
 
 /// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.

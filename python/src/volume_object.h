@@ -8,6 +8,7 @@
 #include "arrays.h"
 
 namespace pcl_bv::python {
+using namespace detail;
 
 /// The base of all shapes' classes: a volume and the result of its fit.
 struct VolumeObject {

@@ -12,6 +12,7 @@
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 using testing::HasSubstr;

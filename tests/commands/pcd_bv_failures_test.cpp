@@ -14,6 +14,7 @@
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 namespace fs = std::filesystem;

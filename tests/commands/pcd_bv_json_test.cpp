@@ -15,6 +15,7 @@
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 std::vector<std::string> keys(const Json& object) {

@@ -9,6 +9,7 @@
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 using testing::HasSubstr;

@@ -9,6 +9,7 @@
 #include "status.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 using testing::StartsWith;

@@ -23,7 +23,7 @@
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST_F(SynthCommand, HelpNamesTheScenesAndShowsExamples) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,6 +15,7 @@
 #include "tiles.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 class TilesTest : public Tiled {

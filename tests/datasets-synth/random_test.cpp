@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(SplitMix64, GivesThePublishedSequence) {
@@ -76,4 +76,4 @@ TEST(SplitMix64, NormalNumbersHaveTheMomentsOfNormal) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

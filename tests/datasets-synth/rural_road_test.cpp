@@ -17,7 +17,7 @@
 
 #include "street_fixture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::array<std::size_t, 4> sensors{16, 32, 64, 128};
@@ -344,4 +344,4 @@ TEST(RuralRoad, OtherNumbersOfBeamsAreRefusedWithTheNumberAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/synth/synth.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t points = 200'000;
@@ -155,4 +155,4 @@ TEST(Shapes, FewerPointsAreTheFirstOfMore) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

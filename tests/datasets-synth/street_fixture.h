@@ -12,6 +12,7 @@
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 inline constexpr std::array<std::uint64_t, 3> street_seeds{1, 2, 3};
 

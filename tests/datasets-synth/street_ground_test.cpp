@@ -9,7 +9,7 @@
 
 #include "street_fixture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(StreetGround, RoadIsBelowTheSensorByItsHeight) {
@@ -150,4 +150,4 @@ TEST(Street, FalseReturnsLieBelowTheGround) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

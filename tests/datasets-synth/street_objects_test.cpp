@@ -11,7 +11,7 @@
 
 #include "street_fixture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(StreetObjects, BoxesAreBoxesInRangeInOrderOfTheirIds) {
@@ -207,4 +207,4 @@ TEST(StreetObjects, EveryKindHasItsName) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

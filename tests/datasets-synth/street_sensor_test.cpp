@@ -10,7 +10,7 @@
 
 #include "street_fixture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -233,4 +233,4 @@ TEST(Street, RangeNoiseHasItsDeviationAlongTheRay) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 
 #include "street_fixture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(StreetSequence, SameArgumentsGiveTheSameBits) {
@@ -97,4 +97,4 @@ TEST(StreetSequence, EveryFrameHasNoiseOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -206,4 +206,4 @@ TEST(ToRawCloud, AShapeIsOneRowOfCoordinates) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

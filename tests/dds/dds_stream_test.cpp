@@ -17,6 +17,7 @@
 #include "stream/middleware.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 using testing::HasSubstr;

@@ -15,7 +15,7 @@
 #include "pcl_bv/estimation/fit_cloud.h"
 #include "random_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(SphereEstimation, TheCertificateOfTheSmallestSphereComesWithIt) {
@@ -148,4 +148,4 @@ static_assert(!has_xyz<TwoCoordinates>::value && !has_xyz<pcl::Normal>::value &&
 static_assert(!has_xyz<Whole>::value && !has_xyz<Mixed>::value);
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

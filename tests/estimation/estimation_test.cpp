@@ -16,7 +16,7 @@
 #include "pcl_bv/estimation/fit_cloud.h"
 #include "random_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename PointT>
@@ -260,4 +260,4 @@ TEST(Estimation, RefusesAnInstructionSetThatIsNotUsable) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

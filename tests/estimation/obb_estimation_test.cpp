@@ -13,7 +13,7 @@
 #include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/estimation/model_coefficients.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename PointT>
@@ -73,4 +73,4 @@ TEST(Estimation, ModelCoefficientsAreThoseOfTheVisualizer) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

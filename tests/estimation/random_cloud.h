@@ -10,6 +10,7 @@
 #include <random>
 
 namespace pcl_bv {
+using namespace detail;
 
 template <typename PointT>
 typename pcl::PointCloud<PointT>::Ptr random_cloud(std::size_t points, std::uint64_t seed) {

@@ -14,7 +14,7 @@
 #include "pcl_bv/estimation/model_coefficients.h"
 #include "random_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename Estimation, typename Volume>
@@ -94,4 +94,4 @@ TEST(ModelCoefficients, OfACylinderAreSevenAndHoldIt) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Only the generator's integers, sums, products, quotients and roots: std::normal_distribution takes
@@ -122,12 +122,12 @@ void write(std::ostream& out) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   std::ofstream out(argv[1]);
-  pcl_bv::write<float>(out);
-  pcl_bv::write<double>(out);
+  pcl_bv::detail::write<float>(out);
+  pcl_bv::detail::write<double>(out);
   return out.flush() ? 0 : 1;
 }

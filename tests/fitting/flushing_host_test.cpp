@@ -18,6 +18,7 @@
 #include "pcl_bv/fitting/methods.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 // All that a host does with a cloud of this size, which flushes denormals, and what it gets without that.

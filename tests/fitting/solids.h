@@ -14,6 +14,7 @@
 #include "hull/convex_hull.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 using ExactPoint = std::array<Rational, 3>;
 

@@ -13,6 +13,7 @@
 #include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 /// Copies what is asked for into the buffer, and spoils whatever else is in there.
 template <typename T>

@@ -11,7 +11,7 @@
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::TestCloud;
@@ -109,4 +109,4 @@ TEST(Summary, CentroidAndCovarianceAreWithinTheStatedBoundForDouble) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,7 +19,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_groups.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::bits;
@@ -210,4 +210,4 @@ TEST(Summary, AnUnusableInstructionSetIsAnError) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

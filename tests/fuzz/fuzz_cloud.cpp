@@ -6,7 +6,7 @@
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/messages/serialize.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // A view and a copy agree to the bit.
@@ -22,11 +22,12 @@ void look(const msg::PointCloud2& cloud) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 
 // Any bytes as sensor_msgs/PointCloud2 of ROS 2 and of ROS 1.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pcl_bv;
+  using namespace pcl_bv::detail;
   const auto* const bytes = reinterpret_cast<const std::byte*>(data);
   for (const bool ros1 : {false, true}) {
     try {

@@ -11,6 +11,7 @@
 #include "protocol.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 namespace {
 
 // What a request sets is passed on as an object of JSON whatever the values are, and an answer can name it.

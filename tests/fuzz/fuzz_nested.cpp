@@ -18,7 +18,7 @@
 #include "protocol.h"
 #include "stream/remote_parameters.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::string expanded(const std::uint8_t* data, std::size_t size) {
@@ -78,10 +78,11 @@ void read_settings(const std::string& text) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pcl_bv;
+  using namespace pcl_bv::detail;
   if (size < 2) return 0;
   const std::string text = expanded(data + 1, size - 1);
   switch (data[0] % 3) {

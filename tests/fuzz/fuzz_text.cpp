@@ -16,6 +16,7 @@
 namespace {
 
 using namespace pcl_bv;
+using namespace pcl_bv::detail;
 
 struct Outcome {
   RowsRead rows;

@@ -13,6 +13,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// A file that lives as long as this.
 class MemoryFile {

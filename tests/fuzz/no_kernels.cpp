@@ -7,7 +7,7 @@
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/kernels/moments.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void Partial::merge(const Partial&) {
   std::abort();
@@ -17,4 +17,4 @@ Moments block_moments(UsableIsa, const PointView&) {
   std::abort();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

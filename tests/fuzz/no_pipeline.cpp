@@ -9,7 +9,7 @@
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 struct FramePipeline::State {
   PipelineConfig config;
@@ -56,4 +56,4 @@ std::vector<Isa> usable_isas() {
 }
 UsableIsa::UsableIsa(Isa isa) : isa_(isa) {}
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,6 +10,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// Reads any bytes as a recording: its topics are there, and every byte of its messages can be read.
 inline void read_recording(const std::uint8_t* data, std::size_t size,

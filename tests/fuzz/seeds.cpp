@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace pcl_bv;
+using namespace pcl_bv::detail;
 
 void write(const fs::path& path, std::string_view content) {
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));

@@ -28,7 +28,7 @@ extern "C" int fsync(int descriptor) {
   return on_fsync ? on_fsync(S_ISDIR(status.st_mode)) : 0;
 }
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -276,4 +276,4 @@ TEST_F(AtomicFile, ANameWithoutAFolderMeansTheCurrentOne) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

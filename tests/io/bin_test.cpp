@@ -13,7 +13,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Bin : public FileTest {
@@ -140,4 +140,4 @@ TEST_F(Bin, WithAnImpossibleNumberOfFieldsIsWrongUse) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <new>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 ByteBuffer filled(std::size_t size) {
@@ -47,4 +47,4 @@ TEST(ByteBuffer, OfMoreThanThereIsThrows) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kPoints = kChunkPoints + 1000;
@@ -291,4 +291,4 @@ TEST_F(CloudInFile, HasAHeaderOnlyIfItHoldsAllPoints) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

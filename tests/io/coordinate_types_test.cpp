@@ -16,7 +16,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -196,4 +196,4 @@ TEST_F(CoordinateTypes, ThatAreNoNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "pcl_bv/io/las.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class LasCounts : public FileTest {
@@ -114,4 +114,4 @@ TEST_F(LasCounts, AndTheBoxInTheHeaderAreIndependent) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

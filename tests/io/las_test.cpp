@@ -12,7 +12,7 @@
 #include "pcl_bv/io/cloud_file.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Las : public FileTest {
@@ -134,4 +134,4 @@ TEST_F(Las, OfNoPointsIsAnEmptyCloud) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include "files.h"
 #include "pcl_bv/report/meshes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 const Aabb box({-1, 0.1, 5e6 + 1.0 / 3}, {2, 3, 5e6 + 7});
@@ -106,4 +106,4 @@ TEST_F(MeshesAgainstVtk, PclReadsThePly) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

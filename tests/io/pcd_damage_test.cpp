@@ -17,7 +17,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -245,4 +245,4 @@ TEST_F(PcdDamage, AGreatCountOfNoPointsTakesNoMemory) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST_F(PcdHeader, OfZeroPointsBeforeSomeIsRefusedAndOfTooFewIsSaid) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

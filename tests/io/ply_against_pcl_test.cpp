@@ -16,7 +16,7 @@
 #include "pcl_bv/io/ply.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 pcl::PointCloud<pcl::PointXYZRGBNormal> random_points() {
@@ -101,4 +101,4 @@ TEST_F(PlyAgainstPcl, WeReadTheBinaryThatPclWritesToTheBit) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <random>
 
-#include "files.h"
 #include "allocations.h"
+#include "files.h"
 #include "pcl_bv/io/ply.h"
 #include "sample_plys.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class PlyDamage : public FileTest {
@@ -116,4 +116,4 @@ TEST_F(PlyDamage, GreatSizesInASmallFileTakeNoMemory) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

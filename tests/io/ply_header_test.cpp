@@ -8,7 +8,7 @@
 #include "files.h"
 #include "pcl_bv/io/ply.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::StartsWith;
@@ -127,4 +127,4 @@ TEST_F(PlyHeaderFile, CountsBeyondAnyFileAreRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_plys.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Ply : public FileTest {
@@ -142,4 +142,4 @@ TEST_F(Ply, ThatCannotBeOpenedSaysWhy) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

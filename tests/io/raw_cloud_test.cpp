@@ -16,7 +16,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void expect_view_of(const RawCloud& cloud) {
@@ -259,4 +259,4 @@ TEST(SetUint32Field, RefusesNamesThatWouldBreakTheCloud) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

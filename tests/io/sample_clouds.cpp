@@ -12,6 +12,7 @@
 #include <random>
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 template <typename T>

@@ -11,6 +11,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 struct Layout {
   std::string name;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 std::string type_name(const PointField& field) {

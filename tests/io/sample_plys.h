@@ -11,6 +11,7 @@
 #include "sample_clouds.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 struct PlyStyle {
   std::string format = "ascii";  ///< Or binary_little_endian, binary_big_endian.

@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename T>
@@ -119,4 +119,4 @@ TEST(ShortDecimal, RefusesWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "files.h"
 #include "pcl_bv/io/read_json.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST_F(FilesFromOutside, AreReadNoFartherThanTheyMayGo) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

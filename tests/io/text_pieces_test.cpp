@@ -16,7 +16,7 @@
 #include "sample_clouds.h"
 #include "sample_plys.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 const ParallelPolicy policies[] = {Serial{}, OpenMP{2}, Threads{2}, Threads{5}};
@@ -182,4 +182,4 @@ TEST_F(TextPieces, ThatGrowWhileTheyAreReadAreAnError) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class UnneededValues : public FileTest {
@@ -112,4 +112,4 @@ TEST_F(UnneededValues, OfTypesNobodyKnowsMayFollowTheVertices) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

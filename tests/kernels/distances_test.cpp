@@ -11,7 +11,7 @@
 
 #include "clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Records;
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(EveryUsableSet, DistanceParity, testing::ValuesIn(usabl
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::vector<std::uint32_t> outside(Isa isa, const PointView& points, const HalfSpaces& inside) {
@@ -106,4 +106,4 @@ TEST(HalfSpaces, AnIndexListIsFollowed) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using ::testing::Contains;
@@ -129,4 +129,4 @@ TEST(Isa, AnUnusableSetInTheEnvironmentIsAnError) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

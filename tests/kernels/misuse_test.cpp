@@ -28,7 +28,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
@@ -317,4 +317,4 @@ TEST(Misuse, ViewsAreTheSamePlacesOnlyIfNothingDiffers) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

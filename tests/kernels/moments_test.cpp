@@ -15,7 +15,7 @@
 #include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -172,4 +172,4 @@ INSTANTIATE_TEST_SUITE_P(EveryUsableSet, MomentsTest, testing::ValuesIn(usable_i
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "clouds.h"
 #include "flush_to_zero.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Records;
@@ -210,4 +210,4 @@ TEST(PointGroups, AnUnusableInstructionSetIsAnErrorAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

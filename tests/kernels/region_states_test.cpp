@@ -13,7 +13,7 @@
 #include "clouds.h"
 #include "exact.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using States = std::vector<std::uint8_t>;
@@ -215,4 +215,4 @@ TEST(RegionStates, AreSeldomUnclear) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

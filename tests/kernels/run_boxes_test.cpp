@@ -16,7 +16,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/points/point_groups.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename T>
@@ -73,4 +73,4 @@ TEST(RunBoxes, AreTheTightOnesOfTheirRunsOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

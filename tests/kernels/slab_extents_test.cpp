@@ -16,7 +16,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/points/point_groups.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Axes = std::array<Direction, 3>;
@@ -108,4 +108,4 @@ TEST(SlabExtents, AZeroOfNegativeProductsHasNoSign) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

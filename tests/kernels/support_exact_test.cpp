@@ -8,7 +8,7 @@
 #include "clouds.h"
 #include "exact.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -54,4 +54,4 @@ TEST(SupportPoint, NamesTheCloudsIndexUnderAnIndexListAndBreaksTiesByIt) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,7 +19,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "supports_by_definition.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::by_definition;
@@ -316,4 +316,4 @@ INSTANTIATE_TEST_SUITE_P(EveryUsableSet, CustomSupports, testing::ValuesIn(usabl
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

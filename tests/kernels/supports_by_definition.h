@@ -9,6 +9,7 @@
 #include "pcl_bv/kernels/support.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 inline ChunkSupports run(Isa isa, const PointView& points, const SupportDirections& set,
                          const SupportBounds& bounds = no_support_bounds()) {

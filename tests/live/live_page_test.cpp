@@ -15,6 +15,7 @@
 #include "pcl_bv/nodes/frame_sink.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 using testing::HasSubstr;

@@ -19,6 +19,7 @@
 #include "pcl_bv/report/report.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 using Eigen::Vector2d, Eigen::Vector3d;
 using Json = nlohmann::json;

@@ -9,6 +9,7 @@
 #include "page_scene.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 // Blue rather than red, or the reverse: the colours of objects 0 and 1.

@@ -9,6 +9,7 @@
 #include "page_scene.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 TEST_F(Page, PickingGivesTheObjectUnderThePixel) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 namespace pcl_bv::live {
+using namespace detail;
 namespace {
 
 using Json = nlohmann::json;

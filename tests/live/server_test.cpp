@@ -17,6 +17,7 @@
 #include "pcl_bv/nodes/frame_sink.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 namespace {
 
 using live::Server;

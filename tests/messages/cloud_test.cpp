@@ -12,7 +12,7 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/messages/serialize.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using msg::PointField;
@@ -335,4 +335,4 @@ TEST(IntensityInPlace, IsNoneWhereItCannotBeReadThere) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,13 +8,14 @@
 
 #include "pcl_bv/messages/results.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(Schemas, HoldEachTypeThatTheyNameOnce) {
   const std::string line(80, '=');
-  EXPECT_EQ(schema_of(msg::Header::ros_type), "builtin_interfaces/Time stamp\nstring frame_id\n" + line +
-                                              "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
+  EXPECT_EQ(schema_of(msg::Header::ros_type),
+            "builtin_interfaces/Time stamp\nstring frame_id\n" + line +
+                "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
   const std::string markers = schema_of(msg::MarkerArray::ros_type);
   for (const char* name : {"visualization_msgs/Marker", "std_msgs/Header", "geometry_msgs/Point"}) {
     const std::string head = "MSG: " + std::string(name) + "\n";
@@ -24,8 +25,9 @@ TEST(Schemas, HoldEachTypeThatTheyNameOnce) {
 }
 
 TEST(Schemas, AreThereForEveryMessage) {
-  for (const char* type : {msg::PointCloud2::ros_type, msg::Detection3DArray::ros_type, msg::MarkerArray::ros_type,
-                           msg::SceneUpdate::ros_type, msg::DiagnosticArray::ros_type, msg::TFMessage::ros_type})
+  for (const char* type :
+       {msg::PointCloud2::ros_type, msg::Detection3DArray::ros_type, msg::MarkerArray::ros_type,
+        msg::SceneUpdate::ros_type, msg::DiagnosticArray::ros_type, msg::TFMessage::ros_type})
     EXPECT_GT(schema_of(type).size(), 100U) << type;
 }
 
@@ -34,4 +36,4 @@ TEST(Schemas, OfUnknownTypesAreRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

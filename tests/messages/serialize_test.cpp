@@ -10,7 +10,7 @@
 
 #include "pcl_bv/messages/results.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Buffer = std::vector<std::byte>;
@@ -169,4 +169,4 @@ TEST(MessageTimes, AreThoseOfNanoseconds) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 
 #include "pcl_bv/fitting/fit.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
@@ -256,4 +256,4 @@ TEST(BoxFilter, ASeparatedObjectLearnsItsSizesAnew) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

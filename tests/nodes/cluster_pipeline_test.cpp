@@ -9,7 +9,7 @@
 
 #include "frames.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(ClusterPipeline, TakesPclCloudsAsTheyAre) {
@@ -46,4 +46,4 @@ TEST(ClusterPipeline, TakesTheSensorFromTheViewpoint) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

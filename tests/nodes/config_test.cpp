@@ -9,7 +9,7 @@
 
 #include "pipeline/config/settings.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::AnyOf;
@@ -328,4 +328,4 @@ TEST(StreamConfig, AFileThatCannotBeReadIsAnError) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,6 +15,7 @@
 #include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// A fixture with an empty folder, removed at the end.
 class Folder : public testing::Test {

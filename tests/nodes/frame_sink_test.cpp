@@ -13,7 +13,7 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/report/meshes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -293,4 +293,4 @@ TEST_F(FrameSinks, OpenedInVainRemoveWhatTheyMadeAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/synth/rural_road.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using FolderSource = Folder;
@@ -333,4 +333,4 @@ TEST(SourceKinds, AreListedForUsers) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/nodes/topics.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(StreamHealth, SaysThatFramesWereLostBesideAWarning) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

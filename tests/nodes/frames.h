@@ -15,6 +15,7 @@
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 inline std::vector<std::vector<float>> street(std::size_t frames, std::size_t points = 32'000) {
   std::vector<std::vector<float>> all;

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 TEST(LatencyHistogram, PercentilesAreTheNearestRankToOnePercent) {
@@ -42,4 +42,4 @@ TEST(LatencyHistogram, HoldsAnyDuration) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pipeline/track/tracker.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Aabb box(double x, double y, double length, double width) {
@@ -149,4 +149,4 @@ TEST(MergedObjects, TwoCarsThatWereOneFromTheBeginningHaveTheirSizesOnceTheyPart
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

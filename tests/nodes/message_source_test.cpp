@@ -14,7 +14,7 @@
 #include "pcl_bv/messages/serialize.h"
 #include "stream/middleware.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -130,4 +130,4 @@ TEST(Middlewares, SayWhatIsNotInstalled) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

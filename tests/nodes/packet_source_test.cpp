@@ -9,7 +9,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class PacketSource : public Folder {
@@ -77,4 +77,4 @@ TEST_F(PacketSource, SaysWhereTheCaptureIsCut) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

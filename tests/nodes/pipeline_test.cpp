@@ -19,7 +19,7 @@
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/segmentation/up.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 PipelineConfig all_shapes() {
@@ -457,4 +457,4 @@ TEST(Pipeline, ItsConfigurationMayChangeWhileAFrameIsInWork) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

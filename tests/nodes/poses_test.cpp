@@ -9,7 +9,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Poses : public Folder {
@@ -129,4 +129,4 @@ TEST_F(Poses, RepeatWithTheirRecording) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

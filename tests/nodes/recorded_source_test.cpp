@@ -18,7 +18,7 @@
 #include "stream/sources/recorded_clouds.h"
 #include "stream/sources/sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Points (i, number, 0) with a class of 7 each.
@@ -321,4 +321,4 @@ TEST_F(RecordedSource, ACloudBeyondTheNumberedPosesHasNone) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pipeline/config/settings.h"
 #include "stream/remote_parameters.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Json = nlohmann::json;
@@ -94,4 +94,4 @@ TEST(RemoteParameters, RefuseWhatMakesNoSenseWithALine) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

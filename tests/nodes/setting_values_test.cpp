@@ -16,7 +16,7 @@
 #include "pipeline/config/settings.h"
 #include "stream/remote_parameters.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::AnyOf;
@@ -120,4 +120,4 @@ TEST(SettingValues, AToleranceThatIsZeroAsAFloatIsRefusedLikeOthers) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

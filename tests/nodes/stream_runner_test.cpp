@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using End = StreamRunner::End;
@@ -561,4 +561,4 @@ TEST(StatsJson, NamesWhatBecameOfTheFrames) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

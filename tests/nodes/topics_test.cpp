@@ -11,7 +11,7 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "stream/topics/scene.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Frames of a street, with every shape and tracks.
@@ -243,4 +243,4 @@ TEST(Topics, ACylinderIsTurnedToItsAxisAlsoStraightDown) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

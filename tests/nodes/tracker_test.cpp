@@ -16,7 +16,7 @@
 #include "pcl_bv/synth/street.h"
 #include "pipeline/track/box_grid.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Aabb box(double x, double y, double size = 1) {
@@ -331,4 +331,4 @@ TEST(Tracking, OfTheStreetKeepsOneIdPerObject) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pipeline/track/track.h"
 #include "pipeline/tracked_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 double uniform(std::mt19937& random, double low, double high) {
@@ -240,4 +240,4 @@ TEST(Track, ItsCovarianceIsPositiveDefiniteInEveryFrame) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pipeline/track/motion_classifier.h"
 #include "pipeline/track/tracker.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kFrame = 0.1;  // seconds
@@ -138,4 +138,4 @@ TEST(Tracker, AfterBrakingWithoutPosesTheVehicleStandsAndAllThatStandsToo) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

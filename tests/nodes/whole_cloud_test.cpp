@@ -18,7 +18,7 @@
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/trees/region_mask.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Frame with(const PointView& points) {
@@ -293,4 +293,4 @@ TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

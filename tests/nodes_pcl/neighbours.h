@@ -19,6 +19,7 @@
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 using PointsXyz = pcl::PointCloud<pcl::PointXYZ>;
 using SearchXyz = pcl::search::Search<pcl::PointXYZ>;

@@ -19,7 +19,7 @@
 #include "pcl_bv/synth/street.h"
 #include "reference_clusters.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 pcl::PointCloud<pcl::PointXYZ>::Ptr above_ground() {
@@ -96,4 +96,4 @@ TEST(Grabber, OfAnotherPointTypeIsRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

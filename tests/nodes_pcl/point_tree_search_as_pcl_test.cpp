@@ -17,7 +17,7 @@
 #include "neighbours.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace test;
@@ -260,4 +260,4 @@ TEST(PointTreeSearchAsPcl, GivesStatisticsOfOutliersTheSameDistances) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -23,7 +23,7 @@ struct SurveyPoint {
   double x, y, z;
 };
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace test;
@@ -248,4 +248,4 @@ TEST(PointTreeSearch, TakesPointTypesThatPclHasNeverSeen) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,6 +12,7 @@
 #include "pcl_bv/segmentation/clusters.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// Computes the clusters of a cloud with pcl::EuclideanClusterExtraction, in the order of EuclideanClusterer.
 /// The result equals that of EuclideanClusterer. The computation takes some hundred times longer. The

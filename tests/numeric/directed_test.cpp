@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/expansion.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -174,4 +174,4 @@ TEST(Expansion, BoundsSumsBeyondTheLargestDoubleFromTheRightSide) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

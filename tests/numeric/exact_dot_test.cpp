@@ -9,7 +9,7 @@
 
 #include "exact.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -120,4 +120,4 @@ TEST(ExactDot, NeverReturnsNegativeZero) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

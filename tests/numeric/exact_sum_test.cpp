@@ -10,7 +10,7 @@
 #include "exact.h"
 #include "pcl_bv/numeric/directions.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -76,4 +76,4 @@ TEST(ExactSum, NeverReturnsNegativeZero) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "rational.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Rational;
@@ -65,4 +65,4 @@ TEST(Expansion, SumsRandomTermsExactly) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "flush_to_zero.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // volatile: the compiler must neither fold nor move the conversion.
@@ -54,4 +54,4 @@ TEST(FloatEnvironment, OneInsideAnotherLeavesItInPlace) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

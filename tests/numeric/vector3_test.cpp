@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/coordinates.h"
 #include "rational.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Array = std::array<double, 3>;
@@ -48,4 +48,4 @@ TEST(Vector3, SumsOfRationalsAreExact) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,6 +14,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 /// A child that hangs is ended by the system after so many seconds, of which it needs a few hundredths.
 inline constexpr unsigned kHangs = 120;

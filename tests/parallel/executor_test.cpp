@@ -17,7 +17,7 @@
 #include "executors.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Task;
@@ -133,4 +133,4 @@ TEST(Executor, WithoutAFunctionIsRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,6 +16,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 using Task = std::function<void(std::size_t)>;
 

@@ -14,7 +14,7 @@
 
 #include "executors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::vector<ParallelPolicy> policies() {
@@ -163,4 +163,4 @@ TEST(LimitThreads, NeverRaisesAndNeverReachesZero) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "child.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // More threads than any other test asks for, so that a child wants more than its parent has.
@@ -122,4 +122,4 @@ TEST(Fork, AChildThatReturnsFromABodyDoesNotHang) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

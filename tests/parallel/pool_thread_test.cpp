@@ -16,7 +16,7 @@
 
 #include "child.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Attributes {
@@ -191,4 +191,4 @@ TEST(PoolThread, IsWaitedForAtExit) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

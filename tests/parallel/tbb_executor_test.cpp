@@ -12,7 +12,7 @@
 #include "executors.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 const Executor on_tbb{4, [](std::size_t tasks, const std::function<void(std::size_t)>& task) {
@@ -47,4 +47,4 @@ TEST(TbbExecutor, RethrowsTheExceptionOfTheLowestChunk) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "pcl_bv/messages/serialize.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has its modules
@@ -225,4 +225,4 @@ TEST_F(Bag, DamagedAnywhereIsReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "pcl_bv/recording/velodyne.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kPoints = 12 * 32;  // of a packet
@@ -192,4 +192,4 @@ TEST_F(DamagedCapture, AChosenAddressIsTheOnlyOneNamed) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::ElementsAre;
@@ -149,4 +149,4 @@ TEST_F(DamagedRecording, ADatabaseThatIsNotDamagedIsNotCalledSo) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,6 +12,7 @@
 #include "recording_files.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 // A file record by record; with a chunk where it is asked for.
 class McapBuilder {

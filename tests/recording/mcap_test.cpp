@@ -13,7 +13,7 @@
 #include "pcl_bv/recording/recording.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Mcap : public RecordingFiles {
@@ -263,4 +263,4 @@ TEST_F(Mcap, ThatCannotBeWrittenSaysSo) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

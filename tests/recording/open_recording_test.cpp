@@ -9,7 +9,7 @@
 #include "pcl_bv/recording/recording.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::string error_of(const std::filesystem::path& file) {
@@ -37,4 +37,4 @@ TEST_F(OpenRecordingFiles, DoesNotWaitForAPipe) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

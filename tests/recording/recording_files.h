@@ -17,6 +17,7 @@
 #include "pcl_bv/recording/recording.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// A message as it is sent, and as it comes back.
 struct Sent {

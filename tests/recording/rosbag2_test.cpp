@@ -14,7 +14,7 @@
 #include "pcl_bv/recording/rosbag2_writer.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Files as rosbag2 makes them, by the programs sqlite3 and zstd.
@@ -333,4 +333,4 @@ TEST_F(Rosbag2, DamagedAnywhereIsReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 
 #include "pcl_bv/recording/velodyne.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
@@ -90,4 +90,4 @@ TEST(VelodyneAgainstPcl, AVlp16IsReadAsByItsGrabber) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "recording_files.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Velodyne : public RecordingFiles {
@@ -297,4 +297,4 @@ TEST_F(Velodyne, CutAnywhereIsReadUpToItsLastWholePacket) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/io/ply.h"
 #include "volume_cells.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -199,4 +199,4 @@ TEST(Pvd, RefusesWhatXmlCannotHold) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::vector<float> points(std::size_t count) {
@@ -122,4 +122,4 @@ TEST(PartialFile, TellsInputsApartByNamePointsAndOrder) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/report/picture.h"
 #include "pixels.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::box_at, test::decode, test::is_like, test::Pixels, test::sized;
@@ -161,4 +161,4 @@ TEST(PictureScale, SaysTheUnit) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

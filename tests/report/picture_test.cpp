@@ -19,7 +19,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pixels.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr int width = 320, height = 200;
@@ -292,4 +292,4 @@ TEST(Picture, UnwritablePathIsAnIoErrorAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

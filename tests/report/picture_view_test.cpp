@@ -17,7 +17,7 @@
 #include "pcl_bv/report/picture.h"
 #include "pixels.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::box_at, test::decode, test::difference, test::is_like, test::Pixels, test::sized;
@@ -191,4 +191,4 @@ TEST(PictureSphere, HasNoCircleThatIsADot) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

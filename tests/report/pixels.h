@@ -19,6 +19,7 @@
 #include "pcl_bv/report/picture.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
 struct Pixels {
   int width = 0, height = 0;

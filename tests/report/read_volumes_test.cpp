@@ -11,7 +11,7 @@
 #include "pcl_bv/report/read_volumes.h"
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST_F(ReadVolumes, SpeakNoLibrarysWords) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 
 #include "csv_shape.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 const std::string columns = "cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume";
@@ -214,4 +214,4 @@ TEST(CsvShape, OfRoundShapesTurnsZToTheAxis) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pcl_bv/report/csv.h"
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -221,4 +221,4 @@ TEST(ReportJson, WhatIsNotFiniteIsNeverWritten) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

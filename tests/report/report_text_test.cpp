@@ -10,7 +10,7 @@
 
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
@@ -160,4 +160,4 @@ TEST(ReportText, InfoStandsBelowTheFirstLine) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

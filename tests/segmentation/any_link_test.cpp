@@ -15,16 +15,16 @@
 
 namespace {
 
-using pcl_bv::Point;
-using pcl_bv::PointRun;
+using pcl_bv::detail::Point;
+using pcl_bv::detail::PointRun;
 using Points = std::vector<Point<float>>;
 
 bool any_link(const Points& a, const Points& b, float r2) {
-  pcl_bv::LinkScratch<float> scratch;
+  pcl_bv::detail::LinkScratch<float> scratch;
   const PointRun<float> run_a{a.data(), a.size()};
   const PointRun<float> run_b{b.data(), b.size()};
-  const bool found = pcl_bv::any_link(run_a, run_b, r2, scratch);
-  EXPECT_EQ(pcl_bv::any_link_of_many(run_a, run_b, r2, scratch), found);
+  const bool found = pcl_bv::detail::any_link(run_a, run_b, r2, scratch);
+  EXPECT_EQ(pcl_bv::detail::any_link_of_many(run_a, run_b, r2, scratch), found);
   return found;
 }
 
@@ -32,7 +32,7 @@ float least_of_all(const Points& a, const Points& b) {
   float least = std::numeric_limits<float>::infinity();
   for (const auto& p : a) {
     for (const auto& q : b)
-      least = std::min(least, pcl_bv::squared_distance(p, q));
+      least = std::min(least, pcl_bv::detail::squared_distance(p, q));
   }
   return least;
 }
@@ -102,9 +102,11 @@ TEST(AnyLink, IsFarFromQuadraticOnSheetsBarelyApart) {
     return all;
   };
   const auto a = counted(sheet(count, 0.F, 1)), b = counted(sheet(count, 0.45F, 2));
-  const float nearly = 0.159F;  // r = 0.39875; the sheets are at least (0.45 - 0.004) / sqrt(1.25) = 0.3989 apart
-  pcl_bv::LinkScratch<Counted> scratch;
-  EXPECT_FALSE(pcl_bv::any_link_of_many<Counted>({a.data(), count}, {b.data(), count}, nearly, scratch));
+  const float nearly =
+      0.159F;  // r = 0.39875; the sheets are at least (0.45 - 0.004) / sqrt(1.25) = 0.3989 apart
+  pcl_bv::detail::LinkScratch<Counted> scratch;
+  EXPECT_FALSE(
+      pcl_bv::detail::any_link_of_many<Counted>({a.data(), count}, {b.data(), count}, nearly, scratch));
   EXPECT_LT(Counted::products / 3, 10 * std::pow(count, 1.5)) << "all pairs would be " << count * count;
 }
 

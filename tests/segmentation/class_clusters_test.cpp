@@ -12,7 +12,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "reference.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Cloud;
@@ -144,4 +144,4 @@ TEST(ClassClusters, RefuseAClassWithSettingsTwiceAndAPointWithout) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -90,4 +90,4 @@ TEST(CloudStatistics, OfManyPointsAreTheSameInAnyOrderOfALatticeAndOnAnyThreads)
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -20,6 +20,7 @@
 namespace {
 
 using namespace pcl_bv;
+using namespace pcl_bv::detail;
 using namespace pcl_bv::test;
 using IndexSets = std::set<std::vector<std::int32_t>>;
 

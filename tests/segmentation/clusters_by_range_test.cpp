@@ -11,7 +11,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "reference.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Cloud;
@@ -146,4 +146,4 @@ TEST(ClustersByRange, AGrowthThatIsNoneOrGoesWithDbscanIsRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

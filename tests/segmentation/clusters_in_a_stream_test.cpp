@@ -19,6 +19,7 @@
 namespace {
 
 using namespace pcl_bv;
+using namespace pcl_bv::detail;
 using namespace pcl_bv::test;
 
 PointView view_of(const SynthCloud& cloud) {

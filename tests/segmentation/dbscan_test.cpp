@@ -11,7 +11,7 @@
 #include "dbscan_reference.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Cloud;
@@ -184,4 +184,4 @@ TEST(Dbscan, RefusesNoPointAsCoreCondition) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

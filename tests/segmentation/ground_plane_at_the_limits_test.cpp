@@ -17,7 +17,7 @@
 #include "flush_to_zero.h"
 #include "ground_scenes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(GroundPlaneAtTheLimits, PointNumbersBeyondAnIndexAreRefused) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

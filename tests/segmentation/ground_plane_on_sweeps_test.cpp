@@ -14,7 +14,7 @@
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Score {
@@ -93,4 +93,4 @@ TEST(GroundPlaneOnSweeps, KnowsTheSensorHeightOfRealOnes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

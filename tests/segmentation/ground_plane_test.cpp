@@ -12,7 +12,7 @@
 
 #include "ground_scenes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 double slope_degrees(const GroundSplit& result) {
@@ -237,4 +237,4 @@ TEST(GroundPlane, IsNoneWhenTooMuchLiesBelow) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Score {
@@ -147,4 +147,4 @@ TEST(GroundZonesOnSweeps, KnowTheSensorHeightOfRealOnes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "allocations.h"
 #include "ground_scenes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 GroundSplit split(const PointView& points, const GroundZonesOptions& settings = {}) {
@@ -409,4 +409,4 @@ TEST(GroundZones, OfAUsedObjectAreThoseOfAFreshOneAndTakeNoMemory) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "ground_scenes.h"
 #include "pcl_bv/segmentation/ground.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 GroundSplit split(const PointView& points, const GroundZonesOptions& settings = {}) {
@@ -62,4 +62,4 @@ TEST(GroundZones, OfATurnedCloudAreNearlyTheSame) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

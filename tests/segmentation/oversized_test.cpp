@@ -7,7 +7,7 @@
 #include "dbscan_reference.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using test::Cloud;
@@ -130,4 +130,4 @@ TEST(Oversized, PartsOfAToleranceThatGrowsHalveItAtEveryRange) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/synth/street.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -227,4 +227,4 @@ TEST(OtherUp, IsNoneWhereThePlaneIsAtTheSensor) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

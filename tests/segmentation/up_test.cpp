@@ -14,7 +14,7 @@
 
 #include "up_frame.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -136,4 +136,4 @@ TEST(UpFrame, TurnsFromAnAxisAsFarAsUpDoes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "point_tree_state.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -23,7 +23,8 @@ void expect_decided_at_the_nearest(const PointView& cloud, const std::vector<Vec
       const double square = points.near(place, kInfinity).front().squared_distance;
       const Coordinates center = coordinates(place);
       EXPECT_TRUE(any_in_ball(tree.isa(), packed_tree(tree), center, square)) << isa_name(isa);
-      EXPECT_FALSE(any_in_ball(tree.isa(), packed_tree(tree), center, square * (1 - 0x1p-40))) << isa_name(isa);
+      EXPECT_FALSE(any_in_ball(tree.isa(), packed_tree(tree), center, square * (1 - 0x1p-40)))
+          << isa_name(isa);
     }
   }
 }
@@ -70,4 +71,4 @@ TYPED_TEST(AnyInBallOf, IsDecidedByPointsInsideLongBoxes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,6 +13,7 @@
 #include "round_volumes.h"
 
 namespace pcl_bv::testing {
+using namespace detail;
 
 inline std::vector<AnyVolume> volumes_of_every_kind(Random& random, const Scale& scale) {
   const double s = scale.extent;

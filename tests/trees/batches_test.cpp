@@ -7,7 +7,7 @@
 
 #include "clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -55,4 +55,4 @@ TEST(Batches, AnswerEachQuestionAsIfItWereTheOnlyOne) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

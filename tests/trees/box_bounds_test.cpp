@@ -16,7 +16,7 @@
 #include "scattered_volumes.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -157,4 +157,4 @@ TEST(BoxBounds, BoxesAreAsFarAndEnteredAsTheirSidesSay) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -278,4 +278,4 @@ TEST(BoxRelation, ToABoxIsExact) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "tree_build.h"
 #include "volume_walk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Bounds of each box of each group: of items at random, of the others the least below; `of_lacking` of boxes
@@ -135,4 +135,4 @@ TEST(VolumeWalk, EndsWhereItIsToldToWhetherBoxesAreInsideOrCross) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "clouds.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -195,4 +195,4 @@ TEST(VolumesWithin, RefuseNoMarginAndNoPose) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,7 +19,7 @@
 #include "uneven_cloud.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename T>
@@ -70,4 +70,4 @@ TEST(Contains, OfManyMindsSmallComponentsOfANormalWhereCoordinatesAreGreat) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

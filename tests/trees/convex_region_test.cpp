@@ -12,7 +12,7 @@
 #include "inflated.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -197,4 +197,4 @@ TEST(ConvexRegion, IsUnboundedWhereNoSideIsAlongTheAxis) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

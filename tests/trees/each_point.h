@@ -19,6 +19,7 @@
 #include "pcl_bv/trees/point_tree.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 inline bool operator==(const Neighbor& a, const Neighbor& b) {
   return a.index == b.index && a.squared_distance == b.squared_distance;

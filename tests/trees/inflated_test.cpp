@@ -9,7 +9,7 @@
 
 #include "any_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -120,4 +120,4 @@ TEST(Inflated, WithoutPaddingOrContentsIsTheVolumeItself) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

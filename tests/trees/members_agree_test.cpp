@@ -17,7 +17,7 @@
 #include "uneven_cloud.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -112,4 +112,4 @@ TEST(Members, OfAVolumeAgreeOnPointsJustInsideByExactArithmetic) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "sphere_around.h"
 #include "transformed_point.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -164,4 +164,4 @@ TEST(BodyDistance, OfABoxIsThatOfItsMiddleLessItsReachAndAMargin) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -20,7 +20,7 @@
 #include "executions.h"
 #include "flush_to_zero.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -291,4 +291,4 @@ TEST(PointTree, IsAskedByThreadsSideBySide) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "each_point.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -98,4 +98,4 @@ TEST(PointTree, ListsTheSamePointsAsContainsInsideLargeVolumes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

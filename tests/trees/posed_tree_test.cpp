@@ -8,7 +8,7 @@
 #include "any_volumes.h"
 #include "clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -158,4 +158,4 @@ TEST(PosedTree, ErrsByTheRoundingOfTheCoordinates) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -21,7 +21,7 @@
 #include "pcl_bv/trees/region_mask.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -182,4 +182,4 @@ TEST(RegionMask, OfFewRegionsAllocatesNothingInAnyThread) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

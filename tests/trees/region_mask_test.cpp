@@ -21,7 +21,7 @@
 #include "pcl_bv/points/point_groups.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -288,4 +288,4 @@ TEST(RegionMask, ACapsuleOfEqualEndsIsABall) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

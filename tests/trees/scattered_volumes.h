@@ -9,6 +9,7 @@
 #include "any_volumes.h"
 
 namespace pcl_bv::testing {
+using namespace detail;
 
 /// K-DOPs whose slabs have no point in common and hulls whose planes enclose a half space, all or nothing are
 /// volumes that are not empty(); then an empty one of each kind.

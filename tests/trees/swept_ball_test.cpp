@@ -15,7 +15,7 @@
 #include "executions.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -98,7 +98,8 @@ using ScalarTypes = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(SweptBallOf, ScalarTypes);
 
 void expect_shown(const PointTree& tree, const Ray& ray, double until) {
-  const SweptBall ball(packed_tree(tree).boxes, coordinates(ray.origin), coordinates(ray.direction), ray.radius);
+  const SweptBall ball(packed_tree(tree).boxes, coordinates(ray.origin), coordinates(ray.direction),
+                       ray.radius);
   for (const double end : {kInfinity, until}) {
     Shown shown(tree, end == until ? ball.latest_entry(until) : std::numeric_limits<float>::max());
     visit_along(tree.isa(), packed_tree(tree), ball, shown);
@@ -150,4 +151,4 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

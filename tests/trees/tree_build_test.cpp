@@ -14,7 +14,7 @@
 #include "clouds.h"
 #include "each_point.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -225,4 +225,4 @@ TEST(BoxLevels, TellHowLittleABallMayBeThatSurelyHoldsAPoint) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

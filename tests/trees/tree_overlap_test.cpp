@@ -13,7 +13,7 @@
 #include "scattered_volumes.h"
 #include "transformed_point.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -91,4 +91,4 @@ TEST(VolumesWithin, OfNoBoxAreAskedAndEmptyOnesAreNot) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,9 +11,10 @@
 #include "clouds.h"
 
 namespace pcl_bv::test {
+using namespace detail;
 
-/// Forty points. Axes of sizes from 1e-30 to 1e30 of their own, some flat, a needle or a grid that was squashed, far from
-/// the origin, or denormal.
+/// Forty points. Axes of sizes from 1e-30 to 1e30 of their own, some flat, a needle or a grid that was
+/// squashed, far from the origin, or denormal.
 template <typename T>
 TestCloud<T> uneven_cloud(int seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));

@@ -13,7 +13,7 @@
 #include "any_volumes.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -207,4 +207,4 @@ TEST(VolumeBoxes, LieInTheOrderOfTheirMiddles) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

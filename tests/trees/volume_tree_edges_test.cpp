@@ -9,7 +9,7 @@
 #include "pcl_bv/trees/volume_tree.h"
 #include "scattered_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -93,4 +93,4 @@ TEST(VolumeTree, HitsEllipsoidsThatAreMillionsOfTimesLongerThanWide) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pcl_bv/volumes/pair_queries.h"
 #include "scattered_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
@@ -244,4 +244,4 @@ TEST(VolumeTree, LabelsPointsAndFindsHitsTheSameForEveryExecution) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -219,4 +219,4 @@ TEST(Aabb, FloatCopyKeepsDenormalsWhereTheHostFlushesThem) {
 #endif
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

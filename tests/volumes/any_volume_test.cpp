@@ -6,7 +6,7 @@
 
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -97,4 +97,4 @@ TEST(AnyVolume, IsAnEmptyBoxAtFirst) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -22,7 +22,7 @@
 #include "pcl_bv/volumes/any_volume.h"
 #include "round_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -269,4 +269,4 @@ TEST(FlushingHost, LosesNoPointThatAVolumeIsExtendedBy) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

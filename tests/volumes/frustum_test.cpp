@@ -12,7 +12,7 @@
 #include "pair_volumes.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -130,4 +130,4 @@ TEST(Frustum, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "meshes.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -257,4 +257,4 @@ TEST(KdopShape, SlabsThatDoNotMeetHaveNoCorners) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -64,4 +64,4 @@ TEST(KdopSet, FindsABasisWhereverItIs) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

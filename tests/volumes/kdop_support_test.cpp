@@ -10,7 +10,7 @@
 #include "kdop_sets.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -90,4 +90,4 @@ TEST(KdopSupport, TransformedByTheIdentityStaysWhatItIs) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

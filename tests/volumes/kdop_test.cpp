@@ -17,7 +17,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -294,4 +294,4 @@ TEST(Kdop, OfAnyNumberOfSlabsIsAValue) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "kdop_sets.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -221,4 +221,4 @@ TEST(KdopTightened, SlabsThatJustMeetLoseNoPointAndThoseThatJustMissAreEmpty) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

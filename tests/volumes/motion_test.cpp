@@ -12,7 +12,7 @@ namespace pcl_bv {
 namespace {
 
 using namespace pcl_bv::testing;
-using namespace pcl_bv::volumes_internal;
+using namespace pcl_bv::detail;
 using Eigen::Vector3d;
 
 bool is_within(double bound, const ExactPoint& difference) {

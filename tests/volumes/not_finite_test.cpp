@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/any_volume.h"
 #include "pcl_bv/volumes/frustum.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -75,4 +75,4 @@ TEST(PointNotFinite, IsWhereNoRayBeginsOrLeads) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

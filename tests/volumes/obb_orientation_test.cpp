@@ -13,7 +13,7 @@
 #include "obbs.h"
 #include "pcl_bv/volumes/obb.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -128,4 +128,4 @@ TEST(ObbOrientation, OrthonormalAxesAreThatTo1e15) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

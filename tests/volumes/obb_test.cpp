@@ -12,7 +12,7 @@
 #include "obbs.h"
 #include "pcl_bv/volumes/obb.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -299,4 +299,4 @@ TEST(Obb, IntersectNeverDeniesAHitAndIsTight) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

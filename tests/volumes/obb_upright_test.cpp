@@ -14,7 +14,7 @@
 #include "obb_names.h"
 #include "pcl_bv/volumes/obb.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -132,4 +132,4 @@ TEST(ObbUpright, TheMergeOfUprightBoxesIsUpright) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

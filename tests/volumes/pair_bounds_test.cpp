@@ -13,9 +13,10 @@
 #include "half_spaces.h"
 #include "pair_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
+using detail::PosedShape;
 using Eigen::Vector3d;
 using testing::dot;
 using testing::ExactPoint;
@@ -23,7 +24,6 @@ using testing::Form;
 using testing::Random;
 using testing::Rational;
 using testing::Scale;
-using volumes_internal::PosedShape;
 
 constexpr unsigned kSeed = 5;
 
@@ -136,7 +136,7 @@ std::vector<ExactPoint> corners_of(const std::vector<HullPlane>& planes) {
 TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
   Random random(kSeed);
   for (const double width : {1.0, 1e-3, 1e-5}) {
-    volumes_internal::HalfSpaces half_spaces;
+    detail::HalfSpaces half_spaces;
     std::vector<HullPlane> planes;  // tangent to the unit ball
     for (int i = 0; i < 18; ++i) {
       const Vector3d axis = (i < 3 ? 1 : -1) * Vector3d::Unit(i % 3);
@@ -165,7 +165,7 @@ TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
 TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
   for (const Vector3d& half : {Vector3d(1, 1, 1), Vector3d(1, 0.25, 4), Vector3d(1e-6, 1, 1e-3)}) {
     for (const double guess : {1.001, 8.0, 1e6}) {
-      volumes_internal::HalfSpaces half_spaces;
+      detail::HalfSpaces half_spaces;
       for (int signs = 0; signs < 8; ++signs) {
         const Vector3d n(signs & 1 ? 1 : -1, signs & 2 ? 1 : -1, signs & 4 ? 1 : -1);
         half_spaces.add(n.cwiseQuotient(half), 1, Vector3d::Zero());
@@ -184,7 +184,7 @@ TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
 
 TEST(PairBounds, NoBoxIsFoundAroundHalfSpacesThatLeaveOneSideOpen) {
   for (int open = 0; open < 6; ++open) {
-    volumes_internal::HalfSpaces half_spaces;
+    detail::HalfSpaces half_spaces;
     for (int side = 0; side < 6; ++side) {
       if (side != open) half_spaces.add((side < 3 ? 1 : -1) * Vector3d::Unit(side % 3), 1, Vector3d::Zero());
     }
@@ -193,4 +193,4 @@ TEST(PairBounds, NoBoxIsFoundAroundHalfSpacesThatLeaveOneSideOpen) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

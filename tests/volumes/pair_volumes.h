@@ -17,6 +17,7 @@
 #include "round_volumes.h"
 
 namespace pcl_bv::testing {
+using namespace detail;
 
 inline constexpr int kKinds = 8;
 

@@ -11,7 +11,7 @@
 #include "pair_volumes.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -67,4 +67,4 @@ TEST(PairsFcl, DistancesAgree) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "pcl_bv/volumes/frustum.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -232,4 +232,4 @@ TEST(PairsTightness, ClosedForms) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/sphere.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -252,4 +252,4 @@ TEST(RayExact, TangentToASphereIsAHit) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "exact.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -159,4 +159,4 @@ TEST(Ray, InTheFaceOfAFlatKdopRunsTheWholeWay) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

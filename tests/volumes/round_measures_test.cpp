@@ -10,7 +10,7 @@
 
 #include "round_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -251,4 +251,4 @@ TEST(RoundVolumes, MeshesAreClosedOutwardAndNearlyAsLarge) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

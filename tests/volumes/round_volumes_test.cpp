@@ -12,7 +12,7 @@
 #include "obbs.h"
 #include "round_volumes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -190,4 +190,4 @@ TEST(Cylinder, SupportAlongItsAxisIsOnAnEnd) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "exact.h"
 #include "pcl_bv/volumes/sphere.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using namespace pcl_bv::testing;
@@ -309,4 +309,4 @@ TEST(Sphere, MeshIsClosedAndLiesOnTheSphere) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,6 +13,7 @@
 #include "schedule.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::size_t kManyPoints = 200'000;

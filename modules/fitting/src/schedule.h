@@ -9,7 +9,7 @@
 
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the policy with at most one thread per 100 us of work. If one thread needs less than 200 us for
 /// the work, returns Serial.
@@ -61,4 +61,4 @@ inline ParallelPolicy worthwhile(const Execution& execution, Work work, std::siz
   return worthwhile(execution.parallel, 1e-9 * nanoseconds(work, execution.isa) * static_cast<double>(count));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -20,6 +20,7 @@
 #include "schedule.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;

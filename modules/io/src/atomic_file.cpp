@@ -18,7 +18,7 @@
 
 #include "pcl_bv/io/posix_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ void remove_temporary_files() noexcept {
     ::unlink(path.c_str());
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcd_format.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kMinFields = 3, kMaxFields = 32;
@@ -101,4 +101,4 @@ PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& pa
   return header;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

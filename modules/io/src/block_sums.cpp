@@ -10,7 +10,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Only the first cache line of every 4 KiB is summed. If another cloud replaces the cloud, these lines also
@@ -56,4 +56,4 @@ void BlockSums::check(std::size_t first, std::size_t count, const std::byte* rec
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

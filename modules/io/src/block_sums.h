@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// One checksum of 2 bytes per block of kBlockPoints points. A billion points need 2 MB.
 class BlockSums {
@@ -26,4 +26,4 @@ class BlockSums {
   std::vector<std::atomic<std::uint16_t>> sums_;  // by block; 0 if the block has not been read yet
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -5,7 +5,7 @@
 
 #include <sys/mman.h>
 
-namespace pcl_bv::internal {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
@@ -28,4 +28,4 @@ void free_buffer(void* memory, std::size_t bytes) noexcept {
   ::operator delete (memory, std::align_val_t{kHugePage});
 }
 
-}  // namespace pcl_bv::internal
+}  // namespace pcl_bv::detail

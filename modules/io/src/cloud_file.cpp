@@ -13,6 +13,7 @@
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 struct CloudFile::Opened {
   InputFile file;

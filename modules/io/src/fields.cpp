@@ -10,6 +10,7 @@
 #include <type_traits>
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // A size that is known at compile time turns each copy into one load and one store. Nearly all fields have 4
@@ -64,7 +65,7 @@ void convert(StridedSource from, StridedTarget to, std::size_t count) {
 
 }  // namespace
 
-void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::size_t count) {
+void detail::copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::size_t count) {
   switch (bytes) {
     case 1:
       return copy(from, to, fixed<1>, count);
@@ -79,17 +80,17 @@ void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::
   }
 }
 
-const PointField* find_field(const std::vector<PointField>& fields, std::string_view name) {
+const PointField* detail::find_field(const std::vector<PointField>& fields, std::string_view name) {
   const auto found =
       std::find_if(fields.begin(), fields.end(), [&](const PointField& field) { return field.name == name; });
   return found == fields.end() ? nullptr : &*found;
 }
 
-bool is_coordinate_name(std::string_view name) {
+bool detail::is_coordinate_name(std::string_view name) {
   return name.size() == 1 && std::string_view("xyzXYZ").find(name) != std::string_view::npos;
 }
 
-CoordinateFields coordinate_fields(const std::vector<PointField>& fields) {
+CoordinateFields detail::coordinate_fields(const std::vector<PointField>& fields) {
   CoordinateFields result;
   const std::array<const PointField*, 3> found = find_coordinates(fields);
   bool of_scalar = true;
@@ -110,8 +111,8 @@ CoordinateFields coordinate_fields(const std::vector<PointField>& fields) {
   return result;
 }
 
-PointView view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
-                  std::size_t point_step) {
+PointView detail::view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
+                          std::size_t point_step) {
   PointView view;
   view.scalar = fields.scalar;
   view.data = records + fields.offset[0];
@@ -121,25 +122,25 @@ PointView view_at(const CoordinateFields& fields, const std::byte* records, std:
   return view;
 }
 
-void require_coordinates(RawCloud& cloud) {
+void detail::require_coordinates(RawCloud& cloud) {
   if (cloud.size() > 0 || coordinate_fields(cloud.fields).readable) return check_coordinates(cloud.fields);
   cloud.fields = {{"x", 'F', 4, 1, 0}, {"y", 'F', 4, 1, 4}, {"z", 'F', 4, 1, 8}};
   cloud.point_step = 12;
 }
 
-void add_note(RawCloud& cloud, const std::string& note) {
+void detail::add_note(RawCloud& cloud, const std::string& note) {
   cloud.note += (cloud.note.empty() ? "" : "; ") + note;
 }
 
-bool is_not_identity(const std::array<double, 7>& viewpoint) {
+bool detail::is_not_identity(const std::array<double, 7>& viewpoint) {
   for (const std::size_t i : {0, 1, 2, 4, 5, 6}) {
     if (viewpoint[i] != 0) return true;
   }
   return false;
 }
 
-void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
-                      std::size_t point_step, std::byte* xyz) {
+void detail::pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
+                              std::size_t point_step, std::byte* xyz) {
   const std::size_t bytes = size_of(fields.scalar);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const StridedSource from{records, fields.offset[axis], point_step};
@@ -156,7 +157,7 @@ void pack_coordinates(const CoordinateFields& fields, const std::byte* records, 
 }
 
 template <typename Error>
-void check_coordinates(const std::vector<PointField>& fields) {
+void detail::check_coordinates(const std::vector<PointField>& fields) {
   std::string missing;
   const std::array<std::string_view, 3> names = coordinate_names(fields);
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -13,7 +13,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Calls `function` with a value of the C++ type that matches the field's type letter and size. The caller
 /// must refuse floating point of 1 or 2 bytes, which has no C++ type.
@@ -96,4 +96,4 @@ void pack_coordinates(const CoordinateFields& fields, const std::byte* records, 
 template <typename Error = IoError>
 void check_coordinates(const std::vector<PointField>& fields);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "fields.h"
 #include "text.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the name of the field's type with its article.
@@ -85,4 +85,4 @@ void InvalidValues::report(RawCloud& cloud) const {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "text_rows.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Replaces and counts invalid values, which are not numbers of their field's type. They become NaN, or 0 in
 /// integer fields. Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and
@@ -47,4 +47,4 @@ class InvalidValues {
   std::vector<FieldRecord> fields_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

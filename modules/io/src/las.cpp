@@ -14,7 +14,7 @@
 #include "las_format.h"
 #include "trailing_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kHeaderOf12 = 227, kHeaderOf14 = 375;
@@ -218,4 +218,4 @@ void read_las_points(const InputFile& file, LasHeader& header) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

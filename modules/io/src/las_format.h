@@ -12,7 +12,7 @@
 #include "pcl_bv/io/las.h"
 #include "pcl_bv/io/posix_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// One field other than x, y and z.
 struct LasColumn {
@@ -36,4 +36,4 @@ LasHeader read_las_header(const InputFile& file);
 /// Reads the points into header.cloud.data. Throws IoError.
 void read_las_points(const InputFile& file, LasHeader& header);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ std::vector<fs::path> list_clouds(const fs::path& folder, std::size_t* subfolder
   return clouds;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

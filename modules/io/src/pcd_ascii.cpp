@@ -13,7 +13,7 @@
 #include "text.h"
 #include "text_rows.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void check_types(const RawCloud& cloud) {
@@ -124,4 +124,4 @@ std::string format_ascii_points(const RawCloud& cloud) {
   return text;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

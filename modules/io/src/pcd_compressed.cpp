@@ -11,7 +11,7 @@
 #include "fields.h"
 #include "pcd_format.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct BlockSizes {
@@ -122,4 +122,4 @@ std::string compress_points(const RawCloud& cloud) {
   return block;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

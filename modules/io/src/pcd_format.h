@@ -12,7 +12,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Names of the encodings in the line DATA, indexed by PcdEncoding.
 inline constexpr std::array pcd_encoding_names{"ascii", "binary", "binary_compressed"};
@@ -47,4 +47,4 @@ std::string compress_points(const RawCloud& cloud);
 /// Throws IoError with advice if the path has the extension of another known format (mesh, recording, ...).
 void refuse_other_formats(const std::filesystem::path& path);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "text.h"
 #include "trailing_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using KeywordLines = std::map<std::string_view, Words>;  // keyword -> the words after it
@@ -195,4 +195,4 @@ void require_records(const InputFile& file, PcdHeader& header) {
                 " bytes, the file has " + std::to_string(available));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "ply_format.h"
 #include "text_rows.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Reads one vertex. Successive properties of the same type are read as one run.
@@ -106,4 +106,4 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   invalid_values.report(cloud);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "ply_format.h"
 #include "trailing_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 /// Reads the bytes of a file in sequence. Small values are read through a buffer of 64 KiB.
@@ -145,4 +145,4 @@ void read_ply_binary(const InputFile& file, PlyHeader& header) {
                          header.cloud);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A property is one value or a list. In the file, a list is a count, then the values.
 struct PlyProperty {
@@ -57,4 +57,4 @@ PlyHeader read_ply_header(const InputFile& file);
 void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy);
 void read_ply_binary(const InputFile& file, PlyHeader& header);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

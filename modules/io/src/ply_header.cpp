@@ -9,7 +9,7 @@
 #include "ply_format.h"
 #include "text.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct TypeName {
@@ -184,4 +184,4 @@ PlyHeader read_ply_header(const InputFile& file) {
   return header;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr char kCut[] = "truncated: the file became shorter while it was read";
@@ -81,4 +81,4 @@ void InputFile::prefetch(std::size_t offset, std::size_t bytes) const {
   ::posix_fadvise(file_.get(), static_cast<off_t>(offset), static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,6 +9,7 @@
 #include "fields.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 const PointField* find_field(const RawCloud& cloud, std::string_view name) {
   return find_field(cloud.fields, name);

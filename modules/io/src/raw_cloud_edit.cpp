@@ -11,7 +11,7 @@
 #include "fields.h"
 #include "text.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t values) {
@@ -135,4 +135,4 @@ void update_packed_xyz(RawCloud& cloud) {
   pack_coordinates(fields, cloud.data.data(), cloud.size(), cloud.point_step, cloud.packed_xyz.data());
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,6 +19,7 @@
 #include "ply_format.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are used as they are in the file");
@@ -74,7 +75,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-void refuse_other_formats(const std::filesystem::path& path) {
+void detail::refuse_other_formats(const std::filesystem::path& path) {
   struct Kind {
     std::string_view extensions, what;
   };
@@ -103,16 +104,16 @@ RawCloud read_pcd(const std::filesystem::path& path, const Execution& execution)
   return read_file(path, read_pcd_header, execution.parallel);
 }
 
-RawCloud read_ply(const std::filesystem::path& path, const Execution& execution) {
+RawCloud detail::read_ply(const std::filesystem::path& path, const Execution& execution) {
   return read_file(path, read_ply_header, execution.parallel);
 }
 
-RawCloud read_bin(const std::filesystem::path& path, std::size_t fields) {
+RawCloud detail::read_bin(const std::filesystem::path& path, std::size_t fields) {
   const auto read_header = [&](const InputFile& file) { return read_bin_header(file, path, fields); };
   return read_file(path, read_header, Serial{});
 }
 
-RawCloud read_las(const std::filesystem::path& path) {
+RawCloud detail::read_las(const std::filesystem::path& path) {
   return read_file(path, read_las_header, Serial{});
 }
 

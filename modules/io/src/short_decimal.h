@@ -14,7 +14,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Number of bytes after the text that read_short_decimal() may read.
 inline constexpr std::size_t kTextPadding = 16;
@@ -27,8 +27,6 @@ inline bool is_blank(char c) {
 inline bool ends_value(char c) {
   return c == '\n' || is_blank(c);
 }
-
-namespace internal {
 
 static_assert(std::endian::native == std::endian::little, "the first digit is the lowest byte");
 
@@ -118,8 +116,6 @@ inline bool read_exponent(const char*& at, int& exponent) {
   return true;
 }
 
-}  // namespace internal
-
 /// Reads a number that is followed by a blank or a line end. Returns the position behind the number, or null
 /// if this fast path cannot decide. Then the text may still be a valid number for std::from_chars. The text
 /// must be followed by kTextPadding bytes that begin with a line feed.
@@ -129,16 +125,16 @@ inline const char* read_short_decimal(const char* at, T& value) {
   const bool negative = *at == '-';
   at += negative | (*at == '+');
   const char* const first = at;
-  const internal::DigitRun whole = internal::read_digit_run(at);
+  const DigitRun whole = read_digit_run(at);
   at += whole.length;
-  internal::Decimal decimal{static_cast<std::int64_t>(whole.value), 0};
+  Decimal decimal{static_cast<std::int64_t>(whole.value), 0};
   bool has_digits = whole.length > 0;
   if (*at == '.') {
     ++at;
     do {
-      const internal::DigitRun run = internal::read_digit_run(at);
+      const DigitRun run = read_digit_run(at);
       if (decimal.digits >= 10'000'000'000) return nullptr;
-      decimal.digits = decimal.digits * static_cast<std::int64_t>(internal::integer_powers[run.length]) +
+      decimal.digits = decimal.digits * static_cast<std::int64_t>(integer_powers[run.length]) +
                        static_cast<std::int64_t>(run.value);
       decimal.exponent -= static_cast<int>(run.length);
       at += run.length;
@@ -146,9 +142,9 @@ inline const char* read_short_decimal(const char* at, T& value) {
     has_digits = at - first > 1;
   }
   if (!has_digits) return nullptr;
-  if ((*at == 'e' || *at == 'E') && !internal::read_exponent(at, decimal.exponent)) return nullptr;
-  if (!ends_value(*at) || !internal::round_decimal(decimal, negative, value)) return nullptr;
+  if ((*at == 'e' || *at == 'E') && !read_exponent(at, decimal.exponent)) return nullptr;
+  if (!ends_value(*at) || !round_decimal(decimal, negative, value)) return nullptr;
   return at;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

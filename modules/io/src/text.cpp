@@ -10,6 +10,7 @@
 #include "short_decimal.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Larger exponents are clamped to this value, so that sums cannot overflow. The clamping cannot change a
@@ -35,8 +36,8 @@ std::string in_quotes(std::string_view text) {
   return "'" + result + (text.size() > longest ? "...'" : "'");
 }
 
-void parse_header(const InputFile& file, const char* last_line,
-                  const std::function<bool(std::string_view start, bool more)>& parse) {
+void detail::parse_header(const InputFile& file, const char* last_line,
+                          const std::function<bool(std::string_view start, bool more)>& parse) {
   for (std::size_t size = 1 << 16; size <= kMaxHeaderBytes; size *= 4) {
     std::string start(std::min(file.size(), size), '\0');
     file.read(0, start.data(), start.size());
@@ -50,7 +51,7 @@ void parse_header(const InputFile& file, const char* last_line,
                 last_line + " in them");
 }
 
-Words split(std::string_view line) {
+Words detail::split(std::string_view line) {
   Words words;
   auto word = std::find_if_not(line.begin(), line.end(), is_blank);
   while (word != line.end()) {
@@ -61,13 +62,13 @@ Words split(std::string_view line) {
   return words;
 }
 
-bool is_word(std::string_view text) {
+bool detail::is_word(std::string_view text) {
   return !text.empty() && std::none_of(text.begin(), text.end(), ends_value);
 }
 
 // std::from_chars reports "out of range" for a float both for 1e39 and for 1e-46. The sign of the decimal
 // exponent distinguishes overflow from underflow, because all values from 1e-45 to 1e38 are in range.
-double value_beyond_range(std::string_view number) {
+double detail::value_beyond_range(std::string_view number) {
   const bool negative = number.front() == '-';
   if (negative) number.remove_prefix(1);
   std::int64_t exponent = 0;

@@ -14,7 +14,7 @@
 
 #include "pcl_bv/io/posix_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Maximum size of a header in bytes. Most headers have 200 to 400 bytes, but some exporters store metadata
 /// of 100 kB in comments.
@@ -70,4 +70,4 @@ void append_number(std::string& text, T value) {
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "text.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Fast path for "nan" as PCL writes it, which is frequent in organised clouds. std::from_chars reads all
@@ -280,4 +280,4 @@ std::size_t skip_text_rows(TextBody& body, std::size_t count) {
   return skipped + (skipped < count && in_row);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

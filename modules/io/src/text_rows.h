@@ -15,7 +15,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "short_decimal.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A cursor over a text of rows (lines) of values separated by blanks. TextRows does not own the text. The
 /// text must be followed by kTextPadding readable bytes that begin with a line feed.
@@ -110,4 +110,4 @@ RowsRead read_text_rows(const TextBody& body, const RowsWanted& wanted, const Re
 /// Moves body.begin behind at most `count` rows that are not blank. Returns the number of rows skipped.
 std::size_t skip_text_rows(TextBody& body, std::size_t count);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

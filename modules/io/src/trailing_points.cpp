@@ -9,7 +9,7 @@
 
 #include "fields.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 bool is_zero_padding(const InputFile& file, ByteRange rest) {
@@ -33,4 +33,4 @@ void note_trailing_points(const InputFile& file, ByteRange rest, std::size_t rec
            "the header says " + std::to_string(cloud.size()) + " points; " + bytes + ", which are not read");
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The bytes [begin, end) of a file.
 struct ByteRange {
@@ -22,4 +22,4 @@ struct ByteRange {
 /// points but more follow.
 void note_trailing_points(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

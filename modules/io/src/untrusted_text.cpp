@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
@@ -74,4 +74,4 @@ std::string position_in(std::string_view text, std::size_t at) {
          std::to_string(before.size() - line_begin + 1);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

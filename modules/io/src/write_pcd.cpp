@@ -8,6 +8,7 @@
 #include "text.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 void require(bool holds, const std::string& rule) {

@@ -24,7 +24,7 @@
 #include "projection_extremes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -259,11 +259,11 @@ AxisExtents axis_extents(const PointView& points) {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 AxisExtents axis_extents(UsableIsa isa, const PointView& points) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(axis_extents, &axis_extents_reference);
@@ -271,5 +271,5 @@ AxisExtents axis_extents(UsableIsa isa, const PointView& points) {
   return kTable[isa](points);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

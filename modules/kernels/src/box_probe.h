@@ -11,7 +11,7 @@
 
 #include "pcl_bv/kernels/packed_tree.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A query point and the limit of its squared distances, converted to the frame of the boxes (see BoxLevels).
 /// On each axis, the query point is between `low` and `high`.
@@ -50,4 +50,4 @@ struct BoxProbe {
   }
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename T>
 inline Coordinates load_as(const PointView& points, std::size_t i) {
@@ -23,4 +23,4 @@ inline double distance_squared(const Coordinates& p, const DistanceCenter& cente
   return dot3(q, q);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -21,7 +21,7 @@
 #include "pcl_bv/kernels/distances.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -164,7 +164,7 @@ HWY_INLINE V<D> greatest_in_float(D d, const PointView& points, Run run, const F
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

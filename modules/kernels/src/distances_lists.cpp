@@ -18,7 +18,7 @@
 #include "distances-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -114,11 +114,11 @@ std::size_t list_distant(const PointView& points, const DistanceCenter& center, 
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
                                    const DistanceCenter& center, double limit, std::uint32_t* positions) {
@@ -136,5 +136,5 @@ std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceC
   return kTable[isa](points, center, limit, filter, positions);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

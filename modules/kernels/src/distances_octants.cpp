@@ -18,7 +18,7 @@
 #include "distances-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -153,11 +153,11 @@ void scan_octants(const PointView& block, OctantScan& scan) {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(scan_octants, &scan_octants_reference);
@@ -165,5 +165,5 @@ void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan) {
   kTable[isa](block, scan);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

@@ -15,7 +15,7 @@
 #include "load-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -78,11 +78,11 @@ std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std:
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions) {
@@ -92,5 +92,5 @@ std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpace
   return kTable[isa](points, inside, positions);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

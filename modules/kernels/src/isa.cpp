@@ -14,6 +14,7 @@
 #include <hwy/targets.h>
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 struct Entry {

@@ -18,7 +18,7 @@
 #include "pcl_bv/points/point_view.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -192,8 +192,9 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
   }
 }
 
-/// Same as load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a packet
-/// could extend from one coordinate into the next, so the points of such a packet are loaded one by one.
+/// Same as load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a
+/// packet could extend from one coordinate into the next, so the points of such a packet are loaded one by
+/// one.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {
@@ -324,7 +325,7 @@ HWY_INLINE void keep_in_register(Vector& v) {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

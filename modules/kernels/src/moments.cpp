@@ -23,7 +23,7 @@
 #include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -112,11 +112,11 @@ Moments block_moments(const PointView& block) {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 Moments block_moments(UsableIsa isa, const PointView& block) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(block_moments, &block_moments_reference);
@@ -124,5 +124,5 @@ Moments block_moments(UsableIsa isa, const PointView& block) {
   return kTable[isa](block);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/kernels/packed_tree.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Retains the nearest of the points that were offered.
 class NearestOne {
@@ -91,4 +91,4 @@ class NearestSet {
   bool full_ = false;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -21,7 +21,7 @@
 #include "load-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -220,7 +220,7 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

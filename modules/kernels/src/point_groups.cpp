@@ -18,7 +18,7 @@
 #include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -34,11 +34,11 @@ void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the position of the last valid point, or of the last point if no point is valid. The search is
@@ -56,20 +56,23 @@ void fill_groups(UsableIsa isa, const PointView& points, std::byte* groups) {
 }
 
 }  // namespace
+}  // namespace pcl_bv::detail
+
+namespace pcl_bv {
 
 PointGroups::PointGroups(const PointView& points, UsableIsa isa) {
   assign(points, isa);
 }
 
 void PointGroups::assign(const PointView& points, UsableIsa isa) {
-  require_in_memory(points);
+  detail::require_in_memory(points);
   const std::size_t points_per_group = kGroupBytes / size_of(points.scalar);
   const std::size_t groups = (points.count + points_per_group - 1) / points_per_group;
   if (groups > groups_.capacity()) groups_.clear();  // so that resize() copies no old contents
   groups_.resize(groups);
   size_ = points.count;
   scalar_ = points.scalar;
-  if (groups > 0) fill_groups(isa, points, groups_.front().lanes);
+  if (groups > 0) detail::fill_groups(isa, points, groups_.front().lanes);
 }
 
 PointView PointGroups::view() const {

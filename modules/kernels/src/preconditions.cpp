@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void require_at_most(std::size_t maximum, std::size_t count, const char* what) {
   if (count <= maximum) return;
@@ -43,4 +43,4 @@ void require_scan_bounds(const PointView& block, const ScanBounds& scanned) {
       "list_distant_by_bounds() needs a block of floats and the bounds that scan_octants() wrote for it");
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

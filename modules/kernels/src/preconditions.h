@@ -12,7 +12,7 @@
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Maximum number of points whose positions fit into 32 bits.
 inline constexpr std::size_t kMaxPositions = std::size_t{1} << 32;
@@ -36,4 +36,4 @@ void require_scan_bounds(const PointView& block, const ScanBounds& scanned);
 /// Throws std::invalid_argument, naming `what` and both numbers, if `count` exceeds `maximum`.
 void require_at_most(std::size_t maximum, std::size_t count, const char* what);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "region_tests.h"
 #include "run_extremes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Calls call.operator()<T>() with the view's scalar type.
@@ -284,4 +284,4 @@ std::size_t list_distant_reference(const PointView& points, const DistanceCenter
   });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/swept_ball.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 AxisExtents axis_extents_reference(const PointView& points);
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
@@ -61,4 +61,4 @@ void sum_without_underflow(ScalarType scalar, Moments& moments, const Sum& sum) 
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "region_tests-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -36,11 +36,11 @@ void region_states(const PointView& points, const RegionTests::Prepared& regions
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(region_states, &region_states_reference);
@@ -48,5 +48,5 @@ void region_states(UsableIsa isa, const PointView& points, const RegionTests& re
   kTable[isa](points, regions.prepared(), states);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

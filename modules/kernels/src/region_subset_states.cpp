@@ -16,7 +16,7 @@
 #include "region_tests-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -41,11 +41,11 @@ void chosen_states(const PointView& points, const RegionTests::Prepared& regions
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
                    const ChosenRegions& chosen, std::uint8_t* states) {
@@ -54,5 +54,5 @@ void region_states(UsableIsa isa, const PointView& points, const RegionTests& re
   kTable[isa](points, regions.prepared(), chosen, states);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

@@ -12,7 +12,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Error bound relative to |q|_1 or to a radius. It covers the rounding in T and the errors of the caller's
@@ -137,4 +137,4 @@ RegionTests::RegionTests(const std::vector<ConvexRegion>& regions) {
   prepared_ = std::make_shared<const Prepared>(Prepared{prepare<float>(regions), prepare<double>(regions)});
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

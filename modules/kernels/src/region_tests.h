@@ -8,7 +8,7 @@
 
 #include "pcl_bv/kernels/region_states.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename T>
 struct PlaneTest {
@@ -56,4 +56,4 @@ struct RegionTests::Prepared {
   }
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

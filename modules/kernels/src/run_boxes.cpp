@@ -18,7 +18,7 @@
 #include "load-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -65,11 +65,11 @@ void run_boxes(const PointView& points, RunBox* boxes) {
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void run_boxes(UsableIsa isa, const PointView& points, RunBox* boxes) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(run_boxes, &run_boxes_reference);
@@ -77,5 +77,5 @@ void run_boxes(UsableIsa isa, const PointView& points, RunBox* boxes) {
   kTable[isa](points, boxes);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/run_boxes.h"
 #include "pcl_bv/numeric/directed.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A RunBox in the points' own scalar type.
 template <typename T>
@@ -34,4 +34,4 @@ struct RunExtremes {
   }
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -20,7 +20,7 @@
 #include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -86,11 +86,11 @@ SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes) {
@@ -100,5 +100,5 @@ SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinat
   return kTable[isa](points, origin, axes);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

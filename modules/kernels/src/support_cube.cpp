@@ -19,7 +19,7 @@
 #include "projection_extremes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -154,11 +154,11 @@ void cube_supports(const PointView& chunk, const SupportDirections& set, const S
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                    const SupportBounds& bounds, ChunkSupports& out) {
@@ -166,5 +166,5 @@ void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirection
   kTable[isa](chunk, set, bounds, out);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

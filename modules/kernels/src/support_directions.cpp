@@ -9,7 +9,7 @@
 #include "pcl_bv/kernels/support.h"
 #include "support_plan.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 SupportDirections cube_directions(DirectionSet set) {
@@ -77,4 +77,4 @@ double projection_lower_bound(const SupportDirections& set, std::size_t support,
   return dot3(scaled, point) - double_error(scaled, point);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -21,7 +21,7 @@
 #include "projection_extremes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -210,11 +210,11 @@ void general_supports(const PointView& chunk, const SupportDirections& set, cons
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                       const SupportBounds& bounds, ChunkSupports& out) {
@@ -222,5 +222,5 @@ void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirect
   kTable[isa](chunk, set, bounds, out);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

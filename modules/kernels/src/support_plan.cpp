@@ -17,7 +17,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "preconditions.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 // Chooses, from eight points, the one nearest to their mean. If the centre is itself a support point, the
 // maximum projection is 0. Every lane has this maximum then, and all points have to be compared, which takes
 // 0.4 us for 300 points.
@@ -180,4 +180,4 @@ void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirectio
   (set.cube ? cube_supports : general_supports)(isa, chunk, set, bounds, out);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename Vector>
 Direction magnitudes(const Vector& v) {
@@ -109,4 +109,4 @@ void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirection
 void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                       const SupportBounds& bounds, ChunkSupports& out);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

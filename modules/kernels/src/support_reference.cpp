@@ -13,7 +13,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "references.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename T>
@@ -221,4 +221,4 @@ AxisExtents axis_extents_reference(const PointView& points) {
                                               : axis_extents_of<double>(points);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

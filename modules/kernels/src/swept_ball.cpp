@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
     : from(start), radius(r) {
@@ -36,4 +36,4 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
   time = 1;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

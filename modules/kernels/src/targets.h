@@ -42,7 +42,7 @@
 
 #include "pcl_bv/points/isa.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The versions of one kernel, one function per Isa, in the order of the enumeration. The function is null if
 /// the target is not compiled.
@@ -54,7 +54,7 @@ struct KernelTable {
 template <typename Function, typename... Others>
 KernelTable(std::nullptr_t, Function*, Others...) -> KernelTable<Function>;
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 
 /// The initialiser of a KernelTable. The source that uses this macro must define `function` in every
 /// HWY_NAMESPACE except N_SCALAR, in whose place `reference` is used. Use the macro inside HWY_ONCE.

@@ -15,7 +15,7 @@
 #include "packed_tree-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -93,11 +93,11 @@ void list_in_ball(const PackedTree& tree, const Coordinates& center, double limi
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 bool any_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(any_in_ball, &any_in_ball_reference);
@@ -110,5 +110,5 @@ void list_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& cent
   if (tree.count != 0) kTable[isa](tree, center, limit, found);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

@@ -16,7 +16,7 @@
 #include "tree_descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -83,11 +83,11 @@ void find_nearest(const PackedTree& tree, const Coordinates& center, NearestOne&
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found) {
@@ -106,5 +106,5 @@ std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, cons
   return kept.found();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

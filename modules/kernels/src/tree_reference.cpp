@@ -7,7 +7,7 @@
 
 #include "references.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns a lower bound of the squared distance between a query point and box k of a group, in the unit of
@@ -133,4 +133,4 @@ void visit_along_reference(const PackedTree& tree, const SweptBall& ball, Packet
   });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "tree_descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -85,16 +85,16 @@ void visit_along(const PackedTree& tree, const SweptBall& ball, PacketVisitor& v
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(visit_along, &visit_along_reference);
   if (tree.count != 0) kTable[isa](tree, ball, visitor);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 #endif  // HWY_ONCE

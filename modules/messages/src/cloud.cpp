@@ -13,7 +13,7 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/messages/serialize.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 struct Datatype {
@@ -281,4 +281,4 @@ RawCloud raw_cloud_of(const msg::PointCloud2& cloud) {
   return made;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

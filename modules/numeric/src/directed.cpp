@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/expansion.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 double next_up(double x) {
   return std::nextafter(x, kInfinity);
@@ -56,4 +56,4 @@ float float_down(double x) {
   return -float_up(-x);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pcl_bv/numeric/exact_sum.h"
 #include "pcl_bv/numeric/expansion.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -111,4 +111,4 @@ double project_down(const Direction& n, const Coordinates& p) {
   return -project_up({-n[0], -n[1], -n[2]}, p) + 0.0;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

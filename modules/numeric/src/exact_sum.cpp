@@ -9,7 +9,7 @@
 #include "pcl_bv/numeric/expansion.h"
 #include "two_sum.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 ExactSum exact_sum(double x, double y, double z) {
   const TwoSum xy = two_sum(x, y);
   const TwoSum xyz = two_sum(xy.sum, z);
@@ -38,4 +38,4 @@ int compare(const ExactSum& a, const ExactSum& b) {
   return Expansion().add(a.rest).add(-b.rest).add(a.tail).add(-b.tail).add(a.head).add(-b.head).sign();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "two_sum.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kLossyProduct = 0x1p-960;
@@ -157,4 +157,4 @@ double Expansion::magnitude_up() const {
   return std::max(up(), -down());
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -6,7 +6,7 @@
 // flags.
 #pragma once
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 struct TwoSum {
   double sum, error;  // sum + error is exactly a + b
@@ -19,4 +19,4 @@ inline TwoSum two_sum(double a, double b) {
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

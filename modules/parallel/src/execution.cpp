@@ -11,6 +11,7 @@
 #include "pool_thread.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 unsigned thread_count(const ParallelPolicy& policy) {
   const auto or_all = [](unsigned threads, auto all) {
@@ -19,12 +20,12 @@ unsigned thread_count(const ParallelPolicy& policy) {
   // OpenMP's threads inherit the processor affinity of the calling thread, hence omp_get_num_procs().
   if (const auto* openmp = std::get_if<OpenMP>(&policy)) return or_all(openmp->threads, omp_get_num_procs);
   if (const auto* threads = std::get_if<Threads>(&policy))
-    return or_all(threads->threads, internal::process_processors);
+    return or_all(threads->threads, detail::process_processors);
   const auto* executor = std::get_if<Executor>(&policy);
   if (executor == nullptr) return 1;
   if (!executor->run)
     throw std::invalid_argument("Executor::run is empty; it must be a function that runs tasks");
-  return or_all(executor->threads, internal::process_processors);
+  return or_all(executor->threads, detail::process_processors);
 }
 
 ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads) {

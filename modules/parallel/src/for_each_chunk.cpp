@@ -14,7 +14,7 @@
 
 #include "worker_pool.h"
 
-namespace pcl_bv::internal {
+namespace pcl_bv::detail {
 namespace {
 
 // Hands out chunk numbers. If bodies fail, stores the exception of the lowest failed chunk, whichever thread
@@ -121,20 +121,20 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
   queue.rethrow();
 }
 
-}  // namespace pcl_bv::internal
+}  // namespace pcl_bv::detail
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 SpinningThreads::SpinningThreads(const ParallelPolicy& policy) {
   const unsigned threads = std::holds_alternative<Threads>(policy) ? thread_count(policy) : 1;
-  if (threads == 1 || internal::ParallelRegion::inside()) return;
-  internal::WorkerPool& pool = internal::WorkerPool::instance();
+  if (threads == 1 || ParallelRegion::inside()) return;
+  WorkerPool& pool = WorkerPool::instance();
   pool.start_spinning(threads - 1);
   pool_ = &pool;
 }
 
 SpinningThreads::~SpinningThreads() {
-  if (pool_ != nullptr) internal::WorkerPool::stop_spinning(static_cast<internal::WorkerPool*>(pool_));
+  if (pool_ != nullptr) WorkerPool::stop_spinning(static_cast<WorkerPool*>(pool_));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include <initializer_list>
 
-namespace pcl_bv::internal {
+namespace pcl_bv::detail {
 namespace {
 
 // Sets `set` to the processors of the main thread, whose thread id is the process id. Returns false on
@@ -68,4 +68,4 @@ SignalsBlocked::~SignalsBlocked() {
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-}  // namespace pcl_bv::internal
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl_bv::internal {
+namespace pcl_bv::detail {
 
 /// Returns the number of processors that the main thread may use, at least 1. `taskset`, cpusets and the main
 /// thread's own affinity limit it; the affinity of other threads does not.
@@ -44,4 +44,4 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
-}  // namespace pcl_bv::internal
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 
 #include "pool_thread.h"
 
-namespace pcl_bv::internal {
+namespace pcl_bv::detail {
 namespace {
 
 // The pool of the process; null until a pool is first needed. The pool is never deleted, because other
@@ -200,10 +200,10 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   }
   const auto done = [&] { return task.active == 0; };
   if (done_.wait_for(lock, kSpinTime, done)) return;
-  // Helpers may now use the caller's processor too. It is free while the caller waits, and the other processors
-  // may be busy.
+  // Helpers may now use the caller's processor too. It is free while the caller waits, and the other
+  // processors may be busy.
   exclude_processor(-1);
   done_.wait(lock, done);
 }
 
-}  // namespace pcl_bv::internal
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl_bv::internal {
+namespace pcl_bv::detail {
 
 /// Marks the calling thread as inside a parallel region while the object lives. Objects must not be nested on
 /// a thread. A forked child starts outside of any region.
@@ -75,4 +75,4 @@ class WorkerPool {
   std::atomic<std::uint64_t> run_count_{0};   // number of calls of run()
 };
 
-}  // namespace pcl_bv::internal
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
@@ -274,4 +274,4 @@ std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file) {
   return std::make_unique<BagReader>(file);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

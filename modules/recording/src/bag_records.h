@@ -14,7 +14,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 enum class BagOp : std::uint8_t { message = 2, bag_header, index, chunk, chunk_info, connection };
 
@@ -92,4 +92,4 @@ inline BagRecord take_bag_record(BagBytes& bytes) {
   return {BagHeader(header, header_size), bytes.take(size), size};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

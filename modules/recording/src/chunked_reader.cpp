@@ -10,7 +10,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void ChunkedReader::start(std::vector<RecordedTopic> topics, std::vector<Part> parts) {
   topics_ = std::move(topics);
@@ -117,4 +117,4 @@ std::string ros2_type(std::string_view type) {
   return name;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

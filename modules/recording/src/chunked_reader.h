@@ -11,7 +11,7 @@
 #include "codecs.h"
 #include "pcl_bv/recording/recording.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 class ChunkedReader : public RecordingReader {
  public:
@@ -68,4 +68,4 @@ class ChunkedReader : public RecordingReader {
 /// topics of the same name, type and encoding, these become one topic, whose number of messages is the sum.
 std::size_t add_topic(std::vector<RecordedTopic>& topics, const RecordedTopic& topic);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

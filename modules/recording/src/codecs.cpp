@@ -14,7 +14,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // The fastest level, because recording must not slow down a stream.
@@ -137,4 +137,4 @@ std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t cr
   return libdeflate_crc32(crc, data, size);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

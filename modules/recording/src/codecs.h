@@ -12,7 +12,7 @@
 
 #include "pcl_bv/recording/compression.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 inline constexpr Compression kCompressions[]{Compression::none, Compression::lz4, Compression::zstd};
 
@@ -54,4 +54,4 @@ class Decompressor {
 /// Returns the CRC-32 of IEEE 802.3 (as in MCAP, zip and png). `crc` is the CRC of the preceding data.
 std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc = 0);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

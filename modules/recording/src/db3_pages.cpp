@@ -9,7 +9,7 @@
 #include "formats.h"
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::uint64_t kFileHeader = 100;  // bytes at the beginning of the first page
@@ -180,4 +180,4 @@ void Db3Pages::load(const Message& message, std::vector<std::byte>& to) const {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

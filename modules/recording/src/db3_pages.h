@@ -14,7 +14,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/recording/recording.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The topics and messages in the leaf pages of a rosbag2 database.
 class Db3Pages {
@@ -48,4 +48,4 @@ class Db3Pages {
   std::vector<Message> messages_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -17,7 +17,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "sqlite_error.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // An error of SQLite.
@@ -242,4 +242,4 @@ std::unique_ptr<RecordingReader> open_db3(const std::filesystem::path& file) {
   return std::make_unique<Db3Reader>(file);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

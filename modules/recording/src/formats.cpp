@@ -5,7 +5,7 @@
 
 #include "mcap_records.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 const std::vector<RecordingFormat>& recording_formats() {
   using Path = std::filesystem::path;
@@ -29,4 +29,4 @@ const std::vector<RecordingFormat>& recording_formats() {
   return formats;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

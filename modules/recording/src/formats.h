@@ -12,7 +12,7 @@
 
 #include "pcl_bv/recording/recording.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A format of recordings.
 struct RecordingFormat {
@@ -37,4 +37,4 @@ std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
 /// "sensor_msgs/msg/PointCloud2".
 std::string ros2_type(std::string_view type);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

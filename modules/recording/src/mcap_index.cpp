@@ -8,7 +8,7 @@
 
 #include "mcap_scan.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace mcap {
 namespace {
 
@@ -150,4 +150,4 @@ Index index_of(const InputFile& file) {
 }
 
 }  // namespace mcap
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

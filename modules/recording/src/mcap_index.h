@@ -15,7 +15,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/recording/recording.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace mcap {
 
 /// A part of the file with messages. It is a chunk, or successive messages outside of chunks.
@@ -45,4 +45,4 @@ Fields load_part(const InputFile& file, const Part& part, Decompressor& decompre
                  std::vector<std::byte>& raw, std::vector<std::byte>& unpacked);
 
 }  // namespace mcap
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include "formats.h"
 #include "mcap_index.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::int64_t signed_time(std::uint64_t time) {
@@ -79,4 +79,4 @@ std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file) {
   return std::make_unique<McapReader>(file);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

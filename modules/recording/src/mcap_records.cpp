@@ -3,7 +3,7 @@
 
 #include "mcap_records.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace mcap {
 namespace {
 
@@ -128,4 +128,4 @@ void take(Fields fields, Statistics& statistics) {
 }
 
 }  // namespace mcap
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace mcap {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
@@ -197,4 +197,4 @@ void take(Fields fields, ChunkIndex& index);
 void take(Fields fields, Statistics& statistics);
 
 }  // namespace mcap
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace mcap {
 namespace {
 
@@ -214,4 +214,4 @@ UnindexedCounts scan(const InputFile& file, const Summary& summary, Index& index
 }
 
 }  // namespace mcap
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

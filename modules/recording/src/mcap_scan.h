@@ -11,7 +11,7 @@
 
 #include "mcap_index.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace mcap {
 
 /// The content of a summary. If it is empty, scan() must read every chunk.
@@ -38,4 +38,4 @@ void add_schema_or_channel(const Record& record, Index& index);
 std::vector<std::byte> bytes_at(const InputFile& file, std::uint64_t offset, std::uint64_t size);
 
 }  // namespace mcap
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "mcap_records.h"
 #include "pcl_bv/io/posix_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 using mcap::Op;
 using mcap::Writer;
@@ -306,4 +306,4 @@ void McapWriter::close() {
   state_->close();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

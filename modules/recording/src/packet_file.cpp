@@ -9,7 +9,7 @@
 
 #include "search.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::uint64_t kWindow = 1U << 20U;
@@ -260,4 +260,4 @@ void PacketFile::add_interface(const std::byte* body, std::size_t size) {
   interfaces_.push_back(made);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

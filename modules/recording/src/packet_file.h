@@ -14,7 +14,7 @@
 #include "pcl_bv/recording/recording.h"
 #include "udp_payload.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns whether a file with this beginning is a pcap or pcapng file.
 bool is_packet_file(std::string_view start);
@@ -66,4 +66,4 @@ class PacketFile {
   WarningList warnings_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

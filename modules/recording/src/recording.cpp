@@ -9,6 +9,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Returns the first 64 bytes of a regular file. Other files are not read, because reading a pipe would block

@@ -18,7 +18,7 @@
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/io/yaml_error.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -243,4 +243,4 @@ std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
   return open_recording(temporary.path());
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

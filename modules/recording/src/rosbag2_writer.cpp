@@ -20,7 +20,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "sqlite_error.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -263,4 +263,4 @@ void Rosbag2Writer::close() {
   state_->close();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/io/posix_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the first position in [from, end) for which matches(bytes, size, position) is true, or `end`.
 /// `size` is at least `lookahead`, except near the end of the file.
@@ -38,4 +38,4 @@ inline std::string skipped_bytes(std::uint64_t from, std::uint64_t end) {
   return "skipped damaged bytes " + std::to_string(from) + " to " + std::to_string(end - 1);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

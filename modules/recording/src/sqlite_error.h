@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the error message for the last failed call on the database.
 inline std::string sqlite_error_message(sqlite3* database) {
@@ -41,4 +41,4 @@ inline std::string sqlite_error_message(sqlite3* database) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -3,7 +3,7 @@
 
 #include "udp_payload.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Reads a number in network byte order, which does not depend on the byte order of the capture file.
@@ -57,4 +57,4 @@ std::string Payload::source() const {
   return text + ':' + std::to_string(destination_port);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

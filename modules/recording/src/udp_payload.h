@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The payload of a UDP packet.
 struct Payload {
@@ -29,4 +29,4 @@ struct Payload {
 /// fragments, other protocols and unsupported link types.
 bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload& payload);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

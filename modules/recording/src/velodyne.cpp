@@ -11,7 +11,7 @@
 
 #include "velodyne_sensor.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // The packets of one model from one address to one port. They are usually of one sensor. The packets of a
@@ -235,4 +235,4 @@ std::vector<std::string> VelodyneReader::warning_lines() const {
   return all;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

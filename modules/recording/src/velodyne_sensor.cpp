@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 // A sensor model. A block has 32 returns, one per beam in the order of `elevation`. A VLP-16 fires its 16
 // beams twice.
@@ -16,8 +16,8 @@ struct VelodyneModel {
   std::string_view name;
   std::uint8_t product_id;  // the last byte of a packet
   std::size_t beams;
-  double distance_unit;       // metres
-  double block_ns, laser_ns;  // time between blocks, and between lasers (or pairs)
+  double distance_unit;                                // metres
+  double block_ns, laser_ns;                           // time between blocks, and between lasers (or pairs)
   std::array<double, kVelodyneLasers> elevation;       // of each beam, degrees
   std::array<double, kVelodyneLasers> azimuth_offset;  // of each beam, degrees
 };
@@ -77,9 +77,9 @@ const std::vector<SineCosine>& azimuth_table() {
   return all;
 }
 
-constexpr double kMaxPause = 0.3e9;  // nanoseconds; azimuths cannot be predicted over longer pauses
+constexpr double kMaxPause = 0.3e9;            // nanoseconds; azimuths cannot be predicted over longer pauses
 constexpr double kMaxPredictionError = 6'000;  // hundredths of a degree, for packets of the same sensor
-constexpr unsigned kLatePackets = 8;  // packets (10 ms) that a sweep waits for late packets
+constexpr unsigned kLatePackets = 8;           // packets (10 ms) that a sweep waits for late packets
 
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
@@ -245,4 +245,4 @@ void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hu
        ring_[beam], static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "packet_file.h"
 #include "pcl_bv/recording/velodyne.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 inline constexpr std::size_t kVelodynePacket = 1206, kVelodyneLasers = 32;
 
@@ -69,4 +69,4 @@ class VelodyneSensor {
   unsigned packets_in_revolution_ = 0;  // packets since the beginning of the revolution
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/volumes/aabb.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The columns of a shape. Empty columns are nullopt.
 struct CsvShape {
@@ -57,4 +57,4 @@ CsvShape csv_shape(const Shape& shape) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

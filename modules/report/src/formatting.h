@@ -13,7 +13,7 @@
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Appends the fewest digits that read back as exactly this double. -0 becomes 0. Throws std::domain_error if
 /// the value is not finite.
@@ -44,4 +44,4 @@ inline const Obb* upright_box(const VolumeEntry& entry) {
   return method != nullptr && method->upright ? box : nullptr;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

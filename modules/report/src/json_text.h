@@ -16,7 +16,7 @@
 
 #include "formatting.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the number of bytes of the valid UTF-8 character at the beginning of `text`. If there is none,
 /// returns 0 and sets `tried` to the number of bytes of the invalid sequence.
@@ -152,4 +152,4 @@ class JsonText {
   bool first_ = true;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

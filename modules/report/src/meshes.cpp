@@ -15,6 +15,7 @@
 #include "volume_cells.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 std::size_t method_number(const std::string& method, std::vector<std::string>& methods) {
@@ -98,7 +99,7 @@ void append_face(const Cell& face, bool count_is_a_byte, const CellOwner& owner,
 
 }  // namespace
 
-VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters) {
+VolumeCells detail::volume_cells(const std::vector<ClusterEntry>& clusters) {
   VolumeCells cells;
   for (std::size_t number = 0; number < clusters.size(); ++number) {
     const ClusterEntry& cluster = clusters[number];
@@ -116,7 +117,7 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters) {
   return cells_ply(volume_cells(clusters), clusters.size() > 1);
 }
 
-std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster) {
+std::string detail::cells_ply(const VolumeCells& cells, bool colour_by_cluster) {
   std::string bytes = header(cells);
   for (std::size_t i = 0; i < cells.vertices.size(); ++i) {
     const CellOwner& owner = cells.owners[cells.vertex_owners[i]];

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <iterator>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Red, green and blue in 0..1, as displayed (sRGB).
 using Colour = std::array<float, 3>;
@@ -25,4 +25,4 @@ inline Colour palette(std::uint32_t number) {
   return palette_colours[number % std::size(palette_colours)];
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

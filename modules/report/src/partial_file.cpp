@@ -13,7 +13,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_json.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Json = UntrustedJson;
@@ -196,4 +196,4 @@ PartialFile read_partial_file(const std::filesystem::path& path) {
   return parse_partial_file(content);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

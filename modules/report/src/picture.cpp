@@ -18,7 +18,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "picture_parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double face_alpha = 0.07;
@@ -231,4 +231,4 @@ void write_picture(const std::filesystem::path& path, const Picture& picture) {
   write_file_atomically(path, svg ? picture_svg(picture) : picture_png(picture));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

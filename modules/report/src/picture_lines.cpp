@@ -6,7 +6,7 @@
 
 #include "picture_parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Path = std::vector<Eigen::Vector3d>;
@@ -74,4 +74,4 @@ void stroke(cairo_t* cairo, const Colour& colour, bool front, std::uint32_t dash
   cairo_set_dash(cairo, nullptr, 0, 0);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "picture_parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double margin = 30, axis_length = 44, text_size = 13, cap_height = 10, row_height = 22;
@@ -176,4 +176,4 @@ void draw_marks(cairo_t* cairo, const Picture& picture, const View& view, const 
   marks.draw_labels(picture.volumes);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

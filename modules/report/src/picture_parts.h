@@ -15,7 +15,7 @@
 #include "palette.h"
 #include "pcl_bv/report/picture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A parallel projection. Pixels are counted from the upper left corner. Depth is in pixels, too, and
 /// increases away from the viewer.
@@ -78,4 +78,4 @@ inline bool has_marks(const View& view) {
 /// Draws the axes (except one along the line of sight), a scale bar, the legend and the volumes' labels.
 void draw_marks(cairo_t* cairo, const Picture& picture, const View& view, const Styles& styles);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr int samples = 2;  // per pixel in each direction
@@ -158,4 +158,4 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
   return shade(raster);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

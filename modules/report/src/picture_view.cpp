@@ -10,7 +10,7 @@
 
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
@@ -127,4 +127,4 @@ View fit_view(const Picture& picture) {
   return view;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/io/read_json.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Json = UntrustedJson;
@@ -220,4 +220,4 @@ std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "formatting.h"
 #include "text_sink.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Appends `count` columns. They are empty if `numbers` is null.
@@ -96,4 +96,4 @@ std::string frames_csv_heading() {
   return joined({"seq,stamp_ns,track", kCsvColumns, kCsvTrackColumns, kCsvTrackedUprightColumns});
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,6 +11,7 @@
 #include "text_sink.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 void add_axes(const Eigen::Matrix3d& axes, JsonText& json) {

@@ -11,6 +11,7 @@
 #include "text_sink.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::size_t n_columns = 12;

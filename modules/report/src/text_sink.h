@@ -8,7 +8,7 @@
 
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Passes the text to `take` and clears the text, if it has a megabyte or more.
 inline void take_if_long(std::string& text, const TextSink& take) {
@@ -28,4 +28,4 @@ inline TextSink appended_to(std::string& all) {
   };
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The volume that a cell belongs to.
 struct CellOwner {
@@ -42,4 +42,4 @@ VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters);
 /// Returns the .ply file of volumes_ply().
 std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

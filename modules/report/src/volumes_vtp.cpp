@@ -9,6 +9,7 @@
 #include "volume_cells.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Cells = std::vector<Cell>;

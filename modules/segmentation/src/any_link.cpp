@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Consecutive points and their box. The order of the points has no meaning.
@@ -97,4 +97,4 @@ bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratc
 template bool any_link_of_many(PointRun<float>, PointRun<float>, float, LinkScratch<float>&);
 template bool any_link_of_many(PointRun<double>, PointRun<double>, double, LinkScratch<double>&);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "distance.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Consecutive points in an array.
 template <typename T>
@@ -52,4 +52,4 @@ bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
                                                : any_link_of_many(a, b, r2, scratch);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Maps the key of a block to its number. Numbering costs less than sorting the points, because points come
 /// in scan order and the next point is mostly in the same block.
@@ -72,4 +72,4 @@ class BlockIndex {
   std::uint32_t count_ = 0;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "distance.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Type of keys that need more than 64 bits. g++ and clang have it on every 64-bit machine.
 __extension__ using WideKey = unsigned __int128;
@@ -91,4 +91,4 @@ struct CellGrid {
   }
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 template <typename T, typename Key>
@@ -148,4 +148,4 @@ PCL_BV_CELLS(double, std::uint64_t)
 PCL_BV_CELLS(double, WideKey)
 #undef PCL_BV_CELLS
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

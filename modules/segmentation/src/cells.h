@@ -16,7 +16,7 @@
 #include "pcl_bv/parallel/parts.h"
 #include "radix_sort.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the number of bits set. Uses twelve inline instructions, because std::popcount() is a call on
 /// x86-64 without POPCNT.
@@ -101,4 +101,4 @@ template <typename T, typename Key>
 void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const ParallelPolicy& policy,
                 Cells<T>& cells, BlockKeys<Key>& keys);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "collect.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void check(const std::vector<ClassOptions>& class_options) {
@@ -99,4 +99,4 @@ void ClassClusterer::extract(const PointView& points, const std::vector<std::int
     class_of.push_back(found_class_[i]);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include <array>
 #include <numeric>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void draw_sample(const PointView& points, std::uint32_t seed, std::size_t sample_size,
                  std::vector<Eigen::Vector3d>& sample) {
@@ -35,4 +35,4 @@ void draw_sample(const PointView& points, std::uint32_t seed, std::size_t sample
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Replaces `sample` by at most `sample_size` valid points. The positions in the cloud advance by the golden
 /// section of its size, cyclically, so they visit each point once and cover the cloud evenly at any time. So
@@ -18,4 +18,4 @@ namespace pcl_bv {
 void draw_sample(const PointView& points, std::uint32_t seed, std::size_t sample_size,
                  std::vector<Eigen::Vector3d>& sample);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

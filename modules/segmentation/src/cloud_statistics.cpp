@@ -19,6 +19,7 @@
 #include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::size_t kMaxSamples = 1000;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
@@ -88,4 +88,4 @@ void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::s
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/segmentation/clusters.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The root of noise if all valid points are in clusters.
 constexpr std::uint32_t no_root = std::numeric_limits<std::uint32_t>::max();
@@ -43,4 +43,4 @@ void append(const Clusters& from, std::size_t cluster, Clusters& to);
 /// `order` to the positions in `from` in this order.
 void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
@@ -245,4 +245,4 @@ PCL_BV_FIND_CORE(double, WideKey)
 template std::uint32_t remove_non_core(Cells<float>&, CoreScratch<float>&);
 template std::uint32_t remove_non_core(Cells<double>&, CoreScratch<double>&);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "cells.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Buffers that calls reuse. They take about 10 bytes per point and 16 bytes per block.
 template <typename T>
@@ -45,4 +45,4 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
 template <typename T>
 std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

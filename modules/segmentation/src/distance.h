@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename T>
 struct Point {
@@ -66,4 +66,4 @@ T max_squared_distance(const Box<T>& a, const Box<T>& b) {
                       span(a.min.z, a.max.z, b.min.z, b.max.z));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -22,6 +22,7 @@
 #include "valid_points.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // The buffers for one scalar type, which calls reuse.

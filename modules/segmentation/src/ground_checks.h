@@ -12,7 +12,7 @@
 
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Throws std::invalid_argument unless `in_range`. The message has `who`, the setting, its value and the
 /// range.
@@ -42,4 +42,4 @@ inline void check_indices(const PointView& points) {
                           " is too large, must be at most 2147483647");
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

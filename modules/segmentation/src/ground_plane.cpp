@@ -8,6 +8,7 @@
 #include "plane_search.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 void check(const GroundPlaneOptions& options) {

@@ -8,7 +8,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "slope_limit.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // A cell's lowest point is ground if it is at most `above` over or at most `below` under the expected height,
@@ -144,4 +144,4 @@ void GroundSurface::find(const CellSummary& cells, const Slope& plane, float max
   compute_lines();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

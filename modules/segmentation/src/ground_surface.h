@@ -9,7 +9,7 @@
 
 #include "zone_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The surface of the ground. The height of the ground in a cell is base + range * slope, in metres relative
 /// to the plane around the sensor.
@@ -49,4 +49,4 @@ class GroundSurface {
   std::vector<Line> lines_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,6 +16,7 @@
 #include "zone_points.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // The plane around the sensor is searched within 12.5 m, where the ground is seen best and is flattest. If no

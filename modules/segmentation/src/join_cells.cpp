@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // The data that all steps use.
@@ -290,4 +290,4 @@ PCL_BV_JOIN_CELLS(double, std::uint64_t)
 PCL_BV_JOIN_CELLS(double, WideKey)
 #undef PCL_BV_JOIN_CELLS
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "union_find.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Buffers that calls reuse.
 template <typename T>
@@ -31,4 +31,4 @@ template <typename T, typename Key>
 void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const std::vector<Key>& keys,
                 Cells<T>& cells, UnionFind& sets, JoinScratch<T>& scratch);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

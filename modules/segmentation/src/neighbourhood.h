@@ -15,7 +15,7 @@
 #include "cells.h"
 #include "neighbours.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Masks for one row of blocks. Each row is a separate variable, because clang limits the evaluation of each
 /// constant to a million steps.
@@ -133,4 +133,4 @@ class Neighbourhood {
   std::array<PositionRange, 125> runs_;  // only the first count_ entries are set
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Offset from a block to its neighbour, in blocks.
 struct BlockOffset {
@@ -84,4 +84,4 @@ inline constexpr std::array<std::array<TouchingAndNext, 3>, half_of_neighbours.s
   return all;
 }();
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 
 #include "collect.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr int halvings = 3;
@@ -52,4 +52,4 @@ void split_oversized(const PointView& points, const ClusterOptions& options, con
   write_sorted(scratch.current, options.max_size, scratch.order, clusters);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

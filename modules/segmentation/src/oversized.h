@@ -8,7 +8,7 @@
 
 #include "pcl_bv/segmentation/clusters.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Buffers that calls reuse.
 struct SplitScratch {
@@ -25,4 +25,4 @@ using ClusterPoints = std::function<void(const PointView&, const ClusterOptions&
 void split_oversized(const PointView& points, const ClusterOptions& options, const ClusterPoints& cluster,
                      Clusters& clusters, SplitScratch& scratch);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "cloud_sample.h"
 #include "up_frame.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -236,4 +236,4 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& 
   return best;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

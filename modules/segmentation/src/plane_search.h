@@ -10,7 +10,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/segmentation/ground.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// All points p with normal.p = offset. The normal has unit length and points up.
 struct Plane {
@@ -55,4 +55,4 @@ void write_split(const std::optional<Plane>& plane, std::size_t max_count, Groun
   split.rest.resize(rest);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 inline constexpr std::size_t sector_count = 256;  ///< Sector 0 begins at the u axis.
 /// Number of rings. The last ring has no outer limit. It holds all points at 100 m or farther.
@@ -90,4 +90,4 @@ struct RingRow : std::array<float, sector_count + 2> {
   }
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

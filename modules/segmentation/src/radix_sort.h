@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename Key>
 struct KeyedPoint {
@@ -44,4 +44,4 @@ void radix_sort(std::vector<KeyedPoint<Key>>& items, std::vector<KeyedPoint<Key>
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level) {
   // A table instead of exp2(), whose result differs between libraries.
@@ -58,4 +58,4 @@ void RangeLevels<T>::unite(const std::vector<std::uint32_t>& roots, const std::v
 template class RangeLevels<float>;
 template class RangeLevels<double>;
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "distance.h"
 #include "union_find.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A level. Level i has the tolerance tolerance * 2^(i/4). Points at min_squared_range or farther (squared,
 /// from the origin) have at least this tolerance.
@@ -51,4 +51,4 @@ class RangeLevels {
   UnionFind sets_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,6 +19,7 @@
 #include "up_frame.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Eigen::Vector3d;

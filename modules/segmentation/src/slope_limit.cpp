@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t max_sectors = 16;  // on either side of a cell
@@ -83,4 +83,4 @@ void limit_slopes(float* heights, std::size_t rings, const Slope& plane, float m
   add_plane(heights, rings, -plane.slope_u, -plane.slope_v);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 
 #include "zone_points.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Lowers the heights of the first `rings` rings of cells to the highest surface whose slope against the
 /// horizontal is at most `max_slope` (a tangent) in every direction. Heights are relative to `plane`, metres.
@@ -16,4 +16,4 @@ namespace pcl_bv {
 /// % if cells are as wide as long, else by up to a fifth. O(cells).
 void limit_slopes(float* heights, std::size_t rings, const Slope& plane, float max_slope);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

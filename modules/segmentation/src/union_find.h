@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Disjoint sets of the numbers 0 to n - 1. The root of a set is its smallest member, so the result depends
 /// neither on the order of the unions nor on the threads.
@@ -69,4 +69,4 @@ class UnionFind {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

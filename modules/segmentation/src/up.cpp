@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "up_frame.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Index;
@@ -82,4 +82,4 @@ UpFrame::UpFrame(const Vector3d& any_length) : up(normalized_up(any_length)) {
   v = rotated((nearest + 2) % 3);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Three orthogonal unit vectors, namely `up` and two horizontal directions u and v. If `up` is along an axis
 /// of the cloud or opposite to it, u and v are the next two axes, e.g. x and y for z and -z. Otherwise the
@@ -20,4 +20,4 @@ struct UpFrame {
   bool along_axis;           ///< Whether `up` is along the nearest axis or opposite to it.
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "ground_checks.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns a view of the same points in strictly ascending order of their index.
@@ -95,4 +95,4 @@ void copy_valid_points(const PointView& view, const ParallelPolicy& policy, Vali
 template void copy_valid_points(const PointView&, const ParallelPolicy&, ValidPoints<float>&);
 template void copy_valid_points(const PointView&, const ParallelPolicy&, ValidPoints<double>&);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A part of the points of a view. One thread copies it.
 template <typename T>
@@ -36,4 +36,4 @@ struct ValidPoints {
 template <typename T>
 void copy_valid_points(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kBatch = 512;
@@ -212,4 +212,4 @@ void ZonePoints::measure_from(const Slope& plane, const ParallelPolicy& policy) 
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

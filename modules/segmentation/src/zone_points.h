@@ -15,7 +15,7 @@
 #include "polar_cells.h"
 #include "up_frame.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A point in the frame of the zones. Position and height are relative to the sensor, metres.
 struct GroundPoint {
@@ -90,4 +90,4 @@ class ZonePoints {
   std::vector<float> u_, v_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Throws std::invalid_argument with the text "<what_it_must_be>, not <value>".
 [[noreturn]] inline void throw_out_of_range_value(const std::string& what_it_must_be, double value) {
@@ -29,4 +29,4 @@ inline double square_limit(double distance) {
   return distance * distance;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,6 +14,7 @@
 #include "vectors.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Number of queries that a thread takes at a time. 256 queries take about 20 us.
@@ -81,7 +82,8 @@ void nearest(const PointTree& tree, const PointView& query_points, std::vector<N
   query_blocks(query_points.count, execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Coordinates point = load_point(query_points, i);
-      if (is_valid(point)) found[i] = find_nearest(execution.isa, packed_tree(tree), point, limit).value_or(none);
+      if (is_valid(point))
+        found[i] = find_nearest(execution.isa, packed_tree(tree), point, limit).value_or(none);
     }
   });
 }

@@ -8,7 +8,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Distances from a non-empty volume.
 class BodyDistance {
@@ -34,4 +34,4 @@ class BodyDistance {
   double size_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Clips [enter, exit] to the t with low <= start + t slope <= high.
@@ -74,4 +74,4 @@ double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
   return entered(ray, enter, exit);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

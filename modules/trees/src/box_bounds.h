@@ -8,7 +8,7 @@
 
 #include "volume_boxes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A query point in the frame of the boxes, and the margin by which bounds are extended.
 struct FramePoint {
@@ -42,4 +42,4 @@ double distance_to_box(const FramePoint& point, const BoxGroup& group, std::size
 /// Returns a lower bound of the t at which a ray enters a box, or infinity if the ray misses it.
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::size_t groups_of(std::size_t below) {
@@ -103,4 +103,4 @@ void find_min_side_radii(BoxLevels& boxes) {
   std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.min_side_radius.begin(), min_side_radius);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "spatial_order.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Allocates the boxes of `items` items inside `bounds`. Chooses the frame (origin and scale) of the boxes.
 void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bounds);
@@ -24,4 +24,4 @@ void raise_levels(BoxLevels& boxes);
 /// Sets BoxLevels::min_side_radius from the boxes. O(items), on the calling thread.
 void find_min_side_radii(BoxLevels& boxes);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // A box as a centre relative to the region's centre and half extents, with an error bound for comparisons.
@@ -111,4 +111,4 @@ Relation relation(const ConvexRegion& region, const PlainBox& box) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

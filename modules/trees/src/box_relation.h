@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/packed_tree.h"
 #include "pcl_bv/kernels/region_states.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The points of a box for which contains() of a volume holds.
 enum class Relation : std::uint8_t {
@@ -33,4 +33,4 @@ PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k)
 /// region.surface_error + 2^-480. For slabs and bodies it is added to the distances along each axis.
 Relation relation(const ConvexRegion& region, const PlainBox& box);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

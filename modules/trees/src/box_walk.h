@@ -13,7 +13,7 @@
 
 #include "pcl_bv/kernels/packed_tree.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Traverses the boxes depth-first. pick(group) returns as bits which boxes of a group to enter. Calls
 /// visit(item) for the items entered. Stops and returns true when visit returns true.
@@ -72,4 +72,4 @@ void visit_nearest_first(const BoxLevels& boxes, const Bounds& bounds, const Lim
   if (boxes.levels != 0) visit_nearest_first(boxes, boxes.levels - 1, 0, bounds, limit, visit);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -22,6 +22,7 @@
 #include "volume_walk.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 void require(const Eigen::Isometry3d& pose, double margin) {

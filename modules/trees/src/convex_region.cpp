@@ -12,7 +12,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 Direction direction(const Eigen::Vector3d& v) {
@@ -157,4 +157,4 @@ ConvexRegion convex_region(const AnyVolume& volume) {
   return std::visit([](const auto& shape) { return region_of(shape); }, volume);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

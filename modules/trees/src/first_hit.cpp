@@ -12,6 +12,7 @@
 #include "vectors.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 class FirstHit final : public PacketVisitor {

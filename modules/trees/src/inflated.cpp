@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/float_environment.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns an upper bound of how much n . p grows if p moves by `padding`.
@@ -109,4 +109,4 @@ AnyVolume inflated(const AnyVolume& volume, double padding) {
   return std::visit(Inflate{padding}, volume);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

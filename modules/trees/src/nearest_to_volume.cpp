@@ -14,6 +14,7 @@
 #include "vectors.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 class NearestToVolume {

@@ -15,6 +15,7 @@
 #include "vectors.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::size_t kMaxPoints = std::numeric_limits<std::int32_t>::max();
@@ -31,7 +32,7 @@ void require_usable(const PointView& points) {
 
 }  // namespace
 
-const PackedTree& packed_tree(const PointTree& tree) {
+const PackedTree& detail::packed_tree(const PointTree& tree) {
   return tree.state().tree;
 }
 

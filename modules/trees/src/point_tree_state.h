@@ -11,13 +11,10 @@ namespace pcl_bv {
 
 /// The points and boxes of a PointTree.
 struct PointTree::State {
-  PackedTree tree;
+  detail::PackedTree tree;
   UsableIsa isa = Isa::scalar;
   std::size_t dropped = 0;
-  TreeScratch scratch;  // retained for the next cloud, and not copied
+  detail::TreeScratch scratch;  // retained for the next cloud, and not copied
 };
-
-/// Returns the points and boxes, for code that traverses the tree itself.
-const PackedTree& packed_tree(const PointTree& tree);
 
 }  // namespace pcl_bv

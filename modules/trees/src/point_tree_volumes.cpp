@@ -9,6 +9,7 @@
 #include "volume_walk.h"
 
 namespace pcl_bv {
+using namespace detail;
 bool PointTree::any_inside(const AnyVolume& volume) const {
   if (const auto* const sphere = std::get_if<Sphere>(&volume)) return any_inside(*sphere);
   const FloatEnvironment environment;

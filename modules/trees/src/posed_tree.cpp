@@ -13,6 +13,7 @@
 #include "rotatable.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 void require_rigid(const Eigen::Isometry3d& pose) {

@@ -18,6 +18,7 @@
 #include "volume_boxes.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 std::vector<AnyVolume> inflated_volumes(const std::vector<Region>& regions) {

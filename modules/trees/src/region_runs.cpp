@@ -10,7 +10,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "spatial_order.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Chosen = std::vector<std::uint32_t>;
@@ -151,4 +151,4 @@ void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionT
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "pcl_bv/kernels/region_states.h"
 #include "volume_boxes.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Sets the states of at most kChunkPoints points. The states are those of region_states(), except that other
 /// points may be `unclear`. Each run of points is tested only against regions whose boxes overlap the box of
@@ -17,4 +17,4 @@ namespace pcl_bv {
 void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionTests& regions,
                            const VolumeBoxes& boxes, std::uint8_t* states);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the polytope of a k-DOP as a hull. Planes move outward by a bound of the error that rounding their
@@ -43,4 +43,4 @@ AnyVolume rotatable(const AnyVolume& volume) {
   return std::visit(ToRotatable{}, volume);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

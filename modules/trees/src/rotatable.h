@@ -6,7 +6,7 @@
 
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the volume as a type whose transformed() rotates the shape itself. This is an Obb for an Aabb and
 /// a Hull for a Kdop, because transformed() of Aabb and Kdop would bound the rotated shape along the old
@@ -14,4 +14,4 @@ namespace pcl_bv {
 /// coordinates. Takes 20 us for a 26-DOP. A Kdop whose slabs have no common point becomes an empty Hull.
 AnyVolume rotatable(const AnyVolume& volume);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

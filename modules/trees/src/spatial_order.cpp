@@ -11,6 +11,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::size_t kMaxParts = 4;

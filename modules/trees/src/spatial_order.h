@@ -14,7 +14,7 @@
 #include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// An item and a valid position that represents it. It takes 16 bytes for float and 32 bytes for double.
 template <typename T>
@@ -93,4 +93,4 @@ class SpatialOrder {
   std::vector<ItemRun<T>> runs_, parts_;  // runs that threads take
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "spatial_order.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns a sphere around a box. The sphere is empty for an empty or infinite box. Rounding errors are below
 /// 2^-50 of radius + |low|_1 + |high|_1, so the radius grows by 2^-45 of this sum.
@@ -22,4 +22,4 @@ inline Sphere sphere_around(const PositionBounds& box) {
   return {middle, radius + 0x1p-45 * (radius + taxicab3(low) + taxicab3(high)) + kSmallestNormal};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/numeric/coordinates.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A transformed point, rounded, and a bound of the rounding errors in its coordinates.
 struct TransformedPoint {
@@ -34,4 +34,4 @@ inline double max_stretch(const Eigen::Isometry3d& pose) {
   return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-45);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/parallel/parts.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr PositionBounds kEmptyBounds = {{kInfinity, kInfinity, kInfinity},
@@ -156,4 +156,4 @@ void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratc
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

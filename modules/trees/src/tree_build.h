@@ -10,7 +10,7 @@
 #include "pcl_bv/points/point_view.h"
 #include "spatial_order.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A part of the points. One thread loads it.
 struct LoadPart {
@@ -39,4 +39,4 @@ void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScrat
 /// Reads new coordinates of the tree's points from a cloud that has all of them, and recomputes the boxes.
 void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

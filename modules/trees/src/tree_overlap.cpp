@@ -7,7 +7,7 @@
 #include "inflated.h"
 #include "volume_walk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Descends into those boxes of the moved tree that are near a point of the other tree, and tests the points
@@ -63,7 +63,8 @@ bool any_within(const PointTree& points, const TransformedPoint& point, double d
 
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
                   double margin) {
-  return TreeOverlap(points, packed_tree(others), pose, margin).visit(packed_tree(others).boxes.levels - 1, 0);
+  return TreeOverlap(points, packed_tree(others), pose, margin)
+      .visit(packed_tree(others).boxes.levels - 1, 0);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

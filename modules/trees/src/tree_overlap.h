@@ -9,7 +9,7 @@
 #include "pcl_bv/trees/point_tree.h"
 #include "transformed_point.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns whether any point of the tree is within `distance` of the exact transformed point that `point`
 /// approximates (see transform_point()). The result is never false if such a point exists, even if `distance`
@@ -21,4 +21,4 @@ bool any_within(const PointTree& points, const TransformedPoint& point, double d
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
                   double margin);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/numeric/coordinates.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 inline Coordinates coordinates(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -18,4 +18,4 @@ inline Eigen::Vector3d vector(const Coordinates& c) {
   return {c.x, c.y, c.z};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

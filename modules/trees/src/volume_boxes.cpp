@@ -7,7 +7,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "vectors.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 bool is_nonempty(const PositionBounds& extent) {
@@ -91,4 +91,4 @@ BoxQuery VolumeBoxes::query(const Coordinates& low, const Coordinates& high) con
   return query;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

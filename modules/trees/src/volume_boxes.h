@@ -16,7 +16,7 @@
 #include "pcl_bv/kernels/packed_tree.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Number of volumes that a thread measures at a time, which takes about 20 us.
 inline constexpr std::size_t kVolumesOfChunk = 64;
@@ -102,4 +102,4 @@ bool VolumeBoxes::visit(const BoxQuery& query, const Visit& visit) const {
       [&](std::size_t item) { return visit(order_[item]); });
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

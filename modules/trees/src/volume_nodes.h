@@ -13,6 +13,7 @@
 #include "volume_boxes.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 struct VolumeTree::Nodes {
   std::vector<AnyVolume> volumes;

@@ -12,6 +12,7 @@
 #include "volume_nodes.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Returns whether the errors of `enter` and `exit` of intersect() may exceed VolumeBoxes::margin().

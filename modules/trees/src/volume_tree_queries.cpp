@@ -14,6 +14,7 @@
 #include "volume_nodes.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 bool is_before(const VolumeHit& a, const VolumeHit& b) {

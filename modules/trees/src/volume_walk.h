@@ -15,7 +15,7 @@
 #include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A non-empty volume, prepared for tests against the boxes and packets of a tree.
 class VolumeProbe {
@@ -119,4 +119,4 @@ bool walk_inside(UsableIsa isa, const PackedTree& tree, const AnyVolume& volume,
   return VolumeWalk<Found>(isa, tree, probe, found).run();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

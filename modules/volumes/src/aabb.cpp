@@ -13,7 +13,7 @@
 
 namespace pcl_bv {
 
-using namespace volumes_internal;
+using namespace detail;
 
 Aabb::Aabb() : min_(Eigen::Vector3d::Constant(kInfinity)), max_(Eigen::Vector3d::Constant(-kInfinity)) {}
 

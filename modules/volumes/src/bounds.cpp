@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 namespace {
 
 // Squares of values between 2^-400 and 2^400 are well inside the range of double. Smaller values are
@@ -110,4 +110,4 @@ double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double 
   return norm_up(error);
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Upper bounds of lengths, also of vectors transformed by a stored isometry, whose matrix is rarely exactly
-// orthonormal. Code that several sources share is in the namespace volumes_internal, because other modules
+// orthonormal. Code that several sources share is in the namespace detail, because other modules
 // have internal functions with similar names.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 #include "pcl_bv/volumes/aabb.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// Return upper bounds of |v| and of |a - b|, by exact arithmetic.
 double norm_up(const Eigen::Vector3d& v);
@@ -43,4 +43,4 @@ TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,
                      const Eigen::Vector3d& w);
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/volumes/aabb.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 ClippedCube::ClippedCube() {
   Mesh cube = Aabb(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()).mesh();
@@ -126,4 +126,4 @@ void ClippedCube::close() {
   }
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

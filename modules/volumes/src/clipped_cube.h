@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// A convex polytope inside the unit cube, as a closed surface of vertex loops. The surface stays closed
 /// after every cut in spite of rounding, because a cut edge gets one new vertex, which both faces of the edge
@@ -49,4 +49,4 @@ class ClippedCube {
   std::vector<Crossing> crossings_;
 };
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

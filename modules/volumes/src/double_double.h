@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// The number hi + lo, with |lo| at most half a unit in the last place of hi. The error of a sum or product
 /// is about 2^-103 of the magnitudes of its terms (Dekker 1971; Knuth's TwoSum).
@@ -63,4 +63,4 @@ inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) {
   return b < a;
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

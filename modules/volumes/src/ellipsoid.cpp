@@ -17,7 +17,7 @@
 
 namespace pcl_bv {
 
-using namespace volumes_internal;
+using namespace detail;
 
 Ellipsoid::Ellipsoid()
     : center_(Eigen::Vector3d::Constant(kNan)),

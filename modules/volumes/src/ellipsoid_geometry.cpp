@@ -12,6 +12,7 @@
 #include "ring_mesh.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Returns the largest t with sum (r_i y_i / (r_i^2 + t))^2 = 1, for a point y >= 0 outside the ellipsoid with
@@ -72,12 +73,12 @@ Mesh Ellipsoid::mesh() const {
   const FloatEnvironment environment;
   if (empty()) return {};
   constexpr int sides = 24, steps = 7;
-  std::vector<volumes_internal::Ring> rings;
+  std::vector<detail::Ring> rings;
   for (int i = 1 - steps; i < steps; ++i) {
     const double angle = std::numbers::pi / 2 * i / steps;
     rings.push_back({Eigen::Vector3d(0, 0, std::sin(angle)), std::cos(angle)});
   }
-  Mesh mesh = volumes_internal::ring_mesh(rings, volumes_internal::Triad(Eigen::Vector3d::UnitZ()), sides);
+  Mesh mesh = detail::ring_mesh(rings, detail::Triad(Eigen::Vector3d::UnitZ()), sides);
   for (Eigen::Vector3d& v : mesh.vertices)
     v = center_ + axes_ * radii_.cwiseProduct(v);
   if (axes_.determinant() < 0) {

@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 namespace {
 
 Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& d) {
@@ -233,4 +233,4 @@ double lower_bound(const PosedShape& a, const PosedShape& b, Goal goal, double b
   return key(b) < key(a) ? GjkSearch(b, a, goal, bound).run() : GjkSearch(a, b, goal, bound).run();
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcl_bv/volumes/pair_queries.h"
 #include "shape.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// A shape at its current pose. It consists of all points within `radius` of a point origin + rotation q,
 /// where q is any point of the shape's core.
@@ -40,4 +40,4 @@ enum class Goal {
 /// and b does not change the result.
 double lower_bound(const PosedShape& a, const PosedShape& b, Goal goal, double bound);
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 template <typename Real>
 using Vector = std::array<Real, 3>;
@@ -140,4 +140,4 @@ class Simplex {
   int best_count_ = 0;
 };
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// The dual simplex method (Lemke 1954). Each step replaces one of the three half-spaces of the basis by the
 /// half-space that the corner violates most, such that the weights stay >= 0. Up to rounding, no step makes
@@ -257,4 +257,4 @@ double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eige
   return std::min(first, bound(simplex.solve(local, tolerance, every), direction));
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// A body given by half-spaces n . q <= offset, where q is relative to a nearby origin. After add_box(), the
 /// last six half-spaces are an axis-aligned box around the body, in the order q_k <= offset for k = 0, 1, 2,
@@ -66,4 +66,4 @@ class HalfSpaces {
   Eigen::Vector3d max_abs_ = Eigen::Vector3d::Zero();  // largest |q_k| in the box, by component
 };
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

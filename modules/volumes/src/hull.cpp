@@ -21,7 +21,7 @@
 
 namespace pcl_bv {
 
-using namespace volumes_internal;
+using namespace detail;
 
 namespace {
 
@@ -155,7 +155,7 @@ double Hull::surface_area() const {
   const FloatEnvironment environment;
   if (empty()) return 0;
   const auto [body, unit] = body_of(*this);
-  return volumes_internal::surface_area(body) * unit * unit;
+  return detail::surface_area(body) * unit * unit;
 }
 
 Eigen::Vector3d Hull::center() const {
@@ -187,7 +187,7 @@ double Hull::distance(const Eigen::Vector3d& point) const {
   if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const auto [body, unit] = body_of(*this);
-  return volumes_internal::distance(body, (point - body.origin) / unit) * unit;
+  return detail::distance(body, (point - body.origin) / unit) * unit;
 }
 
 std::optional<RayInterval> Hull::intersect(const Eigen::Vector3d& origin,

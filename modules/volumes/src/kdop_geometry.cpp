@@ -13,7 +13,7 @@
 
 namespace pcl_bv {
 
-using namespace volumes_internal;
+using namespace detail;
 
 namespace {
 
@@ -34,7 +34,7 @@ double Kdop::volume() const {
 
 double Kdop::surface_area() const {
   const FloatEnvironment environment;
-  return empty() ? 0 : volumes_internal::surface_area(intersect_slabs(*this));
+  return empty() ? 0 : detail::surface_area(intersect_slabs(*this));
 }
 
 Eigen::Vector3d Kdop::center() const {
@@ -57,7 +57,7 @@ double Kdop::distance(const Eigen::Vector3d& point) const {
   if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const Polytope polytope = intersect_slabs(*this);
-  return volumes_internal::distance(polytope, point - polytope.origin);
+  return detail::distance(polytope, point - polytope.origin);
 }
 
 Aabb Kdop::aabb() const {

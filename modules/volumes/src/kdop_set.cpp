@@ -14,6 +14,7 @@
 #include "pcl_bv/volumes/kdop_sets.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Directions = std::vector<Eigen::Vector3d>;
@@ -72,7 +73,7 @@ KdopSet::KdopSet(std::vector<Eigen::Vector3d> directions) : directions_(std::mov
   basis_ = find_basis(directions_);
 }
 
-const Pointer& kdop_set_of(DirectionSet set) {
+const Pointer& detail::kdop_set_of(DirectionSet set) {
   static const std::array<KdopSet, 4> sets{
       KdopSet(directions_of(DirectionSet::dop6)), KdopSet(directions_of(DirectionSet::dop14)),
       KdopSet(directions_of(DirectionSet::dop18)), KdopSet(directions_of(DirectionSet::dop26))};

@@ -13,7 +13,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 namespace {
 
 Eigen::Vector3d outward(const LocalSlabs& slabs, const SlabSide& side) {
@@ -153,4 +153,4 @@ double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix
   return bound.up();
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

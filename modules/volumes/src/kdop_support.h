@@ -11,7 +11,7 @@
 
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// The slabs of a k-DOP relative to a nearby origin, so that large coordinates, such as UTM, cost no digits.
 struct LocalSlabs {
@@ -48,4 +48,4 @@ FarthestCorner farthest_corner(const LocalSlabs& slabs, const Eigen::Vector3d& d
 double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix3d& matrix,
                   const Eigen::Vector3d& direction);
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

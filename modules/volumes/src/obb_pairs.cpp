@@ -14,6 +14,7 @@
 #include "pcl_bv/volumes/obb.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "kdop_support.h"
 #include "pcl_bv/numeric/constants.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 namespace {
 
 // The map p = corner + edges * y of the unit cube to the parallelepiped of the basis slabs.
@@ -188,4 +188,4 @@ double distance(const Polytope& polytope, const Eigen::Vector3d& point) {
   return nearest;
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

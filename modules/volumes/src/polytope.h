@@ -12,7 +12,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 using Face = std::vector<std::int32_t>;
 
@@ -54,4 +54,4 @@ double surface_area(const Polytope& polytope);
 /// polytope.
 double distance(const Polytope& polytope, const Eigen::Vector3d& point);
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

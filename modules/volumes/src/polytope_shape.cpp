@@ -17,7 +17,7 @@
 #include "polytope.h"
 #include "shape.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 namespace {
 
 class PolytopeShape : public SupportShape {
@@ -137,4 +137,4 @@ std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop) {
   return std::make_shared<KdopShape>(kdop, polytope);
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// A projection computed in plain double, and its error bound. Three products and two sums are off by at most
 /// 3.01 * 2^-53 of the sum of the products' magnitudes. The smallest normal number covers products that
@@ -27,4 +27,4 @@ inline Projection project(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
   return {(x + y) + z, 0x1p-51 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal};
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

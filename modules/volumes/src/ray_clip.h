@@ -14,7 +14,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/geometry.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 class RayClip {
  public:
@@ -90,4 +90,4 @@ std::optional<RayInterval> intersect_ray(const Volume& volume, const Eigen::Vect
   return ray.interval();
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

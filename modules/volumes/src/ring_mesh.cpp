@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides) {
   Mesh mesh;
@@ -34,4 +34,4 @@ Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides) {
   return mesh;
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/volumes/geometry.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// An axis and two unit vectors perpendicular to it, right-handed.
 struct Triad {
@@ -31,4 +31,4 @@ struct Ring {
 /// it. There are quadrilaterals between neighbouring rings and a polygon at each end.
 Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides);
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 double length3(const Eigen::Vector3d& v) {
   const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
@@ -262,4 +262,4 @@ std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume) {
   return shape;
 }
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

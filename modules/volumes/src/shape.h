@@ -10,7 +10,7 @@
 
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv::volumes_internal {
+namespace pcl_bv::detail {
 
 /// A lower bound of a distance. If `is_exact`, `bound` is the distance up to rounding, and is 0 only if the
 /// distance is 0.
@@ -55,4 +55,4 @@ std::shared_ptr<SupportShape> make_polytope(const Hull& hull);
 /// Returns sqrt(x^2 + y^2 + z^2) with a relative error of at most 4 * 2^-53, in the whole range of double.
 double length3(const Eigen::Vector3d& v);
 
-}  // namespace pcl_bv::volumes_internal
+}  // namespace pcl_bv::detail

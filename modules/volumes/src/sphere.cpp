@@ -18,7 +18,7 @@
 
 namespace pcl_bv {
 
-using namespace volumes_internal;
+using namespace detail;
 
 namespace {
 

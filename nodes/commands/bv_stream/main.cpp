@@ -10,6 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
+  using namespace pcl_bv::detail;
   return run_command("bv_stream", [&] {
     const auto parsed = parse_stream_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);

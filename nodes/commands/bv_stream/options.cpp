@@ -14,7 +14,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pipeline/config/names.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr const char* examples = R"(Examples:
@@ -160,4 +160,4 @@ std::variant<StreamOptions, std::string> parse_stream_options(int argc, const ch
   return options;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,7 @@
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// When the next frame is due.
 enum class Rate : std::uint8_t {
@@ -40,4 +40,4 @@ struct StreamOptions {
 /// printed on standard output. Throws UsageError, and IoError for a folder that cannot be listed.
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -24,7 +24,7 @@
 #include "pcl_bv/nodes/frame_sink.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -243,4 +243,4 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   return status;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/points/point_view.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Copies the coordinates of points in memory to `to`, without gaps, as `scalar`. Only points of type float32
 /// can be copied as float32.
@@ -33,4 +33,4 @@ inline void copy_points(const PointView& points, ScalarType scalar, std::byte* t
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,7 +19,7 @@
 #include "stream/sources/sources.h"
 #include "tiles.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ RawCloud load_cloud(const Job& job, const Execution& execution) {
   return read_cloud(job.input, {job.bin_fields}, execution);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

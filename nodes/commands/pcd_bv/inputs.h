@@ -15,7 +15,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "stream/sources/recorded_clouds.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 class Tiles;
 
@@ -53,4 +53,4 @@ inline std::vector<Job> plan_jobs(const Options& options) {
 /// Loads the cloud of a job. Throws IoError if that fails, and std::invalid_argument for an unknown scene.
 RawCloud load_cloud(const Job& job, const Execution& execution);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

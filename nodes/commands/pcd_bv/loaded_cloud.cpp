@@ -9,7 +9,7 @@
 #include "shifted_points.h"
 #include "tiles.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Returns the header of a tiled cloud, as if it were one file.
@@ -58,4 +58,4 @@ void LoadedCloud::require_unchanged() const {
   if (tiles_) tiles_->require_unchanged();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

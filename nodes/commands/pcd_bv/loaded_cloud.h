@@ -9,7 +9,7 @@
 #include "inputs.h"
 #include "pcl_bv/io/cloud_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 class LoadedCloud {
  public:
@@ -44,4 +44,4 @@ class LoadedCloud {
   std::vector<std::byte> points_before_shift_, points_;  // of tiles, and after the shift, if in memory
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

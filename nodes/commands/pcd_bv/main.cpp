@@ -11,6 +11,7 @@
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
+  using namespace pcl_bv::detail;
   return run_command("pcd_bv", [&] {
     const auto parsed = parse_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);

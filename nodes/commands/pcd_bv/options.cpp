@@ -18,7 +18,7 @@
 #include "pipeline/config/names.h"
 #include "pipeline/config/settings.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr const char* examples = R"(Examples:
@@ -241,4 +241,4 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
   return options;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,7 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/picture.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 enum class OutputFormat { text, json, jsonl, csv };
 
@@ -70,4 +70,4 @@ enum class PcdBvCommand {
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
                                                  PcdBvCommand command = PcdBvCommand::serial);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

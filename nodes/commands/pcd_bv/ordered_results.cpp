@@ -13,7 +13,7 @@
 #include "commands/shared/messages.h"
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write) {
   constexpr std::size_t many = std::size_t{4} << 20;  // bytes; shorter texts may wait in memory
@@ -176,4 +176,4 @@ std::string OrderedResults::summary() const {
          std::to_string(failed_) + " failed, " + std::to_string(points_) + " points, " + seconds + " s";
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -18,7 +18,7 @@
 #include "process.h"
 #include "status.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The result of a finished job.
 struct Result {
@@ -112,4 +112,4 @@ class OrderedResults {
   const bool erase_before_writing_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/report/csv.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take) {
   const TextSink not_empty = [&](std::string& piece) {
@@ -71,4 +71,4 @@ bool ReportWriter::write(std::string&& text) {
   return true;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

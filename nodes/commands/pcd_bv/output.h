@@ -12,7 +12,7 @@
 #include "options.h"
 #include "pcl_bv/report/report.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Renders one report without the separators between reports, so that several threads can render reports at
 /// the same time. `take` gets the text in pieces that are not empty. It gets no piece for a failed input if
@@ -40,4 +40,4 @@ class ReportWriter {
   bool first_ = true;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -28,6 +28,7 @@
 #include "view_html.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 class Stopwatch {
@@ -249,11 +250,11 @@ std::vector<ClusterEntry> Outcome::entries() const {
   return all;
 }
 
-Status report_failures(const Report& report) {
+Status detail::report_failures(const Report& report) {
   return report_failures(report.file, vector_source(report.clusters));
 }
 
-Status report_failures(const std::string& file, const ClusterSource& clusters) {
+Status detail::report_failures(const std::string& file, const ClusterSource& clusters) {
   Status status = Status::done;
   for (std::size_t i = 0; i < clusters.count; ++i) {
     const ClusterEntry& cluster = clusters.at(i);
@@ -272,7 +273,7 @@ Status report_failures(const std::string& file, const ClusterSource& clusters) {
   return status;
 }
 
-Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
+Status detail::write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
   if (!job.mesh) return Status::done;
   return write_file(*job.mesh, [&] {
     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
@@ -280,7 +281,7 @@ Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
   });
 }
 
-std::string coarse_warning(const Aabb& box, ScalarType scalar) {
+std::string detail::coarse_warning(const Aabb& box, ScalarType scalar) {
   const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
   const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
   // Checks for steps of 1 cm or more that result from the distance to the origin, not from the size of the
@@ -297,11 +298,11 @@ std::string coarse_warning(const Aabb& box, ScalarType scalar) {
   return text;
 }
 
-MethodOptions method_options(const Options& options) {
+MethodOptions detail::method_options(const Options& options) {
   return {options.pipeline.growth, normalized_up(options.pipeline.ground.up)};
 }
 
-Outcome process(const Job& job, const Options& options, FramePipeline& pipeline) {
+Outcome detail::process(const Job& job, const Options& options, FramePipeline& pipeline) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {

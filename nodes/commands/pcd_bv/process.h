@@ -14,7 +14,7 @@
 #include "pcl_bv/report/report.h"
 #include "status.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The outcome of a job.
 struct Outcome {
@@ -56,4 +56,4 @@ MethodOptions method_options(const Options& options);
 /// several jobs, a summary on standard error comes last.
 Status process_all(const std::vector<Job>& jobs, const Options& options);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "ordered_results.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Keeps freed memory for the next file instead of returning it to the system. Otherwise 24 sweeps of a
@@ -52,4 +52,4 @@ Status process_all(const std::vector<Job>& jobs, const Options& options) {
   return order.finish();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

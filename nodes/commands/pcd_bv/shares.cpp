@@ -15,6 +15,7 @@
 #include "shifted_points.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 std::uint64_t hash_of_file(const std::filesystem::path& path) {
@@ -43,7 +44,7 @@ std::string name_without_folders(const Job& job) {
 
 }  // namespace
 
-Execution execution_of(const Options& options) {
+Execution detail::execution_of(const Options& options) {
   return options.pipeline.execution();
 }
 
@@ -58,8 +59,8 @@ SharePoints::SharePoints(const Tiles& tiles, const PointRange& range,
   filtered_ = filter_points(points, options.pipeline.filter, execution_of(options));
 }
 
-PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
-                           const Options& options) {
+PartialFile detail::describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
+                                   const Options& options) {
   PartialFile file;
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     if (!tiles.header(i).error) file.add_input(name_without_folders(tiles.jobs()[i]), tiles.header(i).points);
@@ -69,8 +70,8 @@ PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector
   return file;
 }
 
-void add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
-               PartialFile& file) {
+void detail::add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
+                       PartialFile& file) {
   if (range.first == range.second) return;
   file.shares = {range};
   file.counts = points.counts();
@@ -78,7 +79,7 @@ void add_share(const SharePoints& points, const PointRange& range, const Executi
   file.partial = Partial(points.view(), 0, execution);
 }
 
-std::optional<PartialFile> merge_files(const std::vector<std::string>& files) {
+std::optional<PartialFile> detail::merge_files(const std::vector<std::string>& files) {
   std::optional<PartialFile> all;
   bool failed = false;
   for (const std::string& name : files) {
@@ -95,7 +96,7 @@ std::optional<PartialFile> merge_files(const std::vector<std::string>& files) {
   return failed ? std::nullopt : all;
 }
 
-Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods) {
+Report detail::report_of(const PartialFile& whole, const std::vector<const Method*>& methods) {
   Report report;
   report.file = kTiledName;
   report.parts = whole.inputs;
@@ -108,7 +109,7 @@ Report report_of(const PartialFile& whole, const std::vector<const Method*>& met
   return report;
 }
 
-void set_volume(std::size_t index, const EstimationResult& result, AnyVolume volume, Report& report) {
+void detail::set_volume(std::size_t index, const EstimationResult& result, AnyVolume volume, Report& report) {
   ClusterEntry& all = report.clusters.front();
   all.points = result.used;
   report.counts.nonfinite = result.dropped - report.counts.range - report.counts.inside;
@@ -116,7 +117,7 @@ void set_volume(std::size_t index, const EstimationResult& result, AnyVolume vol
   all.volumes[index].failed = result.reason;
 }
 
-Status report_excluded_inputs(const Tiles& tiles) {
+Status detail::report_excluded_inputs(const Tiles& tiles) {
   Status status = Status::done;
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     if (!tiles.header(i).error) continue;
@@ -126,7 +127,7 @@ Status report_excluded_inputs(const Tiles& tiles) {
   return status;
 }
 
-void report_notes(const Tiles& tiles) {
+void detail::report_notes(const Tiles& tiles) {
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     const std::string note = tiles.note(i);
     if (!tiles.header(i).error && !note.empty()) report_problem(tiles.jobs()[i].input + ": " + note);
@@ -147,7 +148,7 @@ Status write_or_report(const std::filesystem::path& path, const PartialFile& fil
 
 }  // namespace
 
-Status make_partial_file(const Job& job, const Options& options) {
+Status detail::make_partial_file(const Job& job, const Options& options) {
   const Interruption interruption([] {});
   if (!job.partials.empty()) {
     const std::optional<PartialFile> merged = merge_files(job.partials);

@@ -17,7 +17,7 @@
 #include "status.h"
 #include "tiles.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 Execution execution_of(const Options& options);
 
@@ -68,4 +68,4 @@ Status report_excluded_inputs(const Tiles& tiles);
 /// Reports the notes of all inputs that are not excluded.
 void report_notes(const Tiles& tiles);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 PointView ShiftedPoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
   const LoadedPoints part(points_, first, count);
@@ -36,4 +36,4 @@ std::vector<std::byte> packed_copy(const PointView& points) {
   return all;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The points of a view minus an origin, rounded to double. The view must not have an index list.
 class ShiftedPoints final : public PointSource {
@@ -32,4 +32,4 @@ Eigen::Vector3d rounded_centre(const PointView& points, const Execution& executi
 /// Returns a copy of all points of a view without gaps, in the scalar type of the view.
 std::vector<std::byte> packed_copy(const PointView& points);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

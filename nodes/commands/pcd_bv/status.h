@@ -6,7 +6,7 @@
 
 #include <initializer_list>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Exit statuses of pcd_bv.
 enum class Status { done = 0, failed = 1, misuse = 2, outside = 3 };
@@ -19,4 +19,4 @@ constexpr Status worse(Status a, Status b) {
   return Status::done;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

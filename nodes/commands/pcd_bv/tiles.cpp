@@ -13,7 +13,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/read_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // Number of points between two calls of Tiles::on_loaded.
@@ -213,4 +213,4 @@ void Tiles::require_unchanged() const {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -19,7 +19,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// One input (tile) without its points.
 struct TileHeader {
@@ -115,4 +115,4 @@ class Tiles final : public PointSource {
   mutable std::atomic<std::size_t> loaded_ = 0;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "pcl_bv/points/isa.h"
 #include "values.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::string version_text(const std::string& command) {
@@ -120,4 +120,4 @@ bool CommandLine::given(const char* name) const {
   return app_->count(name) > 0;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The options of a command. The parser is built on CLI11. Only command_line.cpp includes CLI11, because each
 /// file that includes it takes 8 s to compile. Values are stored as texts and parsed later, so that all
@@ -38,4 +38,4 @@ class CommandLine {
   std::unique_ptr<App> app_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

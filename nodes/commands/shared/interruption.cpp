@@ -14,7 +14,7 @@
 
 #include "pcl_bv/io/atomic_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // The signal that ends the watching thread.
@@ -78,4 +78,4 @@ void Interruption::start_finishing(int signal) const {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Handles SIGINT, SIGTERM and SIGHUP while this object lives. It blocks these signals and waits for them in
 /// a thread.
@@ -42,4 +42,4 @@ class Interruption {
   std::thread watcher_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include <cerrno>
 #include <mutex>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::mutex mutex;
@@ -88,4 +88,4 @@ void erase_status_line() {
   status_line.clear();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Sets the name with which every line begins. Must be called before the first message.
 void name_command(std::string_view command);
@@ -46,4 +46,4 @@ void show_status_line(std::string_view line);
 /// Erases the status line, if there is one.
 void erase_status_line();
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 
 #include "values.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,4 +43,4 @@ void OutputClaims::claim(const fs::path& output) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns whether the file is a terminal, a pipe, /dev/null or similar, to which several results may be
 /// written.
@@ -29,4 +29,4 @@ class OutputClaims {
   std::set<std::filesystem::path> inputs_, taken_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

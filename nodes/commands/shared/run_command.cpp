@@ -12,7 +12,7 @@
 #include "standard_streams.h"
 #include "values.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 int run_command(std::string_view command, const std::function<int()>& work) {
   name_command(command);
@@ -41,4 +41,4 @@ int print_text(std::string_view text) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string_view>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Prepares the standard streams, runs `work` and returns its exit status. If `work` throws, prints one line
 /// on standard error, "<command>: text", and returns 2 for a UsageError or 1 for any other std::exception.
@@ -17,4 +17,4 @@ int run_command(std::string_view command, const std::function<int()>& work);
 /// text begins with "standard output", for any other failure.
 int print_text(std::string_view text);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "pipeline/config/settings.h"
 #include "values.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::string shown_default(const Setting& setting, const std::string& value) {
@@ -168,4 +168,4 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   return config;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include "command_line.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the text with the keys of settings replaced by their options.
 std::string with_options(std::string text);
@@ -47,4 +47,4 @@ class SettingOptions {
   bool stream_, print_config_ = false;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

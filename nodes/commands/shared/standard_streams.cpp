@@ -16,7 +16,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
@@ -45,4 +45,4 @@ bool write_standard_output(std::string_view text) {
   return true;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Must be called before any file is opened. Afterwards, write() reports a closed pipe as an error, and no
 /// file gets the descriptor of a standard stream that the caller has closed.
@@ -16,4 +16,4 @@ void prepare_standard_streams();
 /// other failure.
 bool write_standard_output(std::string_view text);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

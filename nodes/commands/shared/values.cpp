@@ -5,7 +5,7 @@
 
 #include "pipeline/config/names.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 void reject_value(std::string_view option, std::string_view text, const std::string& what) {
   throw UsageError(std::string(option) + ": '" + std::string(text) + "' " + what);
@@ -34,4 +34,4 @@ std::size_t parse_bin_fields(std::string_view text) {
   return parse_whole_number("--bin-fields", text, 3, 32);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Wrong use of a command. what() is the line for standard error. The command exits with status 2.
 class UsageError : public std::runtime_error {
@@ -41,4 +41,4 @@ std::pair<double, double> parse_range(std::string_view text);
 /// text.
 std::size_t parse_bin_fields(std::string_view text);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

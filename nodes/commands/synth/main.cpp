@@ -19,7 +19,7 @@
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::string_view sequence_name = "street-sequence";
@@ -127,8 +127,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 
 int main(int argc, char** argv) {
-  return pcl_bv::run_command("synth", [&] { return pcl_bv::run(argc, argv); });
+  return pcl_bv::detail::run_command("synth", [&] { return pcl_bv::detail::run(argc, argv); });
 }

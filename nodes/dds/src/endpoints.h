@@ -10,6 +10,7 @@
 #include "stream/middleware.h"
 
 namespace pcl_bv::dds {
+using namespace detail;
 
 /// The implementations of Middleware::receiver() and Middleware::carrier().
 std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type);

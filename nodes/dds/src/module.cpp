@@ -5,6 +5,7 @@
 #include "stream/middleware.h"
 
 namespace pcl_bv::dds {
+using namespace detail;
 namespace {
 
 class Dds final : public Middleware {
@@ -22,7 +23,7 @@ extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version(
   return PCL_BV_VERSION;
 }
 
-extern "C" [[gnu::visibility("default")]] pcl_bv::Middleware* pcl_bv_middleware() {
+extern "C" [[gnu::visibility("default")]] pcl_bv::detail::Middleware* pcl_bv_middleware() {
   static pcl_bv::dds::Dds module;
   return &module;
 }

@@ -13,6 +13,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::dds {
+using namespace detail;
 namespace {
 
 // The size of the socket buffer: with Linux's default of 212 kB, hundreds of clouds of some megabytes are

@@ -11,6 +11,7 @@
 #include "participant.h"
 
 namespace pcl_bv::dds {
+using namespace detail;
 namespace {
 
 using Clock = std::chrono::steady_clock;

@@ -14,6 +14,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::dds {
+using namespace detail;
 namespace {
 
 constexpr dds_duration_t kMaxBlockingTime = DDS_MSECS(10);

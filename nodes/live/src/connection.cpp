@@ -8,6 +8,7 @@
 #include "../page.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 namespace {
 
 namespace beast = boost::beast;

@@ -10,6 +10,7 @@
 #include "viewer.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:

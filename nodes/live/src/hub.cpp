@@ -8,6 +8,7 @@
 #include "viewer.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 
 std::vector<MessageTopic> Hub::topics() const {
   std::vector<MessageTopic> topics;

@@ -17,6 +17,7 @@
 #include "protocol.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 
 class Viewer;
 

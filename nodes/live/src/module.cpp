@@ -5,6 +5,7 @@
 #include "server.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 namespace {
 
 class WebSockets final : public Middleware {
@@ -24,7 +25,7 @@ extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version(
   return PCL_BV_VERSION;
 }
 
-extern "C" [[gnu::visibility("default")]] pcl_bv::Middleware* pcl_bv_middleware() {
+extern "C" [[gnu::visibility("default")]] pcl_bv::detail::Middleware* pcl_bv_middleware() {
   static pcl_bv::live::WebSockets module;
   return &module;
 }

@@ -10,6 +10,7 @@
 #include "pcl_bv/messages/schema.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -17,6 +17,7 @@
 #include "stream/middleware.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 
 /// Returns the first name in a client's header Sec-WebSocket-Protocol that is foxglove.sdk.v1 or
 /// foxglove.websocket.v1, or nothing.

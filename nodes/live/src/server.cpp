@@ -13,6 +13,7 @@
 #include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 namespace {
 
 using tcp = boost::asio::ip::tcp;

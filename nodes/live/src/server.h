@@ -17,6 +17,7 @@
 #include "connection.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 
 /// Serves all viewers on one port. The server has its own thread, so that send() never waits for a viewer.
 class Server final : public MessageSender {

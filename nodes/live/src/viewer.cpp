@@ -8,6 +8,7 @@
 #include <utility>
 
 namespace pcl_bv::live {
+using namespace detail;
 
 namespace asio = boost::asio;
 namespace websocket = boost::beast::websocket;

@@ -15,6 +15,7 @@
 #include "hub.h"
 
 namespace pcl_bv::live {
+using namespace detail;
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 

@@ -11,7 +11,7 @@
 
 #include "commands/pcd_bv/ordered_results.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::size_t size_of_input(const Job& job) {
@@ -121,4 +121,4 @@ Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& o
   return status;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "commands/pcd_bv/status.h"
 #include "ranks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The action that the first rank takes when a signal ends the run. Any thread may call both member
 /// functions.
@@ -39,4 +39,4 @@ class InterruptAction {
 Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
                     InterruptAction& interrupted);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 void write(const TileHeader& header, std::ostream& out) {
@@ -56,4 +56,4 @@ std::vector<TileHeader> describe_tiles(Ranks& ranks, const std::vector<Job>& job
   return headers;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -13,7 +13,7 @@
 #include "commands/pcd_bv/tiles.h"
 #include "ranks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 struct TileFailure {
   std::size_t tile;
@@ -37,4 +37,4 @@ std::optional<TileFailure> first_failure(Ranks& ranks, const std::optional<TileF
 /// A collective call. Returns the headers of all tiles. Each rank reads its share of the tiles.
 std::vector<TileHeader> describe_tiles(Ranks& ranks, const std::vector<Job>& jobs);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

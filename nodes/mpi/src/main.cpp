@@ -17,7 +17,7 @@
 #include "merged_cloud.h"
 #include "ranks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 /// A collective call. Calls work() on every rank. The first rank prints the warnings of its own work(). If
@@ -108,10 +108,11 @@ int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
 }
 
 }  // namespace
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
+  using namespace pcl_bv::detail;
   return run_command("pcd_bv_mpi", [&]() -> int {
     InterruptAction interrupted;
     const Interruption interruption([&] { interrupted(); });  // before MPI starts its threads

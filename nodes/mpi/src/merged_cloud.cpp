@@ -267,7 +267,7 @@ void print_costs(Ranks& ranks, double seconds, double cpu_seconds, std::size_t r
 
 }  // namespace
 
-Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
+Status detail::fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
   const auto begin = std::chrono::steady_clock::now();
   Status status = Status::done;
   if (ranks.first()) status = report_excluded_inputs(tiles);

@@ -12,7 +12,7 @@
 #include "pcl_bv/report/report.h"
 #include "ranks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A collective call. Fits each method to the points of all tiles.
 ///
@@ -26,4 +26,4 @@ namespace pcl_bv {
 /// read.
 Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

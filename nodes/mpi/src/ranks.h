@@ -12,7 +12,7 @@
 
 #include "pcl_bv/fitting/smallest_sphere.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 class Ranks {
  public:
@@ -64,4 +64,4 @@ class Ranks {
   std::size_t rank_ = 0, size_ = 1, bytes_sent_ = 0, messages_sent_ = 0;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 enum class Shape { sphere, empty_sphere, obb, empty_obb };
@@ -84,4 +84,4 @@ Fitted<AnyVolume> fitted_from(const std::string& bytes) {
   return fitted;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -9,7 +9,7 @@
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Serializes a Sphere or an Obb with its exact bits. The methods that need all points and `sphere-exact`
 /// give these volumes. Throws std::invalid_argument for other volumes.
@@ -18,4 +18,4 @@ std::string bytes_of(const Fitted<AnyVolume>& fitted);
 /// Inverse of bytes_of(), on a machine with the same memory layout.
 Fitted<AnyVolume> fitted_from(const std::string& bytes);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

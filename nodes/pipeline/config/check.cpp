@@ -13,6 +13,7 @@
 #include "settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 std::string known_methods() {
@@ -89,7 +90,7 @@ auto checker(std::vector<ConfigProblem>& problems) {
 
 }  // namespace
 
-std::string problem_of(const Setting& setting, double value) {
+std::string detail::problem_of(const Setting& setting, double value) {
   const auto& [min, max, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
   if (vanishes)
@@ -102,25 +103,25 @@ std::string problem_of(const Setting& setting, double value) {
   return to_text(value) + allowed;
 }
 
-std::string whole_number_range(const NumberRange& range) {
+std::string detail::whole_number_range(const NumberRange& range) {
   std::string allowed = " of at least " + to_text(static_cast<std::size_t>(range.min));
   if (range.max < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(range.max));
   return allowed;
 }
 
-std::string problem_of(const Setting& setting, std::size_t value) {
+std::string detail::problem_of(const Setting& setting, std::size_t value) {
   const double min = setting.range.min, max = setting.range.max;
   const auto n = static_cast<double>(value);
   if (n >= min && (n <= max || max == kNoLimit)) return {};
   return to_text(value) + " is not a whole number" + whole_number_range(setting.range);
 }
 
-std::string problem_of(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
+std::string detail::problem_of(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
   if (direction.allFinite() && !direction.isZero(0)) return {};
   return to_text(direction) + " is no direction: three finite numbers, not all 0";
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::string& instruction_set) {
+std::string detail::problem_of(const Setting& /*setting*/, const std::string& instruction_set) {
   try {
     static_cast<void>(UsableIsa(parse_isa(instruction_set)));
   } catch (const std::invalid_argument& error) {
@@ -129,7 +130,7 @@ std::string problem_of(const Setting& /*setting*/, const std::string& instructio
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::vector<std::string>& methods) {
+std::string detail::problem_of(const Setting& /*setting*/, const std::vector<std::string>& methods) {
   for (auto name = methods.begin(); name != methods.end(); ++name) {
     const Method* const method = find_method(*name);
     if (method == nullptr) return "'" + *name + "' is no method; known are " + known_methods();
@@ -139,11 +140,11 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<std::string
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
+std::string detail::problem_of(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
   return point && !point->allFinite() ? "a coordinate is not finite" : "";
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
+std::string detail::problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
   for (const RegionConfig& region : regions) {
     if (region.file.empty() && region.volumes.empty()) return "a region has neither a file nor volumes";
     std::string problem = problem_of_row(region);
@@ -152,7 +153,7 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfi
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
+std::string detail::problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
   std::set<std::int64_t> values;
   for (const ClassConfig& own : classes) {
     std::string name = "class " + std::to_string(own.value);
@@ -163,11 +164,11 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const FieldName& field) {
+std::string detail::problem_of(const Setting& /*setting*/, const FieldName& field) {
   return field.name.empty() ? "the name of the field is empty" : "";
 }
 
-std::vector<ConfigProblem> problems_of(const StreamConfig& config) {
+std::vector<ConfigProblem> detail::problems_of(const StreamConfig& config) {
   std::vector<ConfigProblem> problems;
   visit_stream(config, checker(problems));
   check_combinations(config.pipeline, problems);

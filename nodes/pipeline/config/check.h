@@ -15,7 +15,7 @@
 
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A setting whose value is not allowed.
 struct ConfigProblem {
@@ -29,8 +29,8 @@ std::vector<ConfigProblem> problems_of(const StreamConfig& config);
 /// Returns the allowed range of a whole number as text, such as " of at least 1 and at most 1000".
 std::string whole_number_range(const NumberRange& range);
 
-/// Same as read_text(), but errors of whole numbers also state the allowed range. Thus the errors for "-1" and
-/// "1e300" have the same words as the error for a 0 that is too small.
+/// Same as read_text(), but errors of whole numbers also state the allowed range. Thus the errors for "-1"
+/// and "1e300" have the same words as the error for a 0 that is too small.
 template <typename T>
 void read_setting(const Setting& setting, std::string_view text, T& value) {
   constexpr bool count = std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>;
@@ -41,4 +41,4 @@ void read_setting(const Setting& setting, std::string_view text, T& value) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 template <typename Choice, std::size_t n>
 using Names = std::array<std::pair<std::string_view, Choice>, n>;
@@ -35,4 +35,4 @@ bool read_whole_text(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

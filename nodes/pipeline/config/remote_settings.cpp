@@ -19,6 +19,7 @@
 #include "stream/remote_parameters.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Json = nlohmann::ordered_json;

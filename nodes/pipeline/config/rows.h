@@ -9,7 +9,7 @@
 
 #include "settings.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Element types of the lists in the configuration.
 template <typename T>
@@ -44,4 +44,4 @@ void visit_row(Row& row, Visit&& visit) {
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -14,7 +14,8 @@
 
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr double kFinite = std::numeric_limits<double>::max();
@@ -277,4 +278,5 @@ std::string problem_of(const Setting& setting, const std::optional<T>& value) {
   return value ? problem_of(setting, *value) : std::string();
 }
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,7 @@
 #include "rows.h"
 #include "settings.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr Names<GroundMethod, 3> kGroundMethods{
@@ -214,4 +214,4 @@ void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
   point = p;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,6 +16,7 @@
 #include "settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Line numbers of keys in the file, from 1. 0 means that the key is not in the file.

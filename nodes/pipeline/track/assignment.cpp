@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -104,4 +104,4 @@ void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A row and a column that may be assigned to each other. The cost is finite and at least 0.
 struct AssignmentPair {
@@ -49,4 +50,5 @@ class SparseAssignment {
   double base_distance_ = 0;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

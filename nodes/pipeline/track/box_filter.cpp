@@ -9,7 +9,7 @@
 
 #include "pcl_bv/points/point_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kVoteDecay = 0.9;          // decay of the votes for the front, per frame
@@ -149,4 +149,4 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
   return Obb::from_slabs(axes, box.center(), low, high);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,8 @@
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/obb.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// The state of the object in this frame.
 struct BoxState {
@@ -62,4 +63,5 @@ class BoxFilter {
   std::size_t detections_ = 0;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/volumes/aabb.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A grid in x and y that finds boxes by their centres. A reused object keeps its capacity.
 class BoxGrid {
@@ -58,4 +58,4 @@ class BoxGrid {
   std::vector<Cell> cells_;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kMaxShift = 4;      // metres per frame; 40 m/s at 10 Hz
@@ -136,4 +136,4 @@ bool EgoMotion::estimate(const std::vector<Aabb>& expected, const std::vector<Aa
   return true;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

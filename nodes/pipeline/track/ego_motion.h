@@ -11,7 +11,8 @@
 
 #include "box_grid.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A rotation about z and a shift in the plane, which map p to rotation(yaw) p + shift. Radians and metres.
 struct PlanarMotion {
@@ -60,4 +61,5 @@ class EgoMotion {
   std::vector<unsigned> votes_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

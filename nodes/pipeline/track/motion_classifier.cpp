@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kWindow = 0.55;   // seconds; length of the evaluated window
@@ -63,4 +63,4 @@ void MotionClassifier::classify(const Measurement& now, const Eigen::Matrix3d& r
   moving_ = same_direction && displacement > kMinShift && displacement > kStartSpeed * passed;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -7,7 +7,8 @@
 #include <array>
 #include <cstddef>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Decides whether an object moves, by the displacement of its box within the last half second.
 ///
@@ -41,4 +42,5 @@ class MotionClassifier {
   bool moving_ = false;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

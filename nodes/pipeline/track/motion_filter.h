@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <array>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Position and velocity along one axis, metres and m/s, with their covariance.
 struct AxisFilter {
@@ -78,4 +79,5 @@ struct MotionFilter {
   }
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kFaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
@@ -171,4 +171,4 @@ double cost_of(const Track& track, const Aabb& box, double gate) {
   return cost;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,8 @@
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct BoxDifference {
@@ -65,4 +66,5 @@ struct Track {
 /// metres, is four standard deviations for a track whose state is known exactly.
 double cost_of(const Track& track, const Aabb& box, double gate);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -14,7 +14,7 @@
 #include "ego_motion.h"
 #include "track.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr double kGateCost = 16;                   // four standard deviations, squared
@@ -262,4 +262,4 @@ void Tracker::reset() {
   state_->sensor = Pose::Identity();
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -15,7 +15,8 @@
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Gives objects ids that persist from frame to frame. An id is never reused.
 ///
@@ -73,4 +74,5 @@ class Tracker {
   std::unique_ptr<State> state_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -13,6 +13,7 @@
 #include "parameters.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics) {

@@ -19,6 +19,7 @@
 #include "pcl_bv/nodes/topics.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// Subscribes to clouds on `points` while `markers` or `labels` has subscribers. Publishes:
 ///

@@ -10,6 +10,7 @@
 #include "cluster_volumes.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 class ClusterVolumesNodelet : public nodelet::Nodelet {
  private:

@@ -12,6 +12,7 @@
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 // Converts parameters to YAML. Whole numbers of ROS parameters have only 32 bits. Larger numbers must be in

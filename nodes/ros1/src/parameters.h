@@ -9,6 +9,7 @@
 #include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 /// Returns the configuration from the parameters of a namespace. Applies the parameter `preset`, then the
 /// file that the parameter `config` names, then the parameters whose names are keys of such a file. Throws

@@ -14,7 +14,7 @@
 #include "pcl_bv/report/picture.h"
 #include "sinks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ std::unique_ptr<FrameSink> open_labels(const SinkOptions& description) {
   return std::make_unique<FilesSink>(description, write_labels);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -16,7 +16,7 @@
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/posix_file.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 LineFile::LineFile(const std::filesystem::path& file) : descriptor_(STDOUT_FILENO) {
   if (file == "-") return;
@@ -68,4 +68,4 @@ void LineFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) throw IoError(system_reason(errno));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

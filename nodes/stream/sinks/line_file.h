@@ -12,7 +12,7 @@
 
 #include "pcl_bv/nodes/frame_sink.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// A text file, or standard output for "-". Each write() is one system call if the system takes the whole
 /// text. The first call of write() or close() empties an existing file. Without such a call, it is unchanged.
@@ -40,4 +40,4 @@ class LineFile {
   bool begun_ = false;
 };
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

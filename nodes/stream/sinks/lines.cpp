@@ -7,7 +7,7 @@
 #include "pcl_bv/report/csv.h"
 #include "sinks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::string first_columns(const FrameReport& report) {
@@ -70,4 +70,4 @@ std::unique_ptr<FrameSink> open_csv(const SinkOptions& description) {
   return std::make_unique<LineSink>(description, frames_csv_heading(), csv_lines);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "sinks.h"
 #include "stream/topics/message_sink.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 // The QoS that rosbag2 stores for a topic. It is reliable, with the last ten messages and none for late
@@ -64,4 +64,4 @@ std::vector<SinkKind> recording_sinks() {
           {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink}};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

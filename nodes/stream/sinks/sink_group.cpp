@@ -123,7 +123,7 @@ void SinkGroup::each(const Do& what) {
   alive_ = std::any_of(members_.begin(), members_.end(), [](const auto& m) { return m->sink != nullptr; });
 }
 
-void SinkGroup::offer_settings(const std::shared_ptr<RemoteParameters>& settings) {
+void SinkGroup::offer_settings(const std::shared_ptr<detail::RemoteParameters>& settings) {
   each([&](Member& member) { member.sink->offer_settings(settings); });
 }
 

@@ -11,6 +11,7 @@
 #include "stream/topics/message_sink.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::string_view kPoints = ",points";
@@ -29,7 +30,7 @@ class FunctionSink : public FrameSink {
 
 // Labelled clouds are made only while there are subscribers. Scenes are not sent, because Foxglove, the only
 // viewer of scenes, also shows markers.
-std::unique_ptr<FrameSink> open_dds_sink(const SinkOptions& description) {
+std::unique_ptr<FrameSink> detail::open_dds_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.prefix = description.target.string();
   topics.points = true;
@@ -37,7 +38,7 @@ std::unique_ptr<FrameSink> open_dds_sink(const SinkOptions& description) {
   return make_message_sink(middleware("dds").carrier(""), topics);
 }
 
-std::unique_ptr<FrameSink> open_ws_sink(const SinkOptions& description) {
+std::unique_ptr<FrameSink> detail::open_ws_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.points = topics.frames = true;
   return make_message_sink(middleware("ws").carrier(description.target.string()), topics);

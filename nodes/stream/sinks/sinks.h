@@ -8,7 +8,7 @@
 
 #include "pcl_bv/nodes/frame_sink.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 std::unique_ptr<FrameSink> open_jsonl(const SinkOptions& description);
 std::unique_ptr<FrameSink> open_csv(const SinkOptions& description);
@@ -21,4 +21,4 @@ std::unique_ptr<FrameSink> open_ws_sink(const SinkOptions& description);
 /// Returns the sink kinds for recordings, or none in a build without the component `recording`.
 std::vector<SinkKind> recording_sinks();
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

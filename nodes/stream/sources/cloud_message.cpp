@@ -10,6 +10,7 @@
 #include "pcl_bv/messages/serialize.h"
 
 namespace pcl_bv {
+using namespace detail;
 
 msg::PointCloud2 cloud_in(const CloudMessage& message) {
   msg::PointCloud2 cloud;

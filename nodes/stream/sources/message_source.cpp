@@ -10,7 +10,7 @@
 #include "pcl_bv/nodes/topics.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class MessageSource final : public FrameSource {
@@ -62,4 +62,4 @@ std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver
   return std::make_unique<MessageSource>(std::move(receiver), name, options);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

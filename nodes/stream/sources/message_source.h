@@ -9,7 +9,8 @@
 #include "pcl_bv/nodes/frame_source.h"
 #include "stream/middleware.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Creates a source that turns each received message (sensor_msgs/msg/PointCloud2) into a frame.
 ///
@@ -23,4 +24,5 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver,
                                                  const std::string& name, const ReplayOptions& options = {});
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// The format of a time in a name, the most reliable format first.
 enum class TimeKind : std::uint8_t {
@@ -49,4 +49,4 @@ struct NameTimes {
 /// or nanoseconds without leading zeros, whichever fits.
 NameTimes times_of_names(const std::vector<std::string>& stems);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include "sources.h"
 #include "stream/sinks/sinks.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 std::vector<SourceKind> recording_kinds() {
   return {};
@@ -23,4 +23,4 @@ void check_recording_content(const std::filesystem::path& file) {
     throw IoError("is a recording, which this build cannot read: it lacks the component recording");
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "recorded_clouds.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Packets final : public FrameSource {
@@ -81,4 +81,4 @@ std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayO
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -8,7 +8,7 @@
 #include "name_times.h"
 #include "pipeline/config/names.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -194,4 +194,4 @@ std::int64_t stamp_of(const ParsedTime& time) {
   return time.seconds * kSecond + whole(nanoseconds);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/io/untrusted_text.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kMaxGap = 500'000'000;  // nanoseconds
@@ -136,4 +136,4 @@ std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
                  (1 - part) * before->second.translation() + part * after->second.translation());
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@
 #include "recorded_clouds.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Recorded final : public FrameSource {
@@ -100,4 +100,4 @@ std::vector<SourceKind> recording_kinds() {
            [](const std::string& name) { return is_recording(name); }, open_recorded}};
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -20,7 +20,7 @@
 #include "pcl_bv/recording/velodyne.h"
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 bool has_clouds(const RecordedTopic& topic) {
@@ -223,4 +223,4 @@ std::vector<std::string> RecordedClouds::take_warnings() {
   return fresh;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -12,9 +12,10 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
-
+namespace pcl_bv {
 struct RecordedTopic;
+
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns the index of the topic with this name. If `name` is empty, returns that of the only topic with
 /// clouds (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding).
@@ -70,4 +71,5 @@ std::vector<std::string> take_new(const std::vector<std::string>& warnings, std:
 /// Returns a source of the sweeps in a capture of packets. Throws IoError with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -10,7 +10,7 @@
 
 #include "sources.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 class Replay : public FrameSource {
@@ -79,4 +79,4 @@ std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::fi
   return std::make_unique<Replay>(length, std::move(files), options, std::move(load), std::move(times));
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

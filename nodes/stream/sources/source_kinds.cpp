@@ -19,6 +19,7 @@
 #include "sources.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::string_view kSynth = "synth:", kDds = "dds:";
@@ -110,12 +111,12 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options) {
+std::unique_ptr<FrameSource> detail::open_dds(const std::string& name, const ReplayOptions& options) {
   const std::string topic = name.substr(kDds.size());
   return make_message_source(middleware("dds").receiver(topic, "sensor_msgs/msg/PointCloud2"), name, options);
 }
 
-bool has_recording_extension(const std::filesystem::path& file) {
+bool detail::has_recording_extension(const std::filesystem::path& file) {
   constexpr std::array extensions{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
   return std::find(extensions.begin(), extensions.end(), lower_case_extension(file)) != extensions.end();
 }

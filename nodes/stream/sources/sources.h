@@ -11,7 +11,7 @@
 #include "name_times.h"
 #include "pcl_bv/nodes/frame_source.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Poses from the file of ReplayOptions::poses.
 class Poses {
@@ -53,4 +53,4 @@ bool has_recording_extension(const std::filesystem::path& file);
 /// extensions.
 void check_recording_content(const std::filesystem::path& file);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,6 +10,7 @@
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 using Times = std::vector<ParsedTime>;
@@ -128,7 +129,7 @@ std::string order_warning(const std::vector<std::int64_t>& stamps, const std::ve
 
 }  // namespace
 
-NameTimes times_of_names(const std::vector<std::string>& stems) {
+NameTimes detail::times_of_names(const std::vector<std::string>& stems) {
   std::vector<Times> all;
   for (const std::string& stem : stems)
     all.push_back(times_in(stem));

@@ -11,7 +11,7 @@
 #include "pipeline/config/settings.h"
 #include "scene.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 constexpr const char* kFrameType = "pcl_bv.Frame";
@@ -147,4 +147,4 @@ std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carr
   return std::make_unique<MessageSink>(std::move(carrier), topics);
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

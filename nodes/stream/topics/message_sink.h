@@ -9,7 +9,8 @@
 #include "pcl_bv/nodes/frame_sink.h"
 #include "stream/middleware.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Which messages a sink sends.
 struct MessageTopics {
@@ -31,4 +32,5 @@ struct MessageTopics {
 std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carrier,
                                              const MessageTopics& topics = {});
 
+}  // namespace detail
 }  // namespace pcl_bv

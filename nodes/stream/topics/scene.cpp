@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 namespace {
 
 std::string metres(double value) {
@@ -96,4 +96,4 @@ void fill_scene(const Frame& frame, const FrameResult& result, const std::vector
   }
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -10,7 +10,7 @@
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/nodes/topics.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Fills a foxglove_msgs/SceneUpdate with an entity for each object. The entity has all volumes of the
 /// object, its id as text and its properties as metadata. It replaces the last entity with the same id.
@@ -18,4 +18,4 @@ namespace pcl_bv {
 void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                 std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene);
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

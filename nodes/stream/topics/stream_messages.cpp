@@ -12,6 +12,7 @@
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv {
+using namespace detail;
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;

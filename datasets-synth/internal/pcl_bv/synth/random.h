@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
 ///
@@ -37,4 +38,5 @@ class SplitMix64 {
   std::uint64_t state_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

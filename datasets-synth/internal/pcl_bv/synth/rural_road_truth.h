@@ -9,7 +9,8 @@
 
 #include "pcl_bv/synth/rural_road.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns the pose in KITTI's format: 12 numbers, the upper three rows of the matrix from the sensor's frame
 /// to the fixed frame, and a line feed. The numbers of pose_line() and truth_line() have enough digits to be
@@ -30,4 +31,5 @@ std::string pose_line(const RuralRoadFrame& frame);
 ///  points    number of returns of the object in the cloud (0: occluded).
 std::string truth_line(const RuralRoadFrame& frame, std::size_t number);
 
+}  // namespace detail
 }  // namespace pcl_bv

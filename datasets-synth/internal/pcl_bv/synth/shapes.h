@@ -14,7 +14,8 @@
 
 #include "pcl_bv/synth/synth_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 inline constexpr std::array<double, 3> shape_center{1, 2, 3};        ///< Centre of all shapes.
 inline constexpr std::array<double, 3> box_half_extents{2, 1, 0.5};  ///< Half side lengths of make_box().
@@ -38,4 +39,5 @@ SynthCloud make_surface(std::size_t points, std::uint64_t seed, double shape = 0
 /// vector u = `direction`.
 double bumpy_radius(const std::array<double, 3>& direction, double shape);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -22,7 +22,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+namespace detail {
 struct Picture;
+}
 
 /// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. A histogram with logarithmic bins, each 1 %
 /// longer than the bin before. Never allocates.
@@ -152,7 +154,8 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 /// points that passed the filter in the colours of `labels` (from labels_of()) and the id of each cluster.
 /// Without clustering, it shows the points that passed the filter and are not ground. Refers to `frame`,
 /// `result` and `labels`.
-Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
+detail::Picture picture_of(const Frame& frame, const FrameResult& result,
+                           const std::vector<std::uint32_t>& labels);
 
 /// Detects results that a user should not trust:
 /// - no ground, little ground or only ground;

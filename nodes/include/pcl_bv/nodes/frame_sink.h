@@ -20,11 +20,14 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 class FramePipeline;
+namespace detail {
 class RemoteParameters;
+}
 
-/// Returns the settings of a pipeline for SinkGroup::offer_settings(), so that viewers can change them. The pipeline must outlive the returned object. Settings that read
-/// files or need other input (filter.regions, cluster.class_field and cluster.classes) cannot be changed.
-std::shared_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline);
+/// Returns the settings of a pipeline for SinkGroup::offer_settings(), so that viewers can change them. The
+/// pipeline must outlive the returned object. Settings that read files or need other input (filter.regions,
+/// cluster.class_field and cluster.classes) cannot be changed.
+std::shared_ptr<detail::RemoteParameters> remote_settings(FramePipeline& pipeline);
 
 /// Thrown if a pipe has no reader any more. A program that prints should then end, without reporting a
 /// failure.
@@ -46,7 +49,7 @@ class FrameSink {
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// Offers settings that the readers of the results may see and change. Called before the first frame.
-  virtual void offer_settings(const std::shared_ptr<RemoteParameters>& /*settings*/) {}
+  virtual void offer_settings(const std::shared_ptr<detail::RemoteParameters>& /*settings*/) {}
 
   /// Returns the warnings since the last call of take_warnings(), one line each. They affect no frame.
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -120,7 +123,7 @@ class SinkGroup {
   void add(const SinkOptions& description);
 
   /// Offers the settings to all sinks added so far.
-  void offer_settings(const std::shared_ptr<RemoteParameters>& settings);
+  void offer_settings(const std::shared_ptr<detail::RemoteParameters>& settings);
 
   /// Write to all sinks except those that have thrown IoError.
   void write(const Frame& frame, const FrameResult& result);

@@ -19,8 +19,6 @@
 #include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv {
-struct Moments;
-
 namespace [[gnu::visibility("default")]] detail {
 
 /// Minimum and maximum projection n . p of all points p along one direction n. The unit is that of the
@@ -39,6 +37,7 @@ enum class SupportDetail {
 };
 
 struct LocalHull;
+struct Moments;
 
 /// Supports of a cloud along directions of the cube.
 struct Supports {

@@ -30,10 +30,10 @@ class IoError : public std::runtime_error {
 /// "...'". Each byte that is not printable ASCII becomes `?`.
 std::string in_quotes(std::string_view text);
 
-namespace internal {
+namespace detail {
 void* allocate_buffer(std::size_t bytes);
 void free_buffer(void* memory, std::size_t bytes) noexcept;
-}  // namespace internal
+}  // namespace detail
 
 /// Standard allocator that leaves value-initialised elements uninitialised, such as the new elements of
 /// std::vector::resize(). Blocks of 4 MiB or more are aligned to 2 MiB, and the operating system is advised
@@ -50,10 +50,10 @@ class BufferAllocator {
   /// Returns uninitialised memory for `n` elements. Throws std::bad_alloc.
   T* allocate(std::size_t n) {
     if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
-    return static_cast<T*>(internal::allocate_buffer(n * sizeof(T)));
+    return static_cast<T*>(detail::allocate_buffer(n * sizeof(T)));
   }
   /// Frees memory that allocate(n) returned.
-  void deallocate(T* memory, std::size_t n) noexcept { internal::free_buffer(memory, n * sizeof(T)); }
+  void deallocate(T* memory, std::size_t n) noexcept { detail::free_buffer(memory, n * sizeof(T)); }
 
   /// Leaves the element uninitialised if it is of a trivial type.
   template <typename U>

@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Replaces the content of the file by `content` atomically. Writes a new file in the same folder and renames
 /// it to `path`. At every moment, also after an error, `path` is either unchanged (possibly missing) or has
@@ -40,4 +41,5 @@ void create_parent_folders(const std::filesystem::path& file);
 /// IoError and leaves the existing file unchanged.
 void remove_temporary_files() noexcept;
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Reads a .bin file, in which each point is `fields` (3 to 32) little-endian float32 values. The values
 /// become the fields x, y, z, intensity, ring, field6, field7 and so on. If `fields` is 0, files whose name
@@ -25,4 +26,5 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// std::invalid_argument if `fields` is neither 0 nor from 3 to 32.
 RawCloud read_bin(const std::filesystem::path& path, std::size_t fields = 0);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -8,7 +8,8 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Reads the points of a .las file, point formats 0 to 10. The fields of the cloud are:
 /// - x, y and z: doubles, X * scale + offset with each operation rounded once, in the file's unit and
@@ -32,4 +33,5 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// (points overlap extended records), compressed (LAZ), or of another version or point format.
 RawCloud read_las(const std::filesystem::path& path);
 
+}  // namespace detail
 }  // namespace pcl_bv

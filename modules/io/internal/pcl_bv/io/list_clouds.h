@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns whether `a` comes before `b` in natural order. In this order, runs of digits compare as integers
 /// of any length, and all other characters byte by byte. For example, frame2 comes before frame10. Names that
@@ -22,4 +23,5 @@ bool natural_less(std::string_view a, std::string_view b);
 std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& folder,
                                                std::size_t* subfolders = nullptr);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Reads the element `vertex` of a .ply file. The file can be ascii, binary_little_endian or
 /// binary_big_endian, with elements and properties in any order. x, y and z (or X, Y and Z) may be of any
@@ -22,4 +23,5 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// reported in RawCloud::note. Numbers, threads and errors are as in read_pcd().
 RawCloud read_ply(const std::filesystem::path& path, const Execution& execution = {Serial{}, Isa::scalar});
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -14,7 +14,8 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns the system's message for an errno value. It starts in lower case, such as "permission denied".
 std::string system_reason(int error);
@@ -68,4 +69,5 @@ class InputFile {
   struct stat opened_ {};
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

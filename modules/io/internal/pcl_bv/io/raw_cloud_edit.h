@@ -10,7 +10,8 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns a cloud of width n and height 1 with the float32 fields x, y, z, copied bit for bit from n triples
 /// x y z. Throws std::invalid_argument if the number of floats is not a multiple of three.
@@ -35,4 +36,5 @@ std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view na
 /// `packed_xyz` becomes empty. Throws IoError for integers above 2^53 in magnitude.
 void update_packed_xyz(RawCloud& cloud);
 
+}  // namespace detail
 }  // namespace pcl_bv

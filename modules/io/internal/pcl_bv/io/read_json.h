@@ -12,7 +12,7 @@
 
 #include "pcl_bv/io/untrusted_text.h"
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 using UntrustedJson = nlohmann::json;
 
@@ -66,4 +66,4 @@ inline std::string abbreviated(const UntrustedJson& value) {
   return text;
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

@@ -11,7 +11,8 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 inline constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;  ///< Settings as YAML.
 /// Maximum for metadata.yaml of rosbag2. It is large, because the file may contain the definitions of message
@@ -37,4 +38,5 @@ std::string_view next_json_value(std::string_view text, std::size_t& at);
 /// Returns the position of byte `at` such as "line 2, column 7". Lines and columns are counted from 1.
 std::string position_in(std::string_view text, std::size_t at);
 
+}  // namespace detail
 }  // namespace pcl_bv

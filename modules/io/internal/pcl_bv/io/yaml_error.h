@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace pcl_bv {
+namespace pcl_bv::detail {
 
 /// Returns the message for an error of yaml-cpp, such as "line 2: invalid YAML: ... (column 7)". yaml-cpp
 /// itself refuses nesting deeper than 500 levels, before its recursion can overflow the stack.
@@ -26,4 +26,4 @@ inline std::string yaml_error_message(const YAML::Exception& error) {
          ")";
 }
 
-}  // namespace pcl_bv
+}  // namespace pcl_bv::detail

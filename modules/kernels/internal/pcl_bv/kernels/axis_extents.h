@@ -10,7 +10,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Exact minimum and maximum coordinates of the valid points. Without valid points `low` is +infinity and
 /// `high` is -infinity. No coordinate is -0.
@@ -24,4 +25,5 @@ struct AxisExtents {
 /// caller must hold a FloatEnvironment. Throws std::invalid_argument if the points are not in memory.
 AxisExtents axis_extents(UsableIsa isa, const PointView& points);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -13,7 +13,8 @@
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A centre from which distances are measured, and a factor for the distances. The centre must be valid
 /// (is_valid()). `scale` is a power of two that brings the distances near 1. For float points it must be 1,
@@ -92,4 +93,5 @@ std::size_t octant(const Coordinates& p, const DistanceCenter& center);
 std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -12,7 +12,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Maximum number of half-spaces, which is the maximum number of facets of a polytope with 26 vertices.
 inline constexpr std::size_t kMaxHalfSpaces = 48;
@@ -47,4 +48,5 @@ struct HalfSpaces {
 std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -10,7 +10,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Sums over the valid points p of a block, computed from q = (p - origin) * 2^exponent.
 struct Moments {
@@ -35,4 +36,5 @@ struct Moments {
 /// points, and if the points are not in memory.
 Moments block_moments(UsableIsa isa, const PointView& block);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -16,7 +16,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Number of points in a packet, and number of boxes in a group.
 inline constexpr std::size_t kTreeWidth = 16;
@@ -111,4 +112,5 @@ std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, cons
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -17,7 +17,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// The shape of a region within its box low <= p <= high, with q = p - center.
 enum class RegionShape : std::uint8_t {
@@ -82,4 +83,5 @@ struct ChosenRegions {
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
                    const ChosenRegions& chosen, std::uint8_t* states);
 
+}  // namespace detail
 }  // namespace pcl_bv

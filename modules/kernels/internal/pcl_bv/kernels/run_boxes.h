@@ -10,7 +10,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Number of points in a run. One coordinate of a run of floats fills four AVX-512 vectors.
 inline constexpr std::size_t kRunPoints = 64;
@@ -27,4 +28,5 @@ struct RunBox {
 /// std::invalid_argument if the points are not in memory.
 void run_boxes(UsableIsa isa, const PointView& points, RunBox* boxes);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -12,7 +12,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// For each axis n: the minimum and maximum of the projection (nx qx + ny qy) + nz qz with q = p - origin,
 /// each step rounded to double. The points p are the valid points and the origin, whose projection is 0. No
@@ -29,4 +30,5 @@ struct SlabExtents {
 SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -16,7 +16,8 @@
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Maximum number of directions of chunk_supports(). It equals KdopSet::max_size, which is half the number of
 /// points of EPOS-98.
@@ -94,4 +95,5 @@ struct ChunkSupports {
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                     const SupportBounds& bounds, ChunkSupports& out);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 
 #include "pcl_bv/kernels/packed_tree.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A ball whose centre moves along from + t * direction, t >= 0, prepared for tests against the boxes and
 /// points of a tree. In the frame of the boxes (see BoxLevels), the direction is scaled by a power of two so
@@ -55,4 +56,5 @@ class PacketVisitor {
 /// The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
+}  // namespace detail
 }  // namespace pcl_bv

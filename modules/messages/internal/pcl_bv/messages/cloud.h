@@ -10,7 +10,8 @@
 #include "pcl_bv/messages/types.h"
 #include "pcl_bv/points/point_view.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns a view of the message's points without a copy. The view is valid as long as the message's data.
 /// The fields x, y and z (or X, Y and Z if the lower-case name is missing) must be adjacent in this order,
@@ -42,4 +43,5 @@ std::string skipped_fields_note(const msg::PointCloud2& cloud);
 /// view_points(). Takes linear time in the number of points.
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud);
 
+}  // namespace detail
 }  // namespace pcl_bv

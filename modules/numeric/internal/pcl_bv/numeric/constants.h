@@ -5,7 +5,8 @@
 
 #include <limits>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -17,4 +18,5 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 /// Smallest normal positive double. Added to an error bound, it covers the underflow of a few products.
 inline constexpr double kSmallestNormal = std::numeric_limits<double>::min();
 
+}  // namespace detail
 }  // namespace pcl_bv

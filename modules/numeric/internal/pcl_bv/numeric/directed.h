@@ -7,7 +7,8 @@
 // The caller of these functions must hold a FloatEnvironment (IEEE default rounding, no flush-to-zero).
 #pragma once
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns the next double above or below x. NaN returns NaN; next_up(+infinity) and next_down(-infinity)
 /// return their argument.
@@ -31,4 +32,5 @@ double divide_down(double a, double scale);
 float float_up(double x);
 float float_down(double x);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A direction through a face, corner or edge of the unit cube. Its components are -1, 0 or 1; it is not
 /// normalised.
@@ -37,4 +38,5 @@ constexpr std::size_t cube_direction(DirectionSet set, std::size_t k) {
   return set == DirectionSet::dop18 && k >= 3 ? k + 4 : k;
 }
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -8,7 +8,8 @@
 
 #include "pcl_bv/numeric/coordinates.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A direction of any length.
 using Direction = std::array<double, 3>;
@@ -22,4 +23,5 @@ int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q
 double project_down(const Direction& n, const Coordinates& p);
 double project_up(const Direction& n, const Coordinates& p);
 
+}  // namespace detail
 }  // namespace pcl_bv

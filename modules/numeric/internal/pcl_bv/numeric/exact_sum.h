@@ -4,7 +4,8 @@
 // Exact sums of three doubles. They decide the slabs of k-DOPs.
 #pragma once
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// The exact sum of three doubles, stored as the unevaluated sum head + tail + rest. `head` is the sum
 /// rounded to the nearest double.
@@ -22,4 +23,5 @@ double round_up(const ExactSum& sum);
 /// Returns the exact sign (-1, 0 or 1) of a - b.
 int compare(const ExactSum& a, const ExactSum& b);
 
+}  // namespace detail
 }  // namespace pcl_bv

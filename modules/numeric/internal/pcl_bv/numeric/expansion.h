@@ -7,7 +7,8 @@
 #include <array>
 #include <cstddef>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// An exact sum of doubles and of products of doubles, whose results are rounded only at the end.
 ///
@@ -60,4 +61,5 @@ class Expansion {
   bool lossy_ = false;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 #include <type_traits>
 #include <utility>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 // The functions below take any type with elements v[0], v[1], v[2]: Coordinates, std::array, Eigen's vectors
 // and expressions.
@@ -65,4 +66,5 @@ inline numeric_internal::PlainOf<Vector> unit3(const Vector& v) {
   return {v[0] / length, v[1] / length, v[2] / length};
 }
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -14,11 +14,10 @@
 
 #include "pcl_bv/parallel/execution.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
-namespace internal {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
                 const std::function<void(std::size_t)>& body);
-}  // namespace internal
 
 /// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads. Returns
 /// when all calls have returned.
@@ -29,7 +28,7 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 /// start parallel regions itself, but must never return from the body.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
-  internal::run_chunks(policy, chunks, std::ref(body));
+  run_chunks(policy, chunks, std::ref(body));
 }
 
 /// Calls body(begin, end) for consecutive ranges of `chunk_items` items that together cover 0 ... items - 1.
@@ -71,4 +70,5 @@ Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial 
   return result;
 }
 
+}  // namespace detail
 }  // namespace pcl_bv

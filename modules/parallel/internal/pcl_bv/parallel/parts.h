@@ -11,7 +11,8 @@
 
 #include "pcl_bv/parallel/for_each_chunk.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// The points 0 ... count - 1, cut into consecutive parts. A Part has members `begin` and `end`, and any
 /// members for the results of its task. Parts and the memory they own are reused by the next cut().
@@ -51,4 +52,5 @@ class PointParts {
   std::size_t used_ = 0;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

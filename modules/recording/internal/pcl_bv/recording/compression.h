@@ -5,9 +5,11 @@
 
 #include <cstdint>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Compression of a recording's chunks.
 enum class Compression : std::uint8_t { none, lz4, zstd };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -12,7 +12,8 @@
 #include "pcl_bv/recording/compression.h"
 #include "pcl_bv/recording/recording_writer.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Writes an MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) chunk by chunk. Each chunk
 /// has a CRC and is followed by its message indexes. If the process ends unexpectedly, all chunks except the
@@ -53,4 +54,5 @@ class McapWriter final : public RecordingWriter {
   std::unique_ptr<State> state_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -8,7 +8,8 @@
 #include <map>
 #include <string>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A topic to be written.
 struct WrittenTopic {
@@ -43,4 +44,5 @@ class RecordingWriter {
   virtual void close() = 0;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -8,7 +8,8 @@
 
 #include "pcl_bv/recording/recording_writer.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Writes a folder NAME as rosbag2 of Humble does, with NAME_0.db3 (SQLite) and metadata.yaml. close() writes
 /// metadata.yaml. Messages are committed by close() and by the first write() that comes 50 ms or more after
@@ -38,4 +39,5 @@ class Rosbag2Writer final : public RecordingWriter {
   std::unique_ptr<State> state_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

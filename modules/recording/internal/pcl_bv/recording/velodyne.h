@@ -12,7 +12,8 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A LiDAR return, in metres in the sensor's frame. z is up, y is at azimuth 0, x is at azimuth 90 degrees.
 struct VelodynePoint {
@@ -72,4 +73,5 @@ class VelodyneReader {
   std::unique_ptr<State> state_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

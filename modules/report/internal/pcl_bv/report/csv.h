@@ -9,7 +9,8 @@
 
 #include "pcl_bv/report/report.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Names of the columns of every volume.
 /// - cx, cy, cz: the center().
@@ -62,4 +63,5 @@ std::string report_csv_heading();
 /// and kCsvTrackedUprightColumns.
 std::string frames_csv_heading();
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -18,7 +18,8 @@
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/segmentation/clusters.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A Partial with the identity of its cloud and the indices of its points. Points are numbered over all
 /// inputs of the cloud in the order of the inputs, and each share uses these numbers. Therefore the result is
@@ -68,4 +69,5 @@ void write_partial_file(const std::filesystem::path& path, const PartialFile& fi
 /// Reads a file. Throws IoError, also if the file has more than 1 GiB.
 PartialFile read_partial_file(const std::filesystem::path& path);
 
+}  // namespace detail
 }  // namespace pcl_bv

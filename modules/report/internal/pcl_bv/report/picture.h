@@ -15,7 +15,8 @@
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A volume, and the colour and label with which it is drawn.
 struct PictureVolume {
@@ -78,4 +79,5 @@ std::string picture_svg(const Picture& picture);
 /// write_file_atomically(). If that throws IoError, an existing file is unchanged.
 void write_picture(const std::filesystem::path& path, const Picture& picture);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Reads all volumes of a JSON file written by pcd_bv, bv_stream or by hand. The file has one JSON value or
 /// several, such as one per line. A volume is an object, nested at most 64 deep, with a member "shape" and
@@ -32,4 +33,5 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// other than empty ones.
 std::vector<AnyVolume> read_volumes(const std::filesystem::path& file);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -9,7 +9,8 @@
 
 #include "pcl_bv/segmentation/clusters.h"
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Options of one class.
 struct ClassOptions {
@@ -53,4 +54,5 @@ class ClassClusterer {
   std::vector<std::size_t> order_;
 };
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -8,7 +8,8 @@
 #include <string>
 #include <string_view>
 
-namespace [[gnu::visibility("default")]] pcl_bv {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Parses an up direction. `text` is `x`, `y`, `z`, `-x`, `-y` or `-z`, or three finite numbers `X,Y,Z` that
 /// are not all 0. The numbers are not normalised. Throws std::invalid_argument for other text, with the text
@@ -25,4 +26,5 @@ std::string format_up(const Eigen::Vector3d& up);
 /// not finite.
 Eigen::Vector3d normalized_up(const Eigen::Vector3d& up);
 
+}  // namespace detail
 }  // namespace pcl_bv

@@ -21,7 +21,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+class PointTree;
+
+namespace detail {
 struct PackedTree;
+
+// Returns the points and boxes, for code that traverses the tree itself.
+const PackedTree& packed_tree(const PointTree& tree);
+}  // namespace detail
 
 /// The first point that a moving sphere touches. The centre of the sphere is then at origin + t direction.
 struct PointHit {
@@ -141,7 +148,7 @@ class PointTree {
   UsableIsa isa() const;
 
  private:
-  friend const PackedTree& packed_tree(const PointTree& tree);
+  friend const detail::PackedTree& detail::packed_tree(const PointTree& tree);
   struct State;
 
   const State& state() const;

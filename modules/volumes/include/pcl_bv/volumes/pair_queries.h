@@ -12,10 +12,10 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-namespace volumes_internal {
+namespace detail {
 class SupportShape;
 struct PosedShape;
-}  // namespace volumes_internal
+}  // namespace detail
 
 /// A volume that is prepared for many overlap and distance queries, as in trees of volumes and collision
 /// loops. The corners of a k-DOP, and the half-spaces of a k-DOP or hull relative to a point near the volume,
@@ -46,10 +46,10 @@ class ConvexBody {
   ConvexBody transformed(const Eigen::Isometry3d& transform) const;
 
  private:
-  friend volumes_internal::PosedShape;
+  friend detail::PosedShape;
 
   // The body is all points within radius_ of a point origin_ + rotation_ q, for the q of the shape's core.
-  std::shared_ptr<const volumes_internal::SupportShape> shape_;  // null if empty
+  std::shared_ptr<const detail::SupportShape> shape_;  // null if empty
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
   double radius_, size_;  // size_ is an upper bound of |rotation_ q|
