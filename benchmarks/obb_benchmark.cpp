@@ -77,15 +77,18 @@ std::vector<PointView> clusters() {
 
 void fit_clusters(const std::vector<PointView>& views, const std::vector<const Method*>& methods,
                   const Execution& execution) {
-  for_each_view(views, execution, [&](std::size_t i, const Execution& inner) {
-    detail::Supports supports;
-    const detail::FitExecution shared = detail::share_supports(views[i], methods, inner, supports);
-    for (const Method* method : methods) {
-      AnyVolume volume;
-      detail::fit_method(*method, views[i], {}, volume, shared);
-      benchmark::DoNotOptimize(volume);
-    }
-  });
+  for_each_view(
+      views,
+      [&](std::size_t i, const Execution& inner) {
+        detail::Supports supports;
+        const detail::FitExecution shared = detail::share_supports(views[i], methods, inner, supports);
+        for (const Method* method : methods) {
+          AnyVolume volume;
+          detail::fit_method(*method, views[i], {}, volume, shared);
+          benchmark::DoNotOptimize(volume);
+        }
+      },
+      execution);
 }
 
 std::vector<const Method*> named(const std::vector<std::string>& names) {

@@ -22,9 +22,9 @@ int main() {
   const pcl_bv::CloudSummary all = pcl_bv::summarize(cloud);
 
   const auto directions = std::make_shared<pcl_bv::KdopSet>(std::vector<Eigen::Vector3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 4, 0}});
-  const auto kdop = pcl_bv::fit_touched_kdop(cloud, directions, pcl_bv::OpenMP{2});
-  const pcl_bv::SlabPoints& touching = kdop.certificate;  // indices of the points that touch the sides of each slab
-  const auto sphere = pcl_bv::fit_smallest_sphere(cloud);  // its certificate: no enclosing sphere can be smaller
+  const auto kdop = pcl_bv::fit_kdop_with_contacts(cloud, directions, pcl_bv::OpenMP{2});
+  const pcl_bv::SlabPoints& touching = kdop.contacts;  // indices of the points that touch the sides of each slab
+  const auto sphere = pcl_bv::fit_smallest_sphere(cloud);  // its certificate proves the radius minimal to 1e-12
   if (const auto hit = kdop->intersect(origin, ray)) std::cout << hit->enter << "\n";
 
   const auto fitted = pcl_bv::fit_obb(cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()});

@@ -217,7 +217,7 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
           detail::fit_method(*now.methods[m], views[cluster], now.options, result.volumes[i], shared);
     }
   };
-  for_each_view(views, now.execution, std::cref(fit_cluster));
+  for_each_view(views, std::cref(fit_cluster), now.execution);
   if (now.reads_points) return;
   result.counts.nonfinite = result.results.front().dropped;  // no earlier stage has counted nonfinite points
   result.clusters.offsets.back() = result.results.front().used;

@@ -33,9 +33,12 @@ py::object fit_labelled(const PointArray& points, const std::vector<const Method
   std::vector<FittedVolumes> fitted(groups.size());
   {
     const py::gil_scoped_release unlocked;
-    for_each_view(groups.views(), execution, [&](std::size_t i, const Execution& own) {
-      fitted[i] = fit_methods(groups.views()[i], methods, options, own);
-    });
+    for_each_view(
+        groups.views(),
+        [&](std::size_t i, const Execution& own) {
+          fitted[i] = fit_methods(groups.views()[i], methods, options, own);
+        },
+        execution);
   }
   py::dict by_label;
   for (std::size_t i = 0; i < groups.size(); ++i)

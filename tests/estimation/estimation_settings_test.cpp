@@ -65,12 +65,12 @@ TEST(KdopEstimation, FitsAlongDirectionsOfYourOwn) {
   estimation.setInputCloud(cloud);
   Kdop kdop, with_points;
   SlabPoints touching;
-  const auto expected = fit_touched_kdop(*cloud, directions);
+  const auto expected = fit_kdop_with_contacts(*cloud, directions);
   estimation.compute(kdop);
   EXPECT_EQ(kdop, *expected);
   estimation.compute(with_points, touching);
   EXPECT_EQ(with_points, *expected);
-  EXPECT_EQ(touching.max, expected.certificate.max);
+  EXPECT_EQ(touching.max, expected.contacts.max);
   std::vector<Kdop> kdops;
   estimation.compute(std::vector<pcl::PointIndices>(2), kdops);
   EXPECT_EQ(kdops[1].set(), directions);

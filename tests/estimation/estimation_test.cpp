@@ -160,11 +160,11 @@ TEST(Estimation, AKdopTellsWhichPointsOfTheCloudTouchIt) {
     EXPECT_EQ((*cloud)[touching.min[0]].x, kdop.min(0));
   }
   EXPECT_EQ(touching.max[2] % 2, 1U) << "indices are the cloud's";
-  const SlabPoints also = fit_touched_kdop(*cloud, *odd, KdopSet::dop18()).certificate;
+  const SlabPoints also = fit_kdop_with_contacts(*cloud, *odd, KdopSet::dop18()).contacts;
   EXPECT_EQ(also.min, touching.min);
   EXPECT_EQ(also.max, touching.max);
-  const auto whole = fit_touched_kdop(*cloud, KdopSet::dop18());
-  EXPECT_EQ((*cloud)[whole.certificate.min[1]].y, whole->min(1));
+  const auto whole = fit_kdop_with_contacts(*cloud, KdopSet::dop18());
+  EXPECT_EQ((*cloud)[whole.contacts.min[1]].y, whole->min(1));
 }
 
 struct Scattered {

@@ -27,7 +27,8 @@ TEST(Batch, FitsEachViewOnceOnEveryExecution) {
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(name);
     std::vector<std::atomic<int>> calls(views.size());
-    for_each_view(views, execution, [&](std::size_t i, const Execution&) { ++calls.at(i); });
+    for_each_view(
+        views, [&](std::size_t i, const Execution&) { ++calls.at(i); }, execution);
     for (const auto& count : calls)
       EXPECT_EQ(count, 1);
   }
@@ -35,25 +36,26 @@ TEST(Batch, FitsEachViewOnceOnEveryExecution) {
 
 TEST(Batch, TakesTheLargestFirstAndEqualOnesInOrder) {
   std::vector<std::size_t> order;
-  for_each_view(views_of_sizes({5, 300'000, 5, 90, 400'000}), {Serial{}, Isa::scalar},
-                [&](std::size_t i, const Execution&) { order.push_back(i); });
+  for_each_view(views_of_sizes({5, 300'000, 5, 90, 400'000}),
+                [&](std::size_t i, const Execution&) { order.push_back(i); }, {Serial{}, Isa::scalar});
   EXPECT_EQ(order, (std::vector<std::size_t>{4, 1, 3, 0, 2}));
 }
 
 TEST(Batch, GivesBigCloudsTheWholePolicyAndOthersNone) {
   const std::vector<PointView> views = views_of_sizes({1'000'000, 1'000});
   std::vector<unsigned> threads(views.size());
-  for_each_view(views, {Threads{3}, Isa::scalar}, [&](std::size_t i, const Execution& execution) {
-    threads[i] = thread_count(execution.parallel);
-  });
+  for_each_view(
+      views,
+      [&](std::size_t i, const Execution& execution) { threads[i] = thread_count(execution.parallel); },
+      {Threads{3}, Isa::scalar});
   EXPECT_EQ(threads, (std::vector<unsigned>{3, 1}));
 }
 
 TEST(Batch, LetsExceptionsThrough) {
   const auto fail = [](std::size_t, const Execution&) { throw std::runtime_error("no"); };
-  EXPECT_THROW(for_each_view(views_of_sizes({1'000'000}), {Threads{2}, Isa::scalar}, fail),
+  EXPECT_THROW(for_each_view(views_of_sizes({1'000'000}), fail, {Threads{2}, Isa::scalar}),
                std::runtime_error);
-  EXPECT_THROW(for_each_view(views_of_sizes({10, 20}), {Threads{2}, Isa::scalar}, fail), std::runtime_error);
+  EXPECT_THROW(for_each_view(views_of_sizes({10, 20}), fail, {Threads{2}, Isa::scalar}), std::runtime_error);
 }
 
 template <typename VolumeT, typename Fit>

@@ -96,7 +96,7 @@ template <typename T>
 void write_own_kdop(std::ostream& out, const test::TestCloud<T>& cloud) {
   Kdop kdop;
   SlabPoints touching;
-  test::take(fit_touched_kdop(cloud.view(), own_set()), kdop, touching);
+  test::take(fit_kdop_with_contacts(cloud.view(), own_set()), kdop, touching);
   out << "own directions, " << (sizeof(T) == 4 ? "float, " : "double, ") << cloud.name << ":";
   for (const std::uint64_t number : test::bits(kdop))
     out << ' ' << std::hex << number << std::dec;

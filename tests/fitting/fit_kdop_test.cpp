@@ -68,9 +68,9 @@ TEST(FitKdop, OfTheCubesDirectionsIsTheBuiltInOne) {
     SCOPED_TRACE(cloud.name);
     Kdop kdop, expected;
     SlabPoints touching, expected_touching;
-    const EstimationResult result = test::take(fit_touched_kdop(cloud.view(), set), kdop, touching);
+    const EstimationResult result = test::take(fit_kdop_with_contacts(cloud.view(), set), kdop, touching);
     const EstimationResult built_in =
-        test::take(fit_touched_kdop(cloud.view(), KdopSet::dop26()), expected, expected_touching);
+        test::take(fit_kdop_with_contacts(cloud.view(), KdopSet::dop26()), expected, expected_touching);
     EXPECT_EQ(kdop, expected);
     EXPECT_EQ(touching.min, expected_touching.min);
     EXPECT_EQ(touching.max, expected_touching.max);
@@ -123,7 +123,7 @@ void expect_touching(const std::shared_ptr<const KdopSet>& set) {
     SCOPED_TRACE(cloud.name);
     Kdop kdop;
     SlabPoints touching{{7}, {7}};
-    const EstimationResult result = test::take(fit_touched_kdop(cloud.view(), set), kdop, touching);
+    const EstimationResult result = test::take(fit_kdop_with_contacts(cloud.view(), set), kdop, touching);
     ASSERT_EQ(touching.min.size(), result.used == 0 ? 0 : set->size());
     ASSERT_EQ(touching.max.size(), touching.min.size());
     for (std::size_t k = 0; k < touching.min.size(); ++k) {
@@ -152,7 +152,7 @@ TEST(FitKdop, AskingForTheSlabPointsDoesNotChangeTheKdop) {
       SCOPED_TRACE(cloud.name);
       Kdop a, b;
       SlabPoints touching;
-      EXPECT_EQ(test::take(fit_touched_kdop(cloud.view(), set), a, touching).rank,
+      EXPECT_EQ(test::take(fit_kdop_with_contacts(cloud.view(), set), a, touching).rank,
                 test::take(fit_kdop(cloud.view(), set), b).rank);
       EXPECT_EQ(a, b);
     }
@@ -164,7 +164,8 @@ TEST(FitKdop, ANullSetIsAnError) {
   Kdop kdop;
   SlabPoints touching;
   EXPECT_THROW(test::take(fit_kdop(cloud.view(), nullptr), kdop), std::invalid_argument);
-  EXPECT_THROW(test::take(fit_touched_kdop(cloud.view(), nullptr), kdop, touching), std::invalid_argument);
+  EXPECT_THROW(test::take(fit_kdop_with_contacts(cloud.view(), nullptr), kdop, touching),
+               std::invalid_argument);
 }
 
 }  // namespace

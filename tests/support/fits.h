@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "pcl_bv/fitting/result.h"
+#include "pcl_bv/fitting/fit.h"
 
 namespace pcl_bv::test {
 
@@ -22,6 +22,12 @@ template <typename VolumeT, typename CertificateT>
 EstimationResult take(Certified<VolumeT, CertificateT>&& fitted, VolumeT& volume, CertificateT& certificate) {
   certificate = std::move(fitted.certificate);
   return take(static_cast<Fitted<VolumeT>&&>(fitted), volume);
+}
+
+/// Moves the points that touch the k-DOP to `contacts`, too.
+inline EstimationResult take(KdopWithContacts&& fitted, Kdop& kdop, SlabPoints& contacts) {
+  contacts = std::move(fitted.contacts);
+  return take(static_cast<Fitted<Kdop>&&>(fitted), kdop);
 }
 
 }  // namespace pcl_bv::test

@@ -48,7 +48,8 @@ auto fit_each(const PointView& points, const IndexLists& clusters, const Executi
               const Fit& fit) {
   const std::vector<PointView> views = subsets(points, clusters);
   std::vector<decltype(fit(points, execution))> all(views.size());
-  for_each_view(views, execution, [&](std::size_t i, const Execution& own) { all[i] = fit(views[i], own); });
+  for_each_view(
+      views, [&](std::size_t i, const Execution& own) { all[i] = fit(views[i], own); }, execution);
   return all;
 }
 
@@ -63,12 +64,12 @@ Fitted<Kdop> fit_kdop(const PointView& points, const std::shared_ptr<const KdopS
   return fitted<Kdop>([&](Kdop& kdop) { return detail::fit_kdop(points, set, kdop, nullptr, execution); });
 }
 
-Certified<Kdop, SlabPoints> fit_touched_kdop(const PointView& points,
-                                             const std::shared_ptr<const KdopSet>& set,
-                                             const Execution& execution) {
-  return certified<Kdop, SlabPoints>([&](Kdop& kdop, SlabPoints& touching) {
-    return detail::fit_kdop(points, set, kdop, &touching, execution);
-  });
+KdopWithContacts fit_kdop_with_contacts(const PointView& points, const std::shared_ptr<const KdopSet>& set,
+                                        const Execution& execution) {
+  KdopWithContacts fitted;
+  static_cast<EstimationResult&>(fitted) =
+      detail::fit_kdop(points, set, fitted.volume, &fitted.contacts, execution);
+  return fitted;
 }
 
 Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options, const Execution& execution) {
@@ -161,8 +162,9 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
                   [](const PointView& view, const Execution& own) { return fit_ellipsoid(view, own); });
 }
 
-void for_each_view(const std::vector<PointView>& views, const Execution& execution,
-                   const std::function<void(std::size_t, const Execution&)>& fit) {
+void for_each_view(const std::vector<PointView>& views,
+                   const std::function<void(std::size_t, const Execution&)>& fit,
+                   const Execution& execution) {
   const auto larger = [&](std::size_t a, std::size_t b) {
     return std::make_pair(views[b].count, a) < std::make_pair(views[a].count, b);
   };

@@ -66,8 +66,8 @@ std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, cons
   if (!(radius >= 0 && radius <= kMaxCoordinate))
     throw_out_of_range_value("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
-  if (direction.isZero(0)) return smallest_index_inside(isa(), state().tree, Sphere(origin, radius));
-  return FirstHit(state().tree, origin, direction, radius).among(isa());
+  if (direction.isZero(0)) return smallest_index_inside(state().isa, state().tree, Sphere(origin, radius));
+  return FirstHit(state().tree, origin, direction, radius).among(state().isa);
 }
 
 }  // namespace pcl_bv

@@ -58,8 +58,9 @@ PointTree& PointTree::operator=(const PointTree& other) {
 }
 
 const PointTree::State& PointTree::state() const {
+  if (state_) return *state_;
   static const State empty;
-  return state_ ? *state_ : empty;
+  return empty;
 }
 
 std::size_t PointTree::size() const {
@@ -109,7 +110,7 @@ std::optional<Neighbor> PointTree::nearest(const Eigen::Vector3d& point, double 
   const FloatEnvironment environment;
   const double limit = square_limit(max_distance);
   if (!is_valid(coordinates(point))) return std::nullopt;
-  return find_nearest(isa(), state().tree, coordinates(point), limit);
+  return find_nearest(state().isa, state().tree, coordinates(point), limit);
 }
 
 void PointTree::nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
@@ -117,26 +118,26 @@ void PointTree::nearest(const Eigen::Vector3d& point, std::size_t k, std::vector
   const FloatEnvironment environment;
   const double limit = square_limit(max_distance);
   found.clear();
-  if (is_valid(coordinates(point))) list_nearest(isa(), state().tree, coordinates(point), k, limit, found);
+  if (is_valid(coordinates(point))) list_nearest(state().isa, state().tree, coordinates(point), k, limit, found);
 }
 
 void PointTree::near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const {
   const FloatEnvironment environment;
   const double limit = square_limit(distance);
   found.clear();
-  if (is_valid(coordinates(point))) list_in_ball(isa(), state().tree, coordinates(point), limit, found);
+  if (is_valid(coordinates(point))) list_in_ball(state().isa, state().tree, coordinates(point), limit, found);
 }
 
 bool PointTree::any_near(const Eigen::Vector3d& point, double distance) const {
   const FloatEnvironment environment;
   const double limit = square_limit(distance);
-  return is_valid(coordinates(point)) && any_in_ball(isa(), state().tree, coordinates(point), limit);
+  return is_valid(coordinates(point)) && any_in_ball(state().isa, state().tree, coordinates(point), limit);
 }
 
 bool PointTree::any_inside(const Sphere& sphere) const {
   const FloatEnvironment environment;
   return !sphere.empty() &&
-         any_in_ball(isa(), state().tree, coordinates(sphere.center()), sphere.max_squared_distance());
+         any_in_ball(state().isa, state().tree, coordinates(sphere.center()), sphere.max_squared_distance());
 }
 
 }  // namespace pcl_bv

@@ -49,9 +49,9 @@ int main() {
   const auto directions = std::make_shared<pcl_bv::KdopSet>(
       std::vector<Eigen::Vector3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 4, 0}});
   const auto touched =
-      pcl_bv::fit_touched_kdop(*cloud, directions, {pcl_bv::OpenMP{2}, pcl_bv::Isa::automatic});
+      pcl_bv::fit_kdop_with_contacts(*cloud, directions, {pcl_bv::OpenMP{2}, pcl_bv::Isa::automatic});
   const pcl_bv::Kdop& kdop = *touched;
-  const pcl_bv::SlabPoints& touching = touched.certificate;
+  const pcl_bv::SlabPoints& touching = touched.contacts;
   const auto hit = kdop.intersect({-5, 0.5, 1}, {1, 0, 0});
   pcl_bv::Obb obb = *pcl_bv::fit_obb(*cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()});
   if (obb.oriented_as(obb) != obb || !obb.contains({0, 0.2, 1})) {

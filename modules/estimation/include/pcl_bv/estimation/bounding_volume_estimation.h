@@ -81,9 +81,12 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
       views.push_back(point_view(cloud(), cluster.indices));
     volumes.assign(clusters.size(), VolumeT());
     std::vector<EstimationResult> results(clusters.size());
-    for_each_view(views, execution_, [&](std::size_t c, const Execution& execution) {
-      results[c] = take(fit(views[c], execution), volumes[c]);
-    });
+    for_each_view(
+        views,
+        [&](std::size_t c, const Execution& execution) {
+          results[c] = take(fit(views[c], execution), volumes[c]);
+        },
+        execution_);
     return results;
   }
 
@@ -167,8 +170,8 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   /// Fits the k-DOP as compute(kdop) does. For each slab, stores in `touching` the indices of the points of
   /// the input cloud that touch its two sides. `touching` is empty if there is no valid point.
   EstimationResult compute(Kdop& kdop, SlabPoints& touching) const {
-    auto fitted = fit_touched_kdop(this->input(), directions_, this->execution());
-    touching = std::move(fitted.certificate);
+    auto fitted = fit_kdop_with_contacts(this->input(), directions_, this->execution());
+    touching = std::move(fitted.contacts);
     return this->take(std::move(fitted), kdop);
   }
 

@@ -29,7 +29,7 @@ PointView point_view(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& i
   return point_view(cloud).subset(indices.data(), indices.size());
 }
 
-/// The functions of this header call the function of the same name in fitting/fit.h or fitting/summary.h.
+/// The functions of this header call the function of the same name in fitting/fit.h.
 /// They fit all points of the cloud, or only the points with the given indices. They throw std::out_of_range
 /// for an index outside the cloud.
 template <typename PointT>
@@ -56,17 +56,16 @@ Fitted<Kdop> fit_kdop(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& 
 }
 
 template <typename PointT>
-Certified<Kdop, SlabPoints> fit_touched_kdop(const pcl::PointCloud<PointT>& cloud,
-                                             const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
-                                             const Execution& execution = {}) {
-  return fit_touched_kdop(point_view(cloud), set, execution);
+KdopWithContacts fit_kdop_with_contacts(const pcl::PointCloud<PointT>& cloud,
+                                        const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
+                                        const Execution& execution = {}) {
+  return fit_kdop_with_contacts(point_view(cloud), set, execution);
 }
 template <typename PointT>
-Certified<Kdop, SlabPoints> fit_touched_kdop(const pcl::PointCloud<PointT>& cloud,
-                                             const pcl::Indices& indices,
-                                             const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
-                                             const Execution& execution = {}) {
-  return fit_touched_kdop(point_view(cloud, indices), set, execution);
+KdopWithContacts fit_kdop_with_contacts(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                                        const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
+                                        const Execution& execution = {}) {
+  return fit_kdop_with_contacts(point_view(cloud, indices), set, execution);
 }
 
 template <typename PointT>

@@ -46,15 +46,20 @@ Fitted<Aabb> fit_aabb(const PointView& points, const Execution& execution = {});
 Fitted<Kdop> fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
                       const Execution& execution = {});
 
+/// A k-DOP and the points that touch it.
+struct KdopWithContacts : Fitted<Kdop> {
+  SlabPoints contacts;
+};
+
 /// Fits the k-DOP as fit_kdop() does, and finds the points that touch its slabs. Takes about four times as
-/// long as fit_kdop() for KdopSet::dop6(), and as long as fit_kdop() for other sets.
-Certified<Kdop, SlabPoints> fit_touched_kdop(const PointView& points,
-                                             const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
-                                             const Execution& execution = {});
+/// long as fit_kdop() for KdopSet::dop6(), and about as long for other sets.
+KdopWithContacts fit_kdop_with_contacts(const PointView& points,
+                                        const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
+                                        const Execution& execution = {});
 
 /// Fits a sphere around the points. Centre and radius are in the points' unit. The paper, §3. Empty input and
-/// errors are as for fit_aabb(). One point or equal points give radius 0. Takes two passes over the points,
-/// `epos98` three.
+/// errors are as for fit_aabb(). One point or equal points give radius 0. The growing
+/// methods take two passes over the points, `epos98` three; for `exact` see fit_smallest_sphere().
 Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options = {},
                           const Execution& execution = {});
 
@@ -154,11 +159,11 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
 /// fits gets Serial. The fit of one view of middle size is timed. If all smaller views together would take
 /// too little time to be worth a second thread, the calling thread fits them all.
 ///
-/// If fits of smaller views throw, all other smaller views are still fitted, and one exception is rethrown,
-/// as for_each_chunk() describes. If the fit of a large view or of the timed view throws, no further view is
-/// fitted.
-void for_each_view(const std::vector<PointView>& views, const Execution& execution,
-                   const std::function<void(std::size_t, const Execution&)>& fit);
+/// If fits of smaller views throw, all other smaller views are still fitted, and one of the exceptions is
+/// rethrown; which one is not specified. If the fit of a large view or of the timed view throws, no further
+/// view is fitted.
+void for_each_view(const std::vector<PointView>& views,
+                   const std::function<void(std::size_t, const Execution&)>& fit, const Execution& execution);
 
 /// Result of verify().
 struct Verification {

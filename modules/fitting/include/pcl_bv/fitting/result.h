@@ -14,7 +14,7 @@ enum class EstimationStatus : std::uint8_t {
   ok,               ///< The points span three dimensions.
   degenerate,       ///< The points lie in a plane, on a line or in one point: rank < 3.
   no_valid_points,  ///< There is no valid point, and the volume is empty.
-  failed            ///< A library that the fit uses failed, and the volume is empty.
+  failed            ///< The fit failed, and the volume is empty. No fit of this version returns it.
 };
 
 /// Status, rank and point counts of a fit.
@@ -42,6 +42,11 @@ struct EstimationResult {
 template <typename VolumeT>
 struct Fitted : EstimationResult {
   VolumeT volume{};  ///< The volume; empty without a valid point and after a failure.
+
+  /// Whether there is a volume: there are valid points, and the fit did not fail.
+  explicit operator bool() const {
+    return status == EstimationStatus::ok || status == EstimationStatus::degenerate;
+  }
 
   const VolumeT& operator*() const { return volume; }
   VolumeT& operator*() { return volume; }

@@ -40,14 +40,14 @@ struct Threads {
 
 /// Runs on threads of the host program.
 ///
-/// `run(tasks, task)` must call task(0) ... task(tasks - 1) on any threads, concurrently or one after
-/// another, and return when these calls have returned. `tasks` is at most `threads`; `threads` 0 means as
-/// many as `Threads{}` uses. With TBB: `[](std::size_t tasks, const auto& task) {
+/// `run(tasks, task)` should call each of task(0) ... task(tasks - 1) once, on any threads, concurrently or
+/// one after another, and return when these calls have returned. `tasks` is at most `threads`; `threads` 0
+/// means as many as `Threads{}` uses. With TBB: `[](std::size_t tasks, const auto& task) {
 /// tbb::parallel_for(std::size_t{0}, tasks, task); }`.
 ///
-/// `run` may also omit tasks, or copy `task` and call it later. The thread that called `run` then does the
-/// remaining work. An exception from `run` is rethrown when all tasks that have begun have ended. In this
-/// case some of the work may not have been done.
+/// The thread that called `run` completes the work of tasks that `run` has not called. Calls after `run` has
+/// returned have no effect. An exception from `run` is rethrown when all tasks that have begun have ended. In
+/// this case some of the work may not have been done.
 struct Executor {
   unsigned threads = 0;
   std::function<void(std::size_t tasks, const std::function<void(std::size_t)>& task)> run;
@@ -70,7 +70,7 @@ ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 struct Execution {
   Execution() = default;
 
-  /// `isa` `automatic` is resolved here, not when the Execution is copied; see UsableIsa.
+  /// `instructions` `automatic` is resolved here, not when the Execution is copied; see UsableIsa.
   template <typename Policy, typename = std::enable_if_t<std::is_convertible_v<Policy, ParallelPolicy>>>
   Execution(Policy policy, UsableIsa instructions = {}) : parallel(std::move(policy)), isa(instructions) {}
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The input of all functions: a non-owning view that fits every layout of points. view() makes one from an array of
-// points of any type.
+// The input of all functions: a non-owning view that fits every layout of points. view() makes one from an
+// array of points of any type.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ inline constexpr std::size_t kGroupBytes = 64;
 class PointSource;
 
 /// A read-only view of points, either of all points of an array or of those that an index list selects. The
-/// view does not own the memory, which must outlive the view. Kernels and segmentation take points that are
-/// in memory; fits and verify() also take points of a PointSource.
+/// view does not own the memory, which must outlive the view. Fits, verify(), cloud_statistics() and masks
+/// also take points of a PointSource; all other functions take points in memory.
 ///
 /// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records they need
 /// no alignment. They may be NaN or infinite. Functions that read the coordinates drop such points.
@@ -92,10 +92,11 @@ struct PointView {
   /// Returns the number of bytes from a point's x to its y, and from its y to its z.
   std::size_t step() const { return order == PointOrder::records ? size_of(scalar) : kGroupBytes; }
 
-  /// Returns a view of the points of the cloud with these indices, in the order of `indices`, which must
-  /// outlive the view. An index is a value of index(). O(size), or O(size + count) for a view with an index
-  /// list. Throws std::out_of_range, naming the index, for an index below or above those of this view, and
-  /// std::invalid_argument for points of a source, which can only be visited in their order.
+  /// Returns a view of the points with the indices `selected`, in this order. These are indices in the cloud
+  /// (values of index()), not positions in this view. `selected` must outlive the view. O(size), or O(size +
+  /// count) for a view with an index list. Throws std::out_of_range, naming the index, for an index below or
+  /// above those of this view, and std::invalid_argument for points of a source, which can only be visited in
+  /// their order.
   PointView subset(const std::int32_t* selected, std::size_t size) const;
   PointView subset(const std::vector<std::int32_t>& selected) const {
     return subset(selected.data(), selected.size());
@@ -103,8 +104,8 @@ struct PointView {
   PointView subset(std::vector<std::int32_t>&& selected) const =
       delete;  // the view would outlive the indices
 
-  /// Returns a view of the visited points [begin, begin + n). index() of the returned view is still the index
-  /// in the cloud.
+  /// Returns a view of the visited points [begin, begin + n), which are not checked against the size. index()
+  /// of the returned view is still the index in the cloud.
   PointView slice(std::size_t begin, std::size_t n) const {
     PointView part = *this;
     part.count = n;
@@ -128,7 +129,7 @@ struct IndexLists {
   bool empty() const { return size() == 0; }
   /// Returns the number of indices in list i.
   std::size_t list_size(std::size_t i) const { return offsets[i + 1] - offsets[i]; }
-  /// Returns the first index of list i.
+  /// Returns a pointer to the indices of list i.
   const std::int32_t* list(std::size_t i) const { return indices.data() + offsets[i]; }
 };
 

@@ -89,7 +89,7 @@ class RecordingReader {
 };
 
 /// Opens a recording, which is an MCAP file, a ROS 1 bag, or a rosbag2 folder or file (.db3, .db3.zstd,
-/// .mcap.zstd). The format is detected as in is_recording(). Throws IoError (io_error.h), without the file's
+/// .mcap.zstd). The format is detected as in is_recording(). Throws IoError, without the file's
 /// name, if the file cannot be read or its format is unknown.
 std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& file);
 

@@ -40,7 +40,7 @@ enum class Oversized : std::uint8_t {
 /// Options of a clustering.
 struct ClusterOptions {
   /// Points nearer to each other than this are linked. Unit of the points; finite and > 0.
-  float tolerance;
+  float tolerance = 0;
   /// Clusters with fewer points are dropped.
   std::size_t min_size = 1;
   /// Clusters with more points are treated as `oversized` says.
@@ -65,7 +65,7 @@ struct Clusters : IndexLists {
   std::size_t small_points = 0;  ///< Number of points in clusters with fewer than min_size points.
   std::size_t large_points = 0;  ///< Number of points in clusters with more than max_size points.
   std::size_t noise_points = 0;  ///< Number of points that are neither core points nor linked to one.
-  std::size_t class_points = 0;  ///< Number of points in dropped classes: ClassOptions::drop.
+  std::size_t class_points = 0;  ///< Number of points of classes that are dropped.
 };
 
 /// Finds Euclidean clusters. These are the connected components of the graph that links two points if their

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ground removal, without PCL: by one plane for floors and flat roads, or by zones for outdoor scenes, where roads climb,
-// sink and have curbs, and roadsides are rough. Clustering needs it because the ground would connect all objects.
-// Also estimates where the sensor is: ground zones, ranges and growing tolerances are measured from it.
+// Ground removal, without PCL: by one plane for floors and flat roads, or by zones for outdoor scenes, where
+// roads climb, sink and have curbs, and roadsides are rough. Clustering needs it because the ground would
+// connect all objects. Also estimates where the sensor is: ground zones, ranges and growing tolerances are
+// measured from it.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +40,7 @@ struct GroundScratch {
   std::vector<Eigen::Vector3d> sample, support, lowest;
 };
 
-/// Position of the sensor of a cloud, found by find_sensor() in sensor_position.h.
+/// Position of the sensor of a cloud, found by find_sensor().
 struct SensorPosition {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< In the frame of the cloud, metres.
   /// Whether the points lie around the assumed position. If they do not, `position` is an estimate.
@@ -187,7 +188,7 @@ struct OtherUp {
   Eigen::Vector3d up;  ///< Direction against gravity.
   double share;        ///< Share of the points near the ground plane, 0 to 1.
 };
-/// Searches another up direction, in which many more points of the cloud are ground.
+/// Looks for a better up direction, in which many more points of the cloud are ground.
 ///
 /// The directions are z, -y (a camera's frame), y, -z, x, -x and (0, -1, -1) (a camera that looks down). They
 /// are tried in this order, with the distance and slope of `options`. Directions close to options.up are

@@ -11,7 +11,7 @@
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "support_cube.cpp"
+#define HWY_TARGET_INCLUDE "kdop_supports.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
