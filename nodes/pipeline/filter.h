@@ -93,20 +93,4 @@ class FilteredPoints final : public PointSource {
   std::shared_ptr<const PointFilter> filter_;
 };
 
-/// Returns the points of a cloud in memory that have these numbers. The numbers are not checked.
-inline PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
-  // The numbers count from the first point of the cloud, but the data of a slice begin at the slice's first
-  // point.
-  const bool moved = cloud.indices == nullptr && cloud.order == PointOrder::records && cloud.data != nullptr;
-  if (moved) cloud.data -= cloud.stride * cloud.first;
-  cloud.first = 0;
-  cloud.indices = numbers;
-  cloud.count = count;
-  return cloud;
-}
-
-inline PointView subset(const PointView& cloud, const std::vector<std::int32_t>& numbers) {
-  return subset(cloud, numbers.data(), numbers.size());
-}
-
 }  // namespace pcl_bv::detail

@@ -16,6 +16,7 @@
 #include "ground.h"
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/select_points.h"
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
 #include "synthetic_sweep.h"
@@ -140,7 +141,7 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
   result.ground.sensor = result.sensor;
   if (config.method == GroundMethod::none) return points;
   result.counts.ground = result.ground.ground.size();
-  return subset(points, result.ground.rest);
+  return select_points(points, result.ground.rest);
 }
 
 // Makes all points one object, if the object is neither too small nor too large.

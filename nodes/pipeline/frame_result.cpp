@@ -9,6 +9,7 @@
 #include "filter.h"
 #include "ground.h"
 #include "pcl_bv/points/point_source.h"
+#include "pcl_bv/points/select_points.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
@@ -18,7 +19,7 @@ using namespace detail;
 
 PointView FrameResult::points_after_filter(const PointView& cloud) const {
   if (counts.range + counts.inside == 0) return cloud;
-  if (!filtered) return subset(cloud, passed_filter);
+  if (!filtered) return select_points(cloud, passed_filter);
   PointView view = view_of(*filtered, points, cloud.scalar);
   view.first = cloud.first;
   return view;
@@ -28,7 +29,7 @@ PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) co
   const std::size_t size = clusters.list_size(cluster);
   if (size == 0) return cloud.slice(0, 0);
   if (clusters.indices.empty()) return points_after_filter(cloud);
-  return subset(cloud, clusters.list(cluster), size);
+  return select_points(cloud, clusters.list(cluster), size);
 }
 
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result) {
@@ -163,7 +164,7 @@ Picture picture_of(const Frame& frame, const FrameResult& result, const std::vec
   for (const Method* method : result.methods)
     picture.methods.emplace_back(method->name);
   picture.points =
-      ground ? subset(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
+      ground ? select_points(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
   if (clusters) picture.labels = labels.data();
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {
     std::string label = clusters ? std::to_string(id) : "";  // shown at the first volume that is not empty

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "arrays.h"
+#include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::python {
 using namespace detail;
@@ -58,9 +59,7 @@ LabelGroups::LabelGroups(py::handle labels, const PointView& points) {
     labels_.push_back(label_of(numbers_[begin]));
     while (end < numbers_.size() && label_of(numbers_[end]) == labels_.back())
       ++end;
-    PointView& view = views_.emplace_back(points);
-    view.indices = numbers_.data() + begin;
-    view.count = end - begin;
+    views_.push_back(select_points(points, numbers_.data() + begin, end - begin));
   }
 }
 

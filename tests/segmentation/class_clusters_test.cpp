@@ -119,6 +119,26 @@ TEST(ClassClusters, OfAnIndexListLookUpClassesByPointNumber) {
   EXPECT_EQ(found.class_of, std::vector<std::int64_t>{5});
 }
 
+TYPED_TEST(ClassClusters, OfASliceAreThoseOfItsIndexList) {
+  const auto cloud = test::uniform_cloud<TypeParam>(600, 1, 4);
+  const PointView points = view_of(cloud);
+  std::vector<std::int64_t> classes(cloud.size());
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    classes[i] = static_cast<std::int64_t>(i % 3);
+  std::vector<std::int32_t> list(250);
+  std::iota(list.begin(), list.end(), 200);
+  Found expected, found;
+  const std::vector<ClassOptions> own = {{1, {0.3F, 2}}, {2, {0.2F}, true}};
+  ClassClusterer().extract(points.subset(list), classes, {0.2F, 2}, own, expected.clusters,
+                           expected.class_of);
+  ClassClusterer().extract(points.slice(200, 250), classes, {0.2F, 2}, own, found.clusters, found.class_of);
+  ASSERT_GT(expected.clusters.size(), 2U);
+  EXPECT_EQ(found.clusters.indices, expected.clusters.indices);
+  EXPECT_EQ(found.clusters.offsets, expected.clusters.offsets);
+  EXPECT_EQ(found.class_of, expected.class_of);
+  EXPECT_EQ(found.clusters.class_points, expected.clusters.class_points);
+}
+
 TEST(ClassClusters, OfNoPointsAreNone) {
   Found found = by_class(kRow, {1, 1, 1, 1}, {1});
   ASSERT_EQ(found.clusters.size(), 1U);

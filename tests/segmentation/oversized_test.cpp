@@ -4,6 +4,8 @@
 // What becomes of clusters above the greatest size.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "dbscan_reference.h"
 #include "pcl_bv/parallel/execution.h"
 
@@ -113,6 +115,20 @@ TEST(Oversized, TwoBlocksWithABridgeOfFewPointsAreTwo) {
   EXPECT_EQ(parts.list_size(0), 100U);
   EXPECT_EQ(parts.list_size(1), 100U);
   EXPECT_EQ(parts.small_points, 4U);
+}
+
+TEST(Oversized, PartsOfASliceAreThoseOfItsIndexList) {
+  const Cloud<float> cloud = test::uniform_cloud<float>(900, 1, 3);
+  const PointView points = test::view_of(cloud);
+  std::vector<std::int32_t> list(400);
+  std::iota(list.begin(), list.end(), 300);
+  ClusterOptions options{0.3F, 2, 40};
+  options.oversized = Oversized::split;
+  const Clusters expected = cluster(points.subset(list), options);
+  ASSERT_GT(expected.size(), 1U);
+  const Clusters found = cluster(points.slice(300, 400), options);
+  EXPECT_EQ(found.indices, expected.indices);
+  EXPECT_EQ(found.offsets, expected.offsets);
 }
 
 TEST(Oversized, PartsOfAToleranceThatGrowsHalveItAtEveryRange) {

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pcl_bv/points/select_points.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -25,8 +27,8 @@ IndexRange range_of(const PointView& points) {
   return {static_cast<std::size_t>(*low), static_cast<std::size_t>(*high) + 1};
 }
 
-PointView select(const PointView& points, const IndexRange& range, const std::int32_t* selected,
-                 std::size_t size) {
+PointView select_checked(const PointView& points, const IndexRange& range, const std::int32_t* selected,
+                         std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
     const auto index = static_cast<std::size_t>(selected[i]);
     if (selected[i] >= 0 && index >= range.begin && index < range.end) continue;
@@ -35,20 +37,13 @@ PointView select(const PointView& points, const IndexRange& range, const std::in
         (range.begin == range.end ? std::string("none")
                                   : std::to_string(range.begin) + " to " + std::to_string(range.end - 1)));
   }
-  PointView view = points;
-  // Without an index list, `data` of records is the address of point number `first`.
-  if (points.indices == nullptr && points.data != nullptr && points.order == PointOrder::records)
-    view.data -= points.stride * points.first;
-  view.first = 0;
-  view.indices = selected;
-  view.count = size;
-  return view;
+  return detail::select_points(points, selected, size);
 }
 
 }  // namespace
 
 PointView PointView::subset(const std::int32_t* selected, std::size_t size) const {
-  return select(*this, range_of(*this), selected, size);
+  return select_checked(*this, range_of(*this), selected, size);
 }
 
 std::vector<PointView> subsets(const PointView& points, const IndexLists& lists) {
@@ -56,7 +51,7 @@ std::vector<PointView> subsets(const PointView& points, const IndexLists& lists)
   std::vector<PointView> views;
   views.reserve(lists.size());
   for (std::size_t i = 0; i < lists.size(); ++i)
-    views.push_back(select(points, range, lists.list(i), lists.list_size(i)));
+    views.push_back(select_checked(points, range, lists.list(i), lists.list_size(i)));
   return views;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "collect.h"
+#include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -73,9 +74,7 @@ void ClassClusterer::extract(const PointView& points, const std::vector<std::int
   for (const Group& group : groups_) {
     const auto options = std::find_if(class_options.begin(), class_options.end(),
                                       [&](const ClassOptions& one) { return one.value == group.value; });
-    PointView part = points;
-    part.indices = numbers_.data() + (group.end - group.count);
-    part.count = group.count;
+    const PointView part = select_points(points, numbers_.data() + (group.end - group.count), group.count);
     if (options != class_options.end() && options->drop) {
       all_.class_points += count_valid(part);
       continue;

@@ -13,6 +13,7 @@
 #include "ground_checks.h"
 #include "ground_surface.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/points/select_points.h"
 #include "zone_points.h"
 
 namespace pcl_bv {
@@ -54,13 +55,10 @@ struct GroundZones::Scratch : ZonePoints {
     search.sensor_height = sensor_height;
     search.seed = options.seed;
     search.iterations = plane_tries;
-    PointView seen = view;
-    if (view.order == PointOrder::records && !view.indices) seen.data = view.data - view.stride * view.first;
     for (const std::size_t rings : central_rings) {
       list_near(rings, near);
-      seen.indices = near.data();
-      seen.count = near.size();
-      if (auto plane = find_ground_plane(seen, sensor, search, sample, plane_sample)) return plane;
+      if (auto plane = find_ground_plane(select_points(view, near), sensor, search, sample, plane_sample))
+        return plane;
     }
     return {};
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "collect.h"
+#include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -40,10 +41,8 @@ void split_oversized(const PointView& points, const ClusterOptions& options, con
         append(scratch.current, i, scratch.next);
         continue;
       }
-      PointView part = points;
-      part.indices = scratch.current.list(i);
-      part.count = scratch.current.list_size(i);
-      cluster(part, finer, scratch.next);
+      cluster(select_points(points, scratch.current.list(i), scratch.current.list_size(i)), finer,
+              scratch.next);
     }
     clusters.small_points += scratch.next.small_points;
     clusters.noise_points += scratch.next.noise_points;
