@@ -27,21 +27,6 @@ double seconds(const Call& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Fits one volume to the points. `fit` writes the volume and returns the result.
-template <typename VolumeT, typename Fit>
-Fitted<VolumeT> fitted(const Fit& fit) {
-  Fitted<VolumeT> fitted;
-  static_cast<EstimationResult&>(fitted) = fit(fitted.volume);
-  return fitted;
-}
-
-template <typename VolumeT, typename CertificateT, typename Fit>
-Certified<VolumeT, CertificateT> certified(const Fit& fit) {
-  Certified<VolumeT, CertificateT> fitted;
-  static_cast<EstimationResult&>(fitted) = fit(fitted.volume, fitted.certificate);
-  return fitted;
-}
-
 // Fits one volume to each cluster.
 template <typename Fit>
 auto fit_each(const PointView& points, const IndexLists& clusters, const Execution& execution,
@@ -56,49 +41,52 @@ auto fit_each(const PointView& points, const IndexLists& clusters, const Executi
 }  // namespace
 
 Fitted<Aabb> fit_aabb(const PointView& points, const Execution& execution) {
-  return fitted<Aabb>([&](Aabb& box) { return detail::fit_aabb(points, box, execution); });
+  return make_fitted<Fitted<Aabb>>(
+      [&](auto& made) { return detail::fit_aabb(points, made.volume, execution); });
 }
 
 Fitted<Kdop> fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set,
                       const Execution& execution) {
-  return fitted<Kdop>([&](Kdop& kdop) { return detail::fit_kdop(points, set, kdop, nullptr, execution); });
+  return make_fitted<Fitted<Kdop>>(
+      [&](auto& made) { return detail::fit_kdop(points, set, made.volume, nullptr, execution); });
 }
 
 KdopWithContacts fit_kdop_with_contacts(const PointView& points, const std::shared_ptr<const KdopSet>& set,
                                         const Execution& execution) {
-  KdopWithContacts fitted;
-  static_cast<EstimationResult&>(fitted) =
-      detail::fit_kdop(points, set, fitted.volume, &fitted.contacts, execution);
-  return fitted;
+  return make_fitted<KdopWithContacts>(
+      [&](auto& made) { return detail::fit_kdop(points, set, made.volume, &made.contacts, execution); });
 }
 
 Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options, const Execution& execution) {
-  return fitted<Sphere>(
-      [&](Sphere& sphere) { return detail::fit_sphere(points, options, sphere, execution); });
+  return make_fitted<Fitted<Sphere>>(
+      [&](auto& made) { return detail::fit_sphere(points, options, made.volume, execution); });
 }
 
 Certified<Sphere, SphereCertificate> fit_smallest_sphere(const PointView& points,
                                                          const Execution& execution) {
-  return certified<Sphere, SphereCertificate>([&](Sphere& sphere, SphereCertificate& certificate) {
-    return detail::fit_smallest_sphere(points, sphere, certificate, execution);
+  return make_fitted<Certified<Sphere, SphereCertificate>>([&](auto& made) {
+    return detail::fit_smallest_sphere(points, made.volume, made.certificate, execution);
   });
 }
 
 Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options, const Execution& execution) {
-  return fitted<Obb>([&](Obb& box) { return detail::fit_obb(points, options, box, execution); });
+  return make_fitted<Fitted<Obb>>(
+      [&](auto& made) { return detail::fit_obb(points, options, made.volume, execution); });
 }
 
 Fitted<Hull> fit_hull(const PointView& points, const Execution& execution) {
-  return fitted<Hull>([&](Hull& hull) { return detail::fit_hull(points, hull, execution); });
+  return make_fitted<Fitted<Hull>>(
+      [&](auto& made) { return detail::fit_hull(points, made.volume, execution); });
 }
 
 Fitted<Cylinder> fit_cylinder(const PointView& points, const Execution& execution) {
-  return fitted<Cylinder>(
-      [&](Cylinder& cylinder) { return detail::fit_cylinder(points, cylinder, execution); });
+  return make_fitted<Fitted<Cylinder>>(
+      [&](auto& made) { return detail::fit_cylinder(points, made.volume, execution); });
 }
 
 Fitted<Capsule> fit_capsule(const PointView& points, const Execution& execution) {
-  return fitted<Capsule>([&](Capsule& capsule) { return detail::fit_capsule(points, capsule, execution); });
+  return make_fitted<Fitted<Capsule>>(
+      [&](auto& made) { return detail::fit_capsule(points, made.volume, execution); });
 }
 
 Fitted<Ellipsoid> fit_ellipsoid(const PointView& points, const Execution& execution) {
@@ -107,10 +95,8 @@ Fitted<Ellipsoid> fit_ellipsoid(const PointView& points, const Execution& execut
 
 Certified<Ellipsoid, EllipsoidCertificate> fit_smallest_ellipsoid(const PointView& points,
                                                                   const Execution& execution) {
-  return certified<Ellipsoid, EllipsoidCertificate>(
-      [&](Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) {
-        return detail::fit_ellipsoid(points, ellipsoid, certificate, execution);
-      });
+  return make_fitted<Certified<Ellipsoid, EllipsoidCertificate>>(
+      [&](auto& made) { return detail::fit_ellipsoid(points, made.volume, made.certificate, execution); });
 }
 
 std::vector<Fitted<Aabb>> fit_aabb(const PointView& points, const IndexLists& clusters,

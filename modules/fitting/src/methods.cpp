@@ -108,20 +108,18 @@ const std::vector<Method>& methods() {
 
 Fitted<AnyVolume> Method::fit(const PointView& points, const MethodOptions& options,
                               const Execution& execution) const {
-  Fitted<AnyVolume> fitted;
-  static_cast<EstimationResult&>(fitted) =
-      detail::fit_method(*this, points, options, fitted.volume, execution);
-  return fitted;
+  return make_fitted<Fitted<AnyVolume>>(
+      [&](auto& made) { return fit_method(*this, points, options, made.volume, execution); });
 }
 
 std::vector<Fitted<AnyVolume>> fit_methods(const PointView& points, const std::vector<const Method*>& among,
                                            const MethodOptions& options, const Execution& execution) {
   Supports supports;
   const FitExecution shared = detail::share_supports(points, among, execution, supports);
-  std::vector<Fitted<AnyVolume>> all(among.size());
-  for (std::size_t m = 0; m < among.size(); ++m) {
-    static_cast<EstimationResult&>(all[m]) =
-        detail::fit_method(*among[m], points, options, all[m].volume, shared);
+  std::vector<Fitted<AnyVolume>> all;
+  for (const Method* method : among) {
+    all.push_back(make_fitted<Fitted<AnyVolume>>(
+        [&](auto& made) { return fit_method(*method, points, options, made.volume, shared); }));
   }
   return all;
 }
@@ -148,10 +146,9 @@ const std::vector<const Method*>& methods_of_all() {
 
 FittedSmallest fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                             const MethodOptions& options, const Execution& execution) {
-  FittedSmallest fitted;
-  static_cast<EstimationResult&>(fitted) =
-      detail::fit_smallest(points, among, options, fitted.volume, fitted.method, execution);
-  return fitted;
+  return make_fitted<FittedSmallest>([&](auto& made) {
+    return detail::fit_smallest(points, among, options, made.volume, made.method, execution);
+  });
 }
 
 const std::vector<const Method*>& best_candidates() {

@@ -228,10 +228,9 @@ Fitted<AnyVolume> Partial::fit(const Method& method, const MethodOptions& option
   const NumberedPoints points = representative_points(*state_);
   const PackedPoints packed(points, state_->scalar);
   const Supports supports = supports_of(*state_, points, packed.view(), execution);
-  Fitted<AnyVolume> fitted;
-  static_cast<EstimationResult&>(fitted) =
-      fit_method(method, packed.view(), options, fitted.volume, {execution, &supports});
-  return fitted;
+  return make_fitted<Fitted<AnyVolume>>([&](auto& made) {
+    return fit_method(method, packed.view(), options, made.volume, {execution, &supports});
+  });
 }
 
 namespace detail {
@@ -257,10 +256,10 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
     supports.along[k].low_point.index = state.support_points[2 * k].index;
     supports.along[k].high_point.index = state.support_points[2 * k + 1].index;
   }
-  Certified<Sphere, SphereCertificate> fitted;
-  fitted.volume = smallest_sphere(supports, farthest, fitted.certificate);
-  static_cast<EstimationResult&>(fitted) = result_of(supports);
-  return fitted;
+  return make_fitted<Certified<Sphere, SphereCertificate>>([&](auto& made) {
+    made.volume = smallest_sphere(supports, farthest, made.certificate);
+    return result_of(supports);
+  });
 }
 
 }  // namespace detail

@@ -48,7 +48,7 @@ Fitted<Kdop> fit_kdop(const PointView& points, const std::shared_ptr<const KdopS
 
 /// A k-DOP and the points that touch it.
 struct KdopWithContacts : Fitted<Kdop> {
-  SlabPoints contacts;
+  SlabPoints contacts;  ///< For each slab the points on its two sides.
 };
 
 /// Fits the k-DOP as fit_kdop() does, and finds the points that touch its slabs. Takes about four times as
@@ -58,8 +58,8 @@ KdopWithContacts fit_kdop_with_contacts(const PointView& points,
                                         const Execution& execution = {});
 
 /// Fits a sphere around the points. Centre and radius are in the points' unit. The paper, §3. Empty input and
-/// errors are as for fit_aabb(). One point or equal points give radius 0. The growing
-/// methods take two passes over the points, `epos98` three; for `exact` see fit_smallest_sphere().
+/// errors are as for fit_aabb(). One point or equal points give radius 0. The growing methods take two
+/// passes over the points, `epos98` three; for `exact` see fit_smallest_sphere().
 Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options = {},
                           const Execution& execution = {});
 

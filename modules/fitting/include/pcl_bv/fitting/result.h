@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -48,8 +49,9 @@ struct Fitted : EstimationResult {
     return status == EstimationStatus::ok || status == EstimationStatus::degenerate;
   }
 
-  const VolumeT& operator*() const { return volume; }
-  VolumeT& operator*() { return volume; }
+  const VolumeT& operator*() const& { return volume; }
+  VolumeT& operator*() & { return volume; }
+  VolumeT&& operator*() && { return std::move(volume); }  ///< `Hull hull = *fit_hull(points)` moves.
   const VolumeT* operator->() const { return &volume; }
   VolumeT* operator->() { return &volume; }
 };

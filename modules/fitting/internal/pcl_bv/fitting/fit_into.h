@@ -16,6 +16,15 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
+/// Returns a FittedT, which is a Fitted or derived from one. `fit(made)` writes its volume and returns the
+/// result of the fit.
+template <typename FittedT, typename Fit>
+FittedT make_fitted(const Fit& fit) {
+  FittedT made;
+  static_cast<EstimationResult&>(made) = fit(made);
+  return made;
+}
+
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution& execution);
 /// Stores the points that touch the slabs in `touching`, unless it is null.
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
