@@ -118,7 +118,8 @@ void PointTree::nearest(const Eigen::Vector3d& point, std::size_t k, std::vector
   const FloatEnvironment environment;
   const double limit = square_limit(max_distance);
   found.clear();
-  if (is_valid(coordinates(point))) list_nearest(state().isa, state().tree, coordinates(point), k, limit, found);
+  if (is_valid(coordinates(point)))
+    list_nearest(state().isa, state().tree, coordinates(point), k, limit, found);
 }
 
 void PointTree::near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Everything for points in memory, without PCL: views of points, ground and clusters, fits, proofs, and trees.
-// Link pcl_bv::core.
+// Everything for points in memory, without PCL: views of points, ground and clusters, fits, proofs, and
+// trees. Link pcl_bv::core.
 #pragma once
 
 #include "pcl_bv/fitting/fit.h"

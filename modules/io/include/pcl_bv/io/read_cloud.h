@@ -28,8 +28,9 @@ struct ReadOptions {
 };
 
 /// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() for .bin, read_las() for
-/// .las and .laz, and read_pcd() for all others. The threads of the execution read text. Throws IoError with
-/// the reason. For extensions of other known formats (meshes, recordings) the reason includes advice.
+/// .las and .laz, and read_pcd() for all others. The threads of the execution read text; no reader uses its
+/// instruction set. Throws IoError with the reason. For extensions of other known formats (meshes,
+/// recordings) the reason includes advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
                     const Execution& execution = {Serial{}, Isa::scalar});
 

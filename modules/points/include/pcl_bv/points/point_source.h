@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points that are not in memory but, for example, in a file. Fits load the points part by part, once for every pass
-// over the points. The sizes of the parts are fixed, so results do not depend on the number of threads.
+// Points that are not in memory but, for example, in a file. Fits load the points part by part, once for
+// every pass over the points. The sizes of the parts are fixed, so results do not depend on the number of
+// threads.
 #pragma once
 
 #include <algorithm>

@@ -32,8 +32,9 @@ class KdopSet {
   /// magnitude.
   explicit KdopSet(std::vector<Eigen::Vector3d> directions);
 
-  /// The built-in sets have the first 3, the first 7, the first 3 and last 6, or all of the directions (1,0,0)
-  /// (0,1,0) (0,0,1), (1,1,1) (1,1,-1) (1,-1,1) (1,-1,-1), (1,1,0) (1,-1,0) (1,0,1) (1,0,-1) (0,1,1) (0,1,-1).
+  /// The built-in sets have the first 3, the first 7, the first 3 and last 6, or all of the directions
+  /// (1,0,0) (0,1,0) (0,0,1), (1,1,1) (1,1,-1) (1,-1,1) (1,-1,-1),
+  /// (1,1,0) (1,-1,0) (1,0,1) (1,0,-1) (0,1,1) (0,1,-1).
   /// The pointers own nothing, so copying a pointer changes no atomic reference count.
   static const std::shared_ptr<const KdopSet>& dop6();
   static const std::shared_ptr<const KdopSet>& dop14();
