@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "filtered_view.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/read_volumes.h"
 
@@ -120,7 +119,6 @@ void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts) {
 }
 
 void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart& part) const {
-  const FloatEnvironment environment;
   std::size_t n = 0;
   const auto take = [&](std::size_t i, bool keep) {
     kept[n] = static_cast<std::int32_t>(points.index(i));

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
 
@@ -29,7 +28,6 @@ void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map
   for (std::size_t first = 0; first < chunks; first += max_pending) {
     const std::size_t count = std::min(max_pending, chunks - first);
     for_each_chunk(policy, count, [&](std::size_t chunk) {
-      const FloatEnvironment environment;
       partials[chunk] = map(load_chunk(points, first + chunk).view());
     });
     for (std::size_t chunk = 0; chunk < count; ++chunk)

@@ -114,6 +114,7 @@ Fitted<AnyVolume> Method::fit(const PointView& points, const MethodOptions& opti
 
 std::vector<Fitted<AnyVolume>> fit_methods(const PointView& points, const std::vector<const Method*>& among,
                                            const MethodOptions& options, const Execution& execution) {
+  const FloatEnvironment environment;
   Supports supports;
   const FitExecution shared = detail::share_supports(points, among, execution, supports);
   std::vector<Fitted<AnyVolume>> all;
@@ -180,7 +181,6 @@ EstimationResult fit_method(const Method& method, const PointView& points, const
 
 FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
                             const FitExecution& execution, Supports& supports) {
-  const FloatEnvironment environment;
   std::size_t with_supports = 0, with_hull = 0;
   std::optional<DirectionSet> widest;
   for (const Method* method : among) {
@@ -201,7 +201,6 @@ FitExecution share_supports(const PointView& points, const std::vector<const Met
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                               const MethodOptions& options, AnyVolume& volume, const Method*& winner,
                               const FitExecution& execution) {
-  const FloatEnvironment environment;
   if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
   EstimationResult result;
   const Method* found = nullptr;

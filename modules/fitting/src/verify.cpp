@@ -185,7 +185,6 @@ void merge(Verification& all, const Verification& part) {
 
 template <typename Volume>
 Verification verify_chunk(const Volume& volume, const PointView& points) {
-  const FloatEnvironment environment;
   Verification result;
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);

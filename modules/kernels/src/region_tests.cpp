@@ -10,7 +10,6 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
-#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -133,7 +132,6 @@ RegionTestsOf<T> prepare(const std::vector<ConvexRegion>& regions) {
 }  // namespace
 
 RegionTests::RegionTests(const std::vector<ConvexRegion>& regions) {
-  const FloatEnvironment environment;
   prepared_ = std::make_shared<const Prepared>(Prepared{prepare<float>(regions), prepare<double>(regions)});
 }
 

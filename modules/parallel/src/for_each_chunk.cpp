@@ -12,6 +12,7 @@
 #include <mutex>
 #include <shared_mutex>
 
+#include "pcl_bv/numeric/float_environment.h"
 #include "worker_pool.h"
 
 namespace pcl_bv::detail {
@@ -24,7 +25,9 @@ class ChunkQueue {
   ChunkQueue(std::size_t chunks, const std::function<void(std::size_t)>& body)
       : chunks_(chunks), body_(body) {}
 
+  // Bodies compute with the IEEE default, whatever the host or the thread of an executor has set.
   void work() {
+    const FloatEnvironment environment;
     for (std::size_t chunk; (chunk = next_.fetch_add(1, std::memory_order_relaxed)) < chunks_;) {
       try {
         body_(chunk);

@@ -7,7 +7,6 @@
 #include <bit>
 #include <utility>
 
-#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -15,7 +14,6 @@ namespace {
 template <typename T, typename Key>
 void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockKeys<Key>& keys,
                CellPart<Key>& part) {
-  const FloatEnvironment environment;
   part.runs.clear();
   // No block with points has the key 0, because each axis has a spare block below them.
   Key last = 0;

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "neighbourhood.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv::detail {
@@ -182,7 +181,6 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
   const CoreSearch<T> search{cells, scratch, r2, min_points, solid};
   const auto in_parts = [&](auto work) {
     for_each_range(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
-      const FloatEnvironment environment;
       BlockRows<Key> rows(grid, keys, begin);
       BlocksAround around{};
       Neighbourhood<T> near(cells);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "pcl_bv/numeric/float_environment.h"
 #include "slope_limit.h"
 
 namespace pcl_bv::detail {
@@ -131,7 +130,6 @@ void GroundSurface::compute_lines() {
 }
 
 void GroundSurface::find(const CellSummary& cells, const Slope& plane, float max_slope) {
-  const FloatEnvironment environment;
   std::size_t last = cell_count;
   while (last > 0 && cells.lowest[last - 1] == no_lowest)
     --last;

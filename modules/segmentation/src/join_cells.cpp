@@ -10,7 +10,6 @@
 #include <bit>
 
 #include "neighbours.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv::detail {
@@ -259,7 +258,6 @@ void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const 
   if (chunks > 1 && thread_count(policy) > 1) reserve_links(cells, scratch.links, chunks);
   const auto in_chunks = [&](auto work) {
     for_each_chunk(policy, chunks, [&](std::size_t chunk) {
-      const FloatEnvironment environment;
       work(chunk * blocks_per_chunk, std::min(blocks, (chunk + 1) * blocks_per_chunk), scratch.links[chunk]);
     });
   };

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "ground_checks.h"
-#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -40,7 +39,6 @@ bool is_valid(const double (&p)[3]) {
 // Sets their box and number in `part`.
 template <typename T>
 void copy_valid_part(const PointView& points, ValidPoints<T>& valid, CopyPart<T>& part) {
-  const FloatEnvironment environment;
   constexpr T largest = std::numeric_limits<T>::max();
   const PointView view = points;  // a local copy, so that it is not read again after each store
   part.box = {{largest, largest, largest}, {-largest, -largest, -largest}};

@@ -12,7 +12,6 @@
 #include <limits>
 #include <utility>
 
-#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -115,7 +114,6 @@ Plane ZoneFrame::level(double height) const {
 }
 
 void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePart& part) {
-  const FloatEnvironment environment;
   const bool is_float = view.scalar == ScalarType::float32;
   const bool upright = is_float && frame.along_axis && frame.sensor.isZero(0);
   const auto load_batch = upright ? load_upright : is_float ? load_rotated<float> : load_rotated<double>;
@@ -158,7 +156,6 @@ void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers
 }
 
 void ZonePoints::find_lowest(const Slope& plane, ZonePart& part) {
-  const FloatEnvironment environment;
   const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
              slope_v = static_cast<float>(plane.slope_v);
   std::vector<float>& lowest = part.cells.lowest;

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "argument_checks.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "point_tree_state.h"
 #include "vectors.h"
@@ -31,7 +30,6 @@ template <typename Query>
 void query_blocks(std::size_t count, const Execution& execution, const Query& query) {
   for_each_range(limit_threads(execution.parallel, threads_for_queries(count)), count, kBlock,
                  [&](std::size_t begin, std::size_t end) {
-                   const FloatEnvironment environment;
                    query(begin, end);
                  });
 }

@@ -8,7 +8,6 @@
 
 #include "inflated.h"
 #include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "vectors.h"
 
@@ -153,7 +152,6 @@ ConvexRegion region_of(const Ellipsoid& ellipsoid) {
 }  // namespace
 
 ConvexRegion convex_region(const AnyVolume& volume) {
-  const FloatEnvironment environment;
   return std::visit([](const auto& shape) { return region_of(shape); }, volume);
 }
 

@@ -9,7 +9,6 @@
 
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
-#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -104,7 +103,6 @@ struct Inflate {
 }  // namespace
 
 AnyVolume inflated(const AnyVolume& volume, double padding) {
-  const FloatEnvironment environment;
   if (padding == 0 || empty(volume)) return volume;
   return std::visit(Inflate{padding}, volume);
 }

@@ -40,7 +40,6 @@ RegionTests tests_of(const std::vector<AnyVolume>& volumes) {
 }
 
 std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volumes) {
-  const FloatEnvironment environment;
   std::vector<PositionBounds> extents;
   extents.reserve(volumes.size());
   for (const AnyVolume& volume : volumes)
@@ -68,6 +67,7 @@ struct RegionMask::State {
 };
 
 RegionMask::RegionMask(const std::vector<Region>& regions) {
+  const FloatEnvironment environment;
   std::vector<AnyVolume> volumes = inflated_volumes(regions);
   RegionTests tests = tests_of(volumes);
   std::shared_ptr<const VolumeBoxes> boxes;
@@ -111,7 +111,6 @@ void RegionMask::mark(const PointView& points, std::vector<std::uint8_t>& inside
   const std::size_t chunks = chunk_count(points.count);
   for_each_chunk(limit_threads(execution.parallel, threads_for_chunks(chunks)), chunks,
                  [&](std::size_t chunk) {
-                   const FloatEnvironment environment;
                    const LoadedPoints part = load_chunk(points, chunk);
                    state_->mark(part.view(), inside.data() + chunk * kChunkPoints, execution);
                  });

@@ -4,7 +4,6 @@
 #include "rotatable.h"
 
 #include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv::detail {
@@ -39,7 +38,6 @@ struct ToRotatable {
 }  // namespace
 
 AnyVolume rotatable(const AnyVolume& volume) {
-  const FloatEnvironment environment;
   return std::visit(ToRotatable{}, volume);
 }
 

@@ -36,7 +36,6 @@ void VolumeTree::Nodes::measure(bool new_order, const Execution& execution) {
   std::vector<PositionBounds> extents(volumes.size());
   for_each_range(execution.parallel, volumes.size(), kVolumesOfChunk,
                  [&](std::size_t begin, std::size_t end) {
-                   const FloatEnvironment environment;
                    for (std::size_t i = begin; i < end; ++i)
                      extents[i] = extent_of(volumes[i]);
                  });
@@ -90,7 +89,6 @@ void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>
   constexpr std::size_t rays_of_chunk = 256;
   hits.resize(rays.size());
   for_each_range(execution.parallel, rays.size(), rays_of_chunk, [&](std::size_t begin, std::size_t end) {
-    const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       hits[i] = first_hit(rays[i].origin, rays[i].direction).value_or(VolumeHit{-1, {}});
   });

@@ -110,7 +110,6 @@ void VolumeTree::first_containing(const PointView& points, std::vector<std::int3
                                   const Execution& execution) const {
   first.resize(points.count);
   for_each_chunk(execution.parallel, chunk_count(points.count), [&](std::size_t chunk) {
-    const FloatEnvironment environment;
     const LoadedPoints part = load_chunk(points, chunk);
     for (std::size_t i = 0; i < part.view().count; ++i) {
       std::int32_t& smallest = first[chunk * kChunkPoints + i];

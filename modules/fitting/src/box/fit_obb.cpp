@@ -12,7 +12,6 @@
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/exact_sum.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "same_points.h"
 #include "summary.h"
 #include "support/support_search.h"
@@ -145,7 +144,6 @@ Eigen::Matrix3d principal_axes(const Summary& summary) {
 
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
                          const FitExecution& execution) {
-  const FloatEnvironment environment;
   box = Obb();
   switch (options.method) {
     case ObbMethod::pca:

@@ -20,7 +20,6 @@
 #include "box/silhouette.h"
 #include "hull/local_hull.h"
 #include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
@@ -111,7 +110,6 @@ void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shap
   const std::size_t vertices = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
   const ParallelPolicy policy = worthwhile(execution, Work::silhouette, vertices);
   for_each_range(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
-    const FloatEnvironment environment;
     Silhouette::Projection projection;
     for (std::size_t i = begin; i < end; ++i)
       shrink_frame(frames[i], times, kSmaller, shape, projection);

@@ -9,7 +9,6 @@
 #include "hull/hull_fit.h"
 #include "hull/support_tree.h"
 #include "pcl_bv/fitting/fit_into.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
@@ -77,7 +76,6 @@ void for_each_plane(const FitExecution& execution, std::size_t planes, const Mea
   constexpr std::size_t kTogether = 100;
   const ParallelPolicy policy = worthwhile(execution, Work::hull_plane, planes);
   for_each_range(policy, planes, kTogether, [&](std::size_t begin, std::size_t end) {
-    const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       measure(i);
   });

@@ -7,7 +7,6 @@
 #include "hull/local_hull.h"
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv::detail {
 
@@ -15,7 +14,6 @@ namespace pcl_bv::detail {
 /// is not called. Returns the status, the rank and the counts of the points.
 template <typename Fit>
 EstimationResult fit_on_hull(const PointView& points, const FitExecution& execution, const Fit& fit) {
-  const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used == 0) return result_of(supports);
   const LocalFrame frame(supports);

@@ -9,7 +9,6 @@
 #include <mutex>
 
 #include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
@@ -79,7 +78,6 @@ template <typename Visit>
 void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const {
   const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
   for_each_chunk(policy(expected), chunks, [&](std::size_t chunk) {
-    const FloatEnvironment environment;
     const std::size_t first = chunk * kBlocksPerChunk;
     visit(chunk, first, std::min(kBlocksPerChunk, blocks_ - first));
   });

@@ -10,7 +10,6 @@
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "sphere/distance_scan.h"
 #include "sphere/growth.h"
 #include "sphere/sphere_seed.h"
@@ -97,7 +96,6 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
     SphereCertificate certificate;
     return fit_smallest_sphere(points, sphere, certificate, execution);
   }
-  const FloatEnvironment environment;
   require_all_points(execution, "a sphere that grows");
   const Supports supports =
       find_supports(points, seed_directions(options.method), SupportDetail::points, execution);
@@ -112,7 +110,6 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
 
 EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
                                      const FitExecution& execution) {
-  const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   DistanceScan scan(points, execution);
   const auto farthest = [&scan](const DistanceCenter& center, double limit, OctantPoints& found) {

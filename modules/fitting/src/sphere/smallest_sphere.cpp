@@ -92,7 +92,6 @@ bool answer_farthest(const PointView& points, const DistanceCenter& center, doub
 
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate) {
-  const FloatEnvironment environment;
   certificate = SphereCertificate();
   if (supports.used == 0) return {};
   if (supports.set != DirectionSet::dop26 || supports.detail != SupportDetail::points)

@@ -5,7 +5,6 @@
 
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/kdop_sets.h"
 
 namespace pcl_bv::detail {
@@ -54,7 +53,6 @@ EstimationResult fit_custom(const PointView& points, const std::shared_ptr<const
 }  // namespace
 
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution& execution) {
-  const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
   box = aabb_of(supports);
   return result_of(supports);
@@ -62,7 +60,6 @@ EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution
 
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           SlabPoints* touching, const FitExecution& execution) {
-  const FloatEnvironment environment;
   if (touching != nullptr) *touching = SlabPoints();
   kdop = Kdop(set);
   const std::optional<DirectionSet> directions = direction_set(set);

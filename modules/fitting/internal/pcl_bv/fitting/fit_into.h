@@ -12,14 +12,17 @@
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
 /// Returns a FittedT, which is a Fitted or derived from one. `fit(made)` writes its volume and returns the
-/// result of the fit.
+/// result of the fit. A FloatEnvironment lives during the call. The other functions of this header set none,
+/// so callers that do not run in a parallel region set their own.
 template <typename FittedT, typename Fit>
 FittedT make_fitted(const Fit& fit) {
+  const FloatEnvironment environment;
   FittedT made;
   static_cast<EstimationResult&>(made) = fit(made);
   return made;

@@ -25,7 +25,8 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 /// Runs on the calling thread alone if the policy has one thread, if there is one chunk, or inside another
 /// parallel region (of pcl_bv or of OpenMP), to avoid oversubscription. If bodies throw, the remaining chunks
 /// are still run; then the exception of the lowest failed chunk is rethrown. A body may fork. The child may
-/// start parallel regions itself, but must never return from the body.
+/// start parallel regions itself, but must never return from the body. A FloatEnvironment lives during each
+/// call.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   run_chunks(policy, chunks, std::ref(body));
