@@ -90,15 +90,20 @@ function(pcl_bv_library name)
   endif()
 endfunction()
 
-# pcl_bv_test(name SOURCES ... LINK ... [ISA | SETS]): a GoogleTest program. Labels of its tests:
+# pcl_bv_test(name SOURCES ... LINK ... [ISA | SETS] [SERIAL]): a GoogleTest program. With SERIAL, no test starts a thread,
+# so ThreadSanitizer leaves the program out. Labels of its tests:
 #   isa       run on the instruction set that PCL_BV_ISA names; `./bootstrap test` repeats them with each of the machine
 #   sets      try every set of the processor themselves: programs with SETS, and of those with ISA the tests whose name
 #             says EveryInstructionSet
 #   portable  no instruction set can change them
 function(pcl_bv_test name)
-  cmake_parse_arguments(arg "ISA;SETS" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "ISA;SETS;SERIAL" "" "SOURCES;LINK" ${ARGN})
   set(target test_${name})
   add_executable(${target} ${arg_SOURCES})
+  if(arg_SERIAL AND PCL_BV_SANITIZE STREQUAL "thread")
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+    return()
+  endif()
   pcl_bv_test_options(${target})
   target_link_libraries(${target} PRIVATE ${arg_LINK} pcl_bv_test_support GTest::gtest_main)
   set(discovery PRE_TEST)

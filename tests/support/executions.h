@@ -11,12 +11,19 @@
 
 namespace pcl_bv::test {
 
-// Under qemu, about 17 times slower, claims are tested with less: one number of threads, and clouds
-// just large enough.
+// qemu runs tests about 17 times slower. There they use one number of threads, and clouds just large enough.
 #if defined(PCL_BV_EMULATED)
 inline constexpr bool kEmulated = true;
 #else
 inline constexpr bool kEmulated = false;
+#endif
+
+// Sanitizers run tests 3 to 10 times slower. They find their faults in the first few random cases, so tests whose claim
+// needs many cases have fewer there and under qemu.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kFewCases = true;
+#else
+inline constexpr bool kFewCases = kEmulated;
 #endif
 
 /// Points whose 26-DOP every set takes 200 us for, from where on it is threaded. Arm's sets are reckoned

@@ -52,7 +52,7 @@ Long margin(const ConvexRegion& region, const PlainBox& box) {
   return 0x1p-38L * size + 4 * Long(region.surface_error) + 0x1p-480L;
 }
 
-constexpr int kRounds = test::kEmulated ? 1000 : 20'000;
+constexpr int kRounds = test::kFewCases ? 1000 : 20'000;
 
 // Boxes of all sizes, flat ones and points among them, about regions of all sizes: each number is now and
 // then the one that the margin depends on.

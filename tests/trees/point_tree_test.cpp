@@ -75,7 +75,7 @@ TYPED_TEST(PointTreeOf, FindsWhatIsNearAsIfEachPointWereAsked) {
     EXPECT_EQ(tree.size(), points.size());
     EXPECT_EQ(tree.dropped(), cloud.size() - points.size());
     Questions questions(points, 1);
-    for (int i = 0; i < (test::kEmulated ? 5 : 40); ++i)
+    for (int i = 0; i < (test::kFewCases ? 5 : 40); ++i)
       expect_near_as_each(tree, points, questions);
   });
 }

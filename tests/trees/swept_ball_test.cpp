@@ -112,7 +112,7 @@ TYPED_TEST(SweptBallOf, IsShownAllThatItTouchesAndOnlyWhatIsNear) {
   for_each_tree<TypeParam>([](const PointTree& tree, const EachPoint& points, const auto&) {
     if (tree.empty()) return;
     Questions questions(points, 1);
-    for (int i = 0; i < (test::kEmulated ? 3 : 20); ++i) {
+    for (int i = 0; i < (test::kFewCases ? 3 : 20); ++i) {
       const Vector3d origin = questions.place(), direction = questions.direction();
       const Ray ray{origin, direction, i % 5 == 0 ? 0 : 0.1 * questions.distance(origin)};
       if (direction.isZero(0)) continue;
