@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A guard against hosts that set flush-to-zero, which would turn a coordinate of 1e-41 into 0. Every public
-// fit function, every member function of a volume that computes, and every worker thread holds a
-// FloatEnvironment.
+// fit function and every member function of a volume that computes holds a FloatEnvironment. The parts of a
+// fit that run on other threads hold their own.
 #pragma once
 
 #include <cstdint>

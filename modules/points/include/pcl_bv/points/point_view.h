@@ -36,12 +36,13 @@ inline constexpr std::size_t kGroupBytes = 64;
 
 class PointSource;
 
-/// A read-only view of points, either of all points of an array or of those that an index list selects. The
-/// view does not own the memory, which must outlive the view. Fits, verify(), cloud_statistics() and masks
-/// also take points of a PointSource; all other functions take points in memory.
+/// A read-only view of points, either of consecutive points of an array or of the points that an index list
+/// selects. The view does not own the memory, which must outlive the view. Fits, verify(), cloud_statistics()
+/// and masks also take points of a PointSource; all other functions take points in memory.
 ///
-/// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records they need
-/// no alignment. They may be NaN or infinite. Functions that read the coordinates drop such points.
+/// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records,
+/// coordinates need no alignment. Coordinates may be NaN or infinite. Functions that read the coordinates
+/// drop such points.
 struct PointView {
   const std::byte* data = nullptr;        ///< Address of x of the first point.
   std::size_t stride = 0;                 ///< Records: bytes from one point's x to the next point's x.
@@ -57,8 +58,8 @@ struct PointView {
   const PointSource* source = nullptr;
 
   /// Returns a view of float or double points (other types do not compile). `xyz` points to x of the first
-  /// point; points are `stride` bytes apart, and all `stride` bytes are readable (x is the first member of
-  /// the record). Indices are not checked; subset() checks them.
+  /// point; points are `stride` bytes apart. From each x on, `stride` bytes must be readable, which is true
+  /// if x is the first member of the record. Indices are not checked; subset() checks them.
   template <typename T, typename = std::enable_if_t<std::is_same_v<T, float> || std::is_same_v<T, double>>>
   static PointView of(const T* xyz, std::size_t stride, std::size_t count,
                       const std::int32_t* indices = nullptr) {
@@ -94,9 +95,9 @@ struct PointView {
 
   /// Returns a view of the points with the indices `selected`, in this order. These are indices in the cloud
   /// (values of index()), not positions in this view. `selected` must outlive the view. O(size), or O(size +
-  /// count) for a view with an index list. Throws std::out_of_range, naming the index, for an index below or
-  /// above those of this view, and std::invalid_argument for points of a source, which can only be visited in
-  /// their order.
+  /// count) for a view with an index list. Throws std::out_of_range, with the index in the message, if an
+  /// index is below the smallest or above the largest index of this view. Throws std::invalid_argument for a
+  /// view of a source, because the points of a source can only be visited in their order.
   PointView subset(const std::int32_t* selected, std::size_t size) const;
   PointView subset(const std::vector<std::int32_t>& selected) const {
     return subset(selected.data(), selected.size());
@@ -104,8 +105,8 @@ struct PointView {
   PointView subset(std::vector<std::int32_t>&& selected) const =
       delete;  // the view would outlive the indices
 
-  /// Returns a view of the visited points [begin, begin + n), which are not checked against the size. index()
-  /// of the returned view is still the index in the cloud.
+  /// Returns a view of the visited points [begin, begin + n). Does not check that the view has these points.
+  /// index() of the returned view is still the index in the cloud.
   PointView slice(std::size_t begin, std::size_t n) const {
     PointView part = *this;
     part.count = n;
@@ -218,9 +219,9 @@ PointView view_records(const Record* records, std::size_t count) {
   return view;
 }
 
-/// Returns a view of a vector of points: of structs with members x, y, z as view_records() takes them, or of
-/// fixed-size arrays of float or double whose first three elements are x, y, z, such as Eigen::Vector3f,
-/// Eigen::Vector4d or std::array<float, 3>. The vector must outlive the view.
+/// Returns a view of a vector of points. A point is either a struct that view_records() takes, or a
+/// fixed-size array of float or double whose first three elements are x, y, z. Such arrays are
+/// Eigen::Vector3f, Eigen::Vector4d or std::array<float, 3>, for example. The vector must outlive the view.
 template <typename Record, typename Allocator>
 PointView view(const std::vector<Record, Allocator>& points) {
   if constexpr (has_xyz<Record>::value) {
