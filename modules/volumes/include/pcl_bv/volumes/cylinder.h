@@ -12,9 +12,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of a Cylinder's axis and radius. The infinite cylinder around the axis encloses the Cylinder:
-/// the radius includes the distance by which rounding moves the axis. An empty cylinder has centre and axis
-/// NaN and radius -1.
+/// A float copy of a Cylinder's centre, axis and radius. The infinite cylinder around the axis encloses the
+/// Cylinder: the radius includes the distance by which rounding moves the axis. An empty cylinder has centre
+/// and axis NaN and radius -1.
 struct FloatCylinder {
   Eigen::Vector3f center, axis;
   float radius;
@@ -33,7 +33,8 @@ class Cylinder {
 
   /// Makes a cylinder. A negative radius or half height gives the empty cylinder. Otherwise throws
   /// std::invalid_argument unless all numbers are finite and the axis is not zero. An axis whose squared
-  /// length is 1 to 2^-50 is stored unchanged; any other axis is normalised. Stores -0 as 0.
+  /// length differs from 1 by at most 2^-50 is stored unchanged; any other axis is normalised. Stores -0 as
+  /// 0.
   Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double radius, double half_height);
 
   const Eigen::Vector3d& center() const { return center_; }  ///< Centre; NaN if empty.
@@ -69,7 +70,7 @@ class Cylinder {
   Aabb aabb() const;
 
   /// Returns the mesh of a prism with 48 sides and two end polygons. The edges between the sides lie on the
-  /// surface. An empty mesh if empty.
+  /// surface. Returns an empty mesh for an empty cylinder.
   Mesh mesh() const;
 
   /// Returns the transformed cylinder. It contains every transformed point of this cylinder, by exact
@@ -77,7 +78,8 @@ class Cylinder {
   /// error of the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Returns a float copy of axis and radius. The infinite cylinder around it encloses the cylinder.
+  /// Returns a float copy of centre, axis and radius. The infinite cylinder of this axis and radius encloses
+  /// the cylinder.
   FloatCylinder cast_float() const;
 
  private:

@@ -10,7 +10,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Returns the view frustum of a camera, a pyramid cut off by two planes, as a hull of 8 vertices, 12
-/// triangles and 6 planes. All member functions of Hull and all queries of volumes accept it.
+/// triangles and 6 planes. The result can be used like any other Hull.
 ///
 /// `pose` is the transform from the camera's frame to the frame of the points. The camera is at the origin of
 /// its frame; z is its viewing direction, x is to the right and y is down. This is the optical frame of ROS.

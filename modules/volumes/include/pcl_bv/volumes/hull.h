@@ -73,9 +73,9 @@ class Hull {
   /// returns the first. NaN if empty. O(vertices).
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the nearest triangle (to the polygon, segment or point if the
-  /// hull is flat); 0 if contains() is true. Infinity if the hull is empty or a coordinate is infinite, NaN
-  /// if a coordinate is NaN. O(triangles).
+  /// Returns the distance from the point to the nearest triangle or, if the hull is flat, to its polygon,
+  /// segment or point. 0 if contains() is true. Infinity if the hull is empty or a coordinate is infinite,
+  /// NaN if a coordinate is NaN. O(triangles).
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the hull; see RayInterval. The
@@ -84,9 +84,9 @@ class Hull {
 
   /// Returns a box that encloses the hull by exact arithmetic. If the hull has a plane that faces the same
   /// way as a side of the box, the side lies in that plane. Other sides are at a proven upper bound of the
-  /// hull's support value. A fitted hull has all six planes, so its box is the box of its points. If the
-  /// planes leave the hull unbounded, the result is the box of the vertices. Neither a fit nor transformed()
-  /// of a fitted hull makes such a hull. O(planes).
+  /// hull's support value. A fitted hull has planes for all six sides, so its box is the box of its points.
+  /// If the planes leave the hull unbounded, the result is the box of the vertices. A fitted hull is never
+  /// unbounded, nor is its transformed() copy. O(planes).
   Aabb aabb() const;
 
   /// Returns vertices and triangles. The mesh of a hull of rank 2 has its polygon twice, once for each side.
