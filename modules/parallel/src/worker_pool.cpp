@@ -101,10 +101,10 @@ void WorkerPool::start(unsigned threads) {
   }
 }
 
-// Makes the pool's threads avoid `processor`, on which the caller of run() works. Some systems run threads on
-// as few processors as possible, to save power or to pack virtual machines. Such a system wakes a helper on
-// the caller's processor. The helper then waits for milliseconds until the caller stops, while other
-// processors are idle.
+// Makes the pool's threads avoid `processor`, the one on which the caller works; -1 allows all processors.
+// Some systems run threads on as few processors as possible, to save power or to pack virtual machines. Such
+// a system wakes a helper on the caller's processor. The helper then waits for milliseconds until the caller
+// stops, while other processors are idle.
 void WorkerPool::exclude_processor(int processor) {
   if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
 }
