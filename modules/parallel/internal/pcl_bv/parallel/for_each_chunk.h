@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Chunk and merge (Karlsson, Winberg and Larsson 2010, section 5). Work is cut into chunks of fixed size;
-// results are stored by chunk number and merged in that order. So no result depends on which thread does
+// results are stored by chunk number and merged in that order. So no result depends on which thread runs
 // which chunk.
 #pragma once
 

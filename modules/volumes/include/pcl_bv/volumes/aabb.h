@@ -56,8 +56,8 @@ class Aabb {
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the box; 0 if the point is inside. Infinity if the box is empty
-  /// or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the box; 0 if the point is inside. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the box is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. The error

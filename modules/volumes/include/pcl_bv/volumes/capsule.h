@@ -46,8 +46,8 @@ class Capsule {
   /// returns the centre. NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the capsule; 0 if contains() is true. Infinity if the capsule is
-  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the capsule; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the capsule is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the capsule; see RayInterval. The

@@ -56,8 +56,8 @@ class Cylinder {
   /// Returns a point that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the cylinder; 0 if contains() is true. Infinity if the cylinder
-  /// is empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the cylinder; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the cylinder is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the cylinder; see RayInterval. Both

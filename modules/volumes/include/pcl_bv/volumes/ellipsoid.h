@@ -52,9 +52,9 @@ class Ellipsoid {
   /// returns the centre. NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the ellipsoid; 0 if contains() is true. Infinity if the ellipsoid
-  /// is empty or a coordinate is infinite, NaN if a coordinate is NaN. Accurate to about 1e-14 of the
-  /// distance or the size, whichever is larger (Eberly 2013, with bisection).
+  /// Returns the distance from the point to the ellipsoid; 0 if contains() is true. NaN if the point has a
+  /// NaN coordinate, otherwise infinity if the ellipsoid is empty or the point has an infinite coordinate.
+  /// Accurate to about 1e-14 of the distance or the size, whichever is larger (Eberly 2013, with bisection).
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Both

@@ -74,8 +74,8 @@ class Hull {
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
   /// Returns the distance from the point to the nearest triangle or, if the hull is flat, to its polygon,
-  /// segment or point. 0 if contains() is true. Infinity if the hull is empty or a coordinate is infinite,
-  /// NaN if a coordinate is NaN. O(triangles).
+  /// segment or point. 0 if contains() is true. NaN if the point has a NaN coordinate, otherwise infinity if
+  /// the hull is empty or the point has an infinite coordinate. O(triangles).
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the hull; see RayInterval. The

@@ -139,8 +139,8 @@ class Kdop {
   /// method, which takes about 1 us.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the k-DOP; 0 if contains() is true. Infinity if the k-DOP is
-  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the k-DOP; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the k-DOP is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the k-DOP; see RayInterval. `enter`

@@ -86,8 +86,8 @@ class Obb {
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the box; 0 if contains() is true. Infinity if the box is empty or
-  /// a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the box; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the box is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. `enter` is
@@ -141,9 +141,9 @@ class Obb {
   /// the axis nearest to the direction `up` and points up; `up` may have any length from 1e-100 to 1e100.
   /// Axis 0 is along the longer of the other two sides, with a yaw() from -pi/2 (exclusive) to pi/2. Axis 1
   /// makes the axes right-handed. If the horizontal half extents are treated as equal, as in canonical(),
-  /// axis 0 is the axis whose yaw has the smaller magnitude. At 45 degrees, it is the axis with the positive
-  /// yaw. Components below 1e-9 are treated as 0, so that rounding noise does not flip an axis. An empty box
-  /// stays empty.
+  /// axis 0 is the axis whose yaw has the smaller magnitude. At 45 degrees, axis 0 is the axis with the
+  /// positive yaw. Components of axes that differ by at most 1e-9 are treated as equal, so that rounding
+  /// noise does not flip an axis. An empty box stays empty.
   Obb upright(const Eigen::Vector3d& up) const;
 
   /// Returns the rotation of axis 0 about axis 2 in radians, from -pi (exclusive) to pi. With axis 2 along z,

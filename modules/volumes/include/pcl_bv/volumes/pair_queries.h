@@ -80,8 +80,8 @@ bool overlaps(const ConvexBody& a, const ConvexBody& b);
 double distance(const AnyVolume& a, const AnyVolume& b);
 double distance(const ConvexBody& a, const ConvexBody& b);
 
-/// Returns a certified lower bound of the distance from the point to the body. Infinity if the body is empty
-/// or a coordinate is infinite, NaN if a coordinate is NaN.
+/// Returns a certified lower bound of the distance from the point to the body. NaN if the point has a NaN
+/// coordinate, otherwise infinity if the body is empty or the point has an infinite coordinate.
 double distance(const ConvexBody& body, const Eigen::Vector3d& point);
 
 /// Returns whether distance(a, b) <= margin. Conservative: true for all bodies whose distance is at most

@@ -55,8 +55,8 @@ class Sphere {
   /// zero direction, returns the centre. NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the sphere; 0 if contains() is true. Infinity if the sphere is
-  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the sphere; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the sphere is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the sphere; see RayInterval. A ray
