@@ -17,8 +17,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Hands out chunk numbers. If bodies fail, stores the exception of the lowest failed chunk, whichever thread
-// caught it.
+// Hands out chunk numbers. If bodies fail, stores the exception of the failed chunk with the lowest number.
 class ChunkQueue {
  public:
   ChunkQueue(std::size_t chunks, const std::function<void(std::size_t)>& body)

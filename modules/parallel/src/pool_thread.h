@@ -29,8 +29,8 @@ void avoid_processor(int avoided, std::vector<std::thread>& threads);
 /// avoid_processor() does. Attributes that the system refuses to set stay unchanged.
 void adopt_main_thread_scheduling(int avoided);
 
-/// Blocks signals in the calling thread while the object lives, so that threads started meanwhile inherit the
-/// mask and signal handlers run on the host's threads. Signals of faults (SIGSEGV, ...) stay unblocked,
+/// Blocks signals in the calling thread while the object lives. Threads started meanwhile inherit this signal
+/// mask, so signal handlers run on the host's threads. Signals of faults (SIGSEGV, ...) stay unblocked,
 /// because the faulting thread itself handles them. If they were blocked, the process would end without
 /// calling the host's handler.
 class SignalsBlocked {

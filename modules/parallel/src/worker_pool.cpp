@@ -77,7 +77,8 @@ WorkerPool& WorkerPool::instance() {
   if (pool != nullptr) return *pool;
   auto fresh = std::make_unique<WorkerPool>();
   if (!current.compare_exchange_strong(pool, fresh.get())) return *pool;
-  std::atexit(end_pool);  // a forked child inherits the registration, so end() may be called twice
+  // A forked child inherits this registration and adds its own, so end_pool() may be called twice.
+  std::atexit(end_pool);
   return *fresh.release();
 }
 

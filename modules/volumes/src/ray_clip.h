@@ -31,7 +31,8 @@ class RayClip {
     }
   }
 
-  /// Restricts the interval to the t from `enter` to `exit`. interval() allows for one rounding of each.
+  /// Restricts the interval to the t from `enter` to `exit`. interval() allows for one rounding of each
+  /// argument.
   void keep_between(double enter, double exit) {
     enter_ = std::max(enter_, enter);
     exit_ = std::min(exit_, exit);

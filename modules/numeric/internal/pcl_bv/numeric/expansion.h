@@ -41,11 +41,11 @@ class Expansion {
   double down() const;
   double magnitude_up() const;  ///< Smallest double >= the magnitude of the sum.
 
-  /// Returns the sum with an error below one unit in the last place. If the sum is a double, it is returned
+  /// Returns the sum with an error below one unit in the last place. A sum that is a double is returned
   /// exactly.
   double value() const;
 
-  /// Returns the sign (-1, 0 or 1) of the sum. It is exact if is_lossless().
+  /// Returns the sign (-1, 0 or 1) of the sum. The sign is exact if is_lossless().
   int sign() const;
 
   /// True unless digits may be lost because a product is below 2^-960 in magnitude.

@@ -35,8 +35,8 @@ struct OpenMP {
 /// pool thread takes the processors, the nice value and the scheduling policy that the process's main thread
 /// has when the pool thread starts. It does not matter which thread starts the pool thread. If the main
 /// thread is real-time, pool threads use SCHED_OTHER. Pool threads avoid the caller's processor while the
-/// caller works there. They block signals, except signals of faults such as SIGSEGV, so that the host's
-/// threads handle signals. Programs that need threads with other attributes pass an Executor.
+/// caller works there. Pool threads block signals, except signals of faults such as SIGSEGV, so that the
+/// host's threads handle signals. Programs that need threads with other attributes pass an Executor.
 struct Threads {
   unsigned threads = 0;
 };
@@ -79,7 +79,7 @@ struct Execution {
   Execution(Policy policy, UsableIsa instructions = {}) : parallel(std::move(policy)), isa(instructions) {}
 
   ParallelPolicy parallel = Serial{};  ///< The threads.
-  UsableIsa isa;                       ///< The instruction set; by default Isa::automatic, resolved.
+  UsableIsa isa;                       ///< The instruction set. Default: the set that Isa::automatic selects.
 };
 
 }  // namespace pcl_bv

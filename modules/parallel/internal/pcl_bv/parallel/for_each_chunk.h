@@ -24,9 +24,9 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 ///
 /// Runs on the calling thread alone if the policy has one thread or if there is only one chunk. Also runs on
 /// the calling thread alone inside another parallel region of pcl_bv or OpenMP, to avoid oversubscription. If
-/// bodies throw, the remaining chunks are still run; then the exception of the lowest failed chunk is
-/// rethrown. A body may fork. The child may start parallel regions itself, but must never return from the
-/// body.
+/// bodies throw, the remaining chunks are still run; then the exception of the failed chunk with the lowest
+/// number is rethrown. A body may fork. The child may start parallel regions itself, but must never return
+/// from the body.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   run_chunks(policy, chunks, std::ref(body));
@@ -41,8 +41,8 @@ void for_each_range(const ParallelPolicy& policy, std::size_t items, std::size_t
   });
 }
 
-/// Keeps the library's threads spinning between parallel regions while the object lives, so that they need
-/// not be woken. Waking a sleeping thread takes about 25 us.
+/// Keeps the library's threads spinning between parallel regions while the object lives, so that no thread
+/// needs to be woken. Waking a sleeping thread takes about 25 us.
 ///
 /// Each thread spins for at most 2 ms at a time and occupies its processor meanwhile. Make such an object for
 /// a sequence of short parallel stages. The object has an effect only for the policy Threads, outside of

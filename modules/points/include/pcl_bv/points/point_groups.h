@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A copy of points as structure of arrays (Karlsson, Winberg and Larsson 2010, Figure 1), in the order in
-// which vector registers load them. The copy is useful if several volumes are fitted to one cloud.
+// A copy of points as structure of arrays (Karlsson, Winberg and Larsson 2010, Figure 1). The coordinates are
+// in the order in which vector registers load them. The copy is useful if several volumes are fitted to one
+// cloud.
 #pragma once
 
 #include <cstddef>

@@ -15,9 +15,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Number of points per block. A kernel decides for each block as a whole whether any of its points is
-/// invalid and whether any can be extreme. A block of pcl::PointXYZ has 16 KiB, so a second pass finds the
-/// block in the first-level cache.
+/// Number of points per block. A kernel tests each block as a whole: is any point of the block invalid, and
+/// can any be extreme? A block of pcl::PointXYZ has 16 KiB, so a second pass finds the block in the
+/// first-level cache.
 inline constexpr std::size_t kBlockPoints = 1024;
 
 /// Number of points per chunk. One call of a kernel processes one chunk, in about 10 us. A chunk of
@@ -48,8 +48,8 @@ class PointSource {
   virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
 };
 
-/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, copying them to memory is
-/// better.
+/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, a copy of the points in
+/// memory is better.
 inline PointView view_of(const PointSource& source, std::size_t count, ScalarType scalar) {
   PointView view;
   view.source = &source;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The input of all functions: a non-owning view that fits every layout of points. view() makes one from an
-// array of points of any type.
+// The input of all functions: a non-owning view that fits every layout of points. view() makes such a view
+// from a vector of points of any type.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ enum class PointOrder : std::uint8_t {
   groups    ///< 64 bytes of x, 64 bytes of y, 64 bytes of z, repeated (see point_groups.h).
 };
 
-/// Number of bytes of each coordinate in a group. They hold 16 floats or 8 doubles, and are as long as a
-/// cache line and as the widest vector of x86.
+/// Number of bytes of each coordinate in a group. These bytes hold 16 floats or 8 doubles. A cache line and
+/// the widest vector of x86 have the same size.
 inline constexpr std::size_t kGroupBytes = 64;
 
 class PointSource;
@@ -134,8 +134,8 @@ struct IndexLists {
   const std::int32_t* list(std::size_t i) const { return indices.data() + offsets[i]; }
 };
 
-/// Returns one view for each list, of the points of `points` with these indices. The lists must outlive the
-/// views. O(points + indices). Throws as PointView::subset().
+/// Returns one view for each list. A view has those points of `points` whose indices are in its list. The
+/// lists must outlive the views. O(points + indices). Throws like PointView::subset().
 std::vector<PointView> subsets(const PointView& points, const IndexLists& lists);
 
 /// Returns a view of `count` points whose coordinates x, y, z follow one another without gaps. `first` is the
@@ -152,7 +152,7 @@ inline PointView packed_points(const std::byte* xyz, ScalarType scalar, std::siz
 }
 
 /// Returns whether both views visit the same memory, or points of the same source, in the same order. If so,
-/// they have the same points unless the memory or the source has changed in between.
+/// both views have the same points unless the memory or the source has changed in between.
 inline bool same_memory(const PointView& a, const PointView& b) {
   return a.data == b.data && a.stride == b.stride && a.count == b.count && a.indices == b.indices &&
          a.first == b.first && a.scalar == b.scalar && a.order == b.order && a.source == b.source;
@@ -205,7 +205,7 @@ struct has_xyz<Record, std::void_t<decltype(Record::x), decltype(Record::y), dec
 };
 
 /// Returns a view of all `count` records. Record is any struct with members x, y, z, all float or all double,
-/// adjacent in memory in this order. Throws std::invalid_argument if they are not adjacent.
+/// adjacent in memory in this order. Throws std::invalid_argument if these members are not adjacent.
 template <typename Record>
 PointView view_records(const Record* records, std::size_t count) {
   static_assert(has_xyz<Record>::value,

@@ -62,7 +62,7 @@ class Capsule {
   /// are on the surface. Returns an empty mesh for an empty capsule.
   Mesh mesh() const;
 
-  /// Returns the transformed capsule. It contains every transformed point of this capsule, by exact
+  /// Returns the transformed capsule. The result contains every transformed point of this capsule, by exact
   /// arithmetic. The radius grows by the rounding error of the ends and by the scaling error of the stored
   /// matrix.
   Capsule transformed(const Eigen::Isometry3d& transform) const;

@@ -73,7 +73,7 @@ class Cylinder {
   /// surface. Returns an empty mesh for an empty cylinder.
   Mesh mesh() const;
 
-  /// Returns the transformed cylinder. It contains every transformed point of this cylinder, by exact
+  /// Returns the transformed cylinder. The result contains every transformed point of this cylinder, by exact
   /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the scaling
   /// error of the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;

@@ -71,9 +71,9 @@ class Ellipsoid {
   /// for an empty ellipsoid.
   Mesh mesh() const;
 
-  /// Returns the transformed ellipsoid. It contains every transformed point of this ellipsoid, by exact
-  /// arithmetic. Radii below 2^-30 of the largest radius are first raised to that value. Then all radii grow
-  /// by one factor that covers the rounding error of centre and axes.
+  /// Returns the transformed ellipsoid. The result contains every transformed point of this ellipsoid, by
+  /// exact arithmetic. Radii below 2^-30 of the largest radius are first raised to that value. Then all radii
+  /// grow by one factor that covers the rounding error of centre and axes.
   Ellipsoid transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -182,13 +182,13 @@ class Kdop {
   /// two vertices; a point has no face.
   Mesh mesh() const;
 
-  /// Returns the k-DOP of the transformed polytope along the same directions. It contains every transformed
-  /// point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few units in the
-  /// last place of the coordinates.
+  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every
+  /// transformed point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few
+  /// units in the last place of the coordinates.
   Kdop transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point,
-  /// rounded outward to the next double if it is not a double. A point with a coordinate that is not finite
+  /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point or, if
+  /// the projection is not a double, to the next double outward. A point with a coordinate that is not finite
   /// is ignored.
   Kdop& extend(const Eigen::Vector3d& point);
 

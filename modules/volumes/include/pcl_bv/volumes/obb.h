@@ -46,9 +46,9 @@ class Obb {
   /// Makes the box along the coordinate axes that encloses `box` by exact arithmetic.
   explicit Obb(const Aabb& box);
 
-  /// Returns a box that encloses all p with low[i] <= axes.col(i) . p <= high[i], by exact arithmetic. Its
-  /// half extents exceed (high - low) / 2 by the rounding error of the centre. If any low exceeds its high,
-  /// the box is empty. Throws as the constructor does.
+  /// Returns a box that encloses all p with low[i] <= axes.col(i) . p <= high[i], by exact arithmetic. The
+  /// half extents of the result exceed (high - low) / 2 by the rounding error of the centre. If any low
+  /// exceeds its high, the box is empty. Throws as the constructor does.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
   /// Returns a box that encloses all p with low[i] <= axes.col(i) . (p - origin) <= high[i]. For a box far
@@ -66,8 +66,8 @@ class Obb {
   /// of an empty box is NaN.
   Eigen::Isometry3d pose() const;
 
-  /// Returns the rotation of pose(). Its norm differs from 1 by at most 1e-15. The first non-zero number of
-  /// w, x, y, z is positive.
+  /// Returns the rotation of pose(). The norm of the quaternion differs from 1 by at most 1e-15. The first
+  /// non-zero number of w, x, y, z is positive.
   Eigen::Quaterniond quaternion() const;
 
   /// Returns whether the box has no point.
@@ -108,16 +108,16 @@ class Obb {
   /// axis 1 if bit 1 is set and of axis 2 if bit 2 is set. NaN if empty.
   std::array<Eigen::Vector3d, 8> corners() const;
 
-  /// Returns an axis-aligned box that encloses this box by exact arithmetic. It is tight to a few units in
-  /// the last place.
+  /// Returns an axis-aligned box that encloses this box by exact arithmetic. The result is tight to a few
+  /// units in the last place.
   Aabb aabb() const;
 
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the transformed box. It contains every transformed point of this box, by exact arithmetic on the
-  /// stored matrix. Half extents grow by the rounding error of axes and centre and by the scaling error of
-  /// the matrix.
+  /// Returns the transformed box. The result contains every transformed point of this box, by exact
+  /// arithmetic on the stored matrix. Half extents grow by the rounding error of axes and centre and by the
+  /// scaling error of the matrix.
   Obb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Returns a box that encloses both boxes by exact arithmetic. There are three candidates, with the axes of

@@ -12,8 +12,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of a Sphere that encloses it. The radius includes the rounding error of the centre and is
-/// rounded up. A radius beyond the range of float is infinite. An empty sphere has centre NaN and radius -1.
+/// A float copy of a Sphere that encloses the Sphere. The radius includes the rounding error of the centre
+/// and is rounded up. A radius beyond the range of float is infinite. An empty sphere has centre NaN and
+/// radius -1.
 struct FloatSphere {
   Eigen::Vector3f center;
   float radius;
@@ -76,9 +77,9 @@ class Sphere {
   /// triangles. Returns an empty mesh for an empty sphere.
   Mesh mesh() const;
 
-  /// Returns the transformed sphere. It contains every transformed point of this sphere, by exact arithmetic.
-  /// The radius grows by the rounding error of the centre and by the scaling error of the stored matrix,
-  /// which is rarely exactly orthonormal.
+  /// Returns the transformed sphere. The result contains every transformed point of this sphere, by exact
+  /// arithmetic. The radius grows by the rounding error of the centre and by the scaling error of the stored
+  /// matrix, which is rarely exactly orthonormal.
   Sphere transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the sphere to the smallest sphere around this sphere and the point, plus rounding errors (the
