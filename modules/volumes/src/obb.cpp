@@ -209,8 +209,8 @@ Mesh Obb::mesh() const {
   return mesh;
 }
 
-// Let M p + t be the transformed point p, c the old centre, c' the new centre and a' a new axis. Then a' . (M
-// p + t - c') = (M' a') . (p - c) + a' . (M c + t - c'). The last term is at most 1.001 times the rounding
+// Let the transform map p to M p + t. Let c be the old centre, c' the new centre and a' a new axis. Then a' .
+// (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c'). The last term is at most 1.001 times the rounding
 // error of c'.
 Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;

@@ -29,10 +29,10 @@ struct HullPlane {
 /// of its faces and of its axis-aligned box. The vertices and the triangles between them define the surface;
 /// volume(), surface_area(), center(), support() and distance() use the vertices and triangles.
 ///
-/// A flat hull has a rank below 3 and no triangles. Its vertices are the corners of a polygon in order around
-/// it (rank 2), the ends of a segment (rank 1) or a point (rank 0). Along each direction in which it is flat,
-/// it has two planes that face opposite ways. The empty hull has rank 0 and neither vertices nor planes.
-/// Coordinates beyond 1e100 are not supported.
+/// A flat hull has a rank below 3 and no triangles. The vertices are the corners of a polygon in order (rank
+/// 2), the ends of a segment (rank 1) or a point (rank 0). For each direction in which the hull is flat, two
+/// of its planes face opposite ways. The empty hull has rank 0 and neither vertices nor planes. Coordinates
+/// beyond 1e100 are not supported.
 class Hull {
  public:
   using Triangle = std::array<std::int32_t, 3>;  ///< Indices of three vertices.
@@ -94,7 +94,8 @@ class Hull {
 
   /// Returns the transformed hull. Each plane moves outward by the rounding error of its normal, so that the
   /// result contains every transformed point of this hull, by exact arithmetic on the stored matrix. If the
-  /// planes leave the hull unbounded, this holds only for the points in aabb(). O(planes).
+  /// planes leave the hull unbounded, the result is certain to contain only the transformed points of aabb().
+  /// O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -83,8 +83,8 @@ struct FloatKdop {
 ///
 /// Slabs that were measured on points always have a point in common. Other slabs may have no point in common
 /// although min <= max for each of them. Such a k-DOP has volume 0 and no corners, although empty() is false.
-/// tightened() turns such a k-DOP into the empty k-DOP if the slabs miss each other by more than its
-/// tolerances.
+/// tightened() turns such a k-DOP into the empty k-DOP if the slabs miss each other by more than the
+/// tolerances documented there.
 ///
 /// Some member functions need the corners: volume(), surface_area(), center(), corners(), mesh(), and
 /// distance() for a point outside. Each call of such a function intersects the half-spaces anew, which takes
@@ -174,8 +174,8 @@ class Kdop {
   /// support values of the polytope, rounded outward.
   Aabb aabb() const;
 
-  /// Returns the vertices of the polytope without duplicates. There are none if the k-DOP is empty or its
-  /// slabs have no point in common.
+  /// Returns the vertices of the polytope without duplicates. Returns none if the k-DOP is empty or its slabs
+  /// have no point in common.
   std::vector<Eigen::Vector3d> corners() const;
 
   /// Returns the corners and the faces. A polygon has two faces, one for each side; a segment has one face of

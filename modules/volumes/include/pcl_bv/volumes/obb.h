@@ -14,8 +14,8 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A float copy of an Obb that encloses the Obb: every point p of the Obb satisfies |axes.col(i) . (p -
-/// center)| <= half_extents[i] with the numbers of the FloatObb. Half extents beyond the range of float are
-/// infinite. An empty box has centre NaN and half extents -1.
+/// center)| <= half_extents[i], where axes, center and half_extents are members of the FloatObb. Half extents
+/// beyond the range of float are infinite. An empty box has centre NaN and half extents -1.
 struct FloatObb {
   Eigen::Vector3f center;
   Eigen::Matrix3f axes;

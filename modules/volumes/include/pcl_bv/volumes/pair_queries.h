@@ -22,8 +22,8 @@ struct PosedShape;
 /// are computed only once.
 ///
 /// A body is cheap to copy. Copies and transformed bodies share the prepared data, which never changes, so
-/// several threads may use them. Construction takes 35 us for a 26-DOP, 25 us for a hull of 100 vertices and
-/// 0.03 to 0.2 us for the other kinds.
+/// several threads may use bodies at the same time. Construction takes 35 us for a 26-DOP, 25 us for a hull
+/// of 100 vertices and 0.03 to 0.2 us for the other kinds.
 class ConvexBody {
  public:
   /// Makes the empty body, which overlaps nothing.
