@@ -34,10 +34,10 @@ class WorkerPool {
   /// uses the calling thread alone. A forked child gets a new pool.
   static WorkerPool& instance();
 
-  /// Runs work() on the calling thread and at the same time on at most `helpers` pool threads. These helpers
-  /// are pool threads that become free before work() returns on the calling thread. Then waits for the
-  /// helpers. Must not be called inside a parallel region. If `work` forks and the child returns from `work`,
-  /// throws std::logic_error in the child, because the results of the other threads are missing there.
+  /// Runs work() on the calling thread and at the same time on at most `helpers` pool threads. The helpers
+  /// are those that become free before work() returns on the calling thread. Then waits for the helpers. Must
+  /// not be called inside a parallel region. If `work` forks and the child returns from `work`, throws
+  /// std::logic_error in the child, because the results of the other threads are missing there.
   void run(unsigned helpers, const std::function<void()>& work);
 
   /// Makes at most `helpers` pool threads spin for new tasks instead of sleeping, until stop_spinning() has

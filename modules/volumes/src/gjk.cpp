@@ -65,7 +65,8 @@ class GjkSearch {
       delta_rest_[k] = apart.lo;
       extent = std::max(extent, std::abs(delta_[k]));
     }
-    // If a number overflows or the size of a body is not known, the bodies are treated as overlapping.
+    // The bodies are treated as overlapping if the cores are the same point, if a number overflows, or if the
+    // size of a body is not known.
     overlap_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
     if (overlap_) return;
     scale_ = std::ldexp(1.0, -std::max(std::ilogb(extent), -1000));
