@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Expansions are exact unless the error of a product is below 2^-1074, the smallest positive double. In that
-// case rational arithmetic decides, which is a thousand times slower.
+// Expansions are exact unless a product is so small that its rounding error may be below 2^-1074, the
+// smallest positive double. In that case rational arithmetic computes the result, a thousand times slower.
 
 #include "pcl_bv/numeric/exact_dot.h"
 
@@ -81,8 +81,8 @@ struct Rounded {
 }  // namespace
 
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q) {
-  // Along a coordinate axis it is enough to compare coordinates. Most ties are of this kind, because all
-  // points of an axis-aligned wall have the same coordinate.
+  // If n is parallel to a coordinate axis, it is enough to compare the coordinates along that axis. Most ties
+  // are of this kind, because all points of an axis-aligned wall have the same coordinate along one axis.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) continue;
     const int order = (p[axis] > q[axis]) - (p[axis] < q[axis]);
@@ -95,8 +95,8 @@ int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q
   const double error_bound = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
   if (difference > error_bound) return 1;
   if (difference < -error_bound) return -1;
-  // Products of floats with small integers or powers of two are exact. Then a tie takes 20 ns with
-  // exact_sum(), but 48 ns with expansions.
+  // Products of floats with small integers or powers of two are exact. For such products, deciding a tie
+  // takes 20 ns with exact_sum(), but 48 ns with expansions.
   if (a.has_exact_products(n, p) && b.has_exact_products(n, q)) return compare(a.sum(), b.sum());
   return compare_exactly(n, p, q, a.magnitude() + b.magnitude());
 }

@@ -19,9 +19,9 @@ ExactSum exact_sum(double x, double y, double z) {
   return {head.sum, head.error, errors.error};
 }
 
-// The rounded sum tail + rest has the sign of the exact sum. Therefore its sign is the side of `head` on
-// which the exact value lies. |tail + rest| is at most slightly more than half a step of `head`, so the next
-// double on that side bounds the value.
+// tail + rest, rounded to double, has the same sign as the exact tail + rest. So this sign tells whether the
+// exact value lies above or below `head`. |tail + rest| is at most slightly more than half of the distance
+// between `head` and the next double. Therefore the next double on that side bounds the exact value.
 double round_down(const ExactSum& sum) {
   const double below = sum.tail + sum.rest;
   return (below < 0.0 ? next_down(sum.head) : sum.head) + 0.0;

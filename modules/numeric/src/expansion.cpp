@@ -99,7 +99,7 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
-// Merges the terms when there are as many as `kCapacity`. After compress() at most 41 terms remain.
+// Merges the terms when there are kCapacity of them. At most 41 terms remain after compress().
 void Expansion::compact() {
   ExpansionParts parts(terms_.data(), size_);
   parts.compress();
@@ -110,11 +110,11 @@ void Expansion::compact() {
 }
 
 // Returns a bound of the difference between the sum and head_ + low_. low_ is the sum of at most 44 errors,
-// each at most 2^-53 of magnitude_. Adding them makes at most 44 more errors, each at most 2^-53 of their
-// sum. The total is at most 44^2 2^-106 < 2^-95 of magnitude_. The loss of a product below 2^-960 is less
-// than that if magnitude_ exceeds 2^-900. The result is NaN for smaller magnitudes, and for those near the
-// largest double, where partial sums may overflow. Comparisons with NaN are false, so then the expansion
-// decides.
+// each at most 2^-53 of magnitude_. The additions to low_ make at most 44 more errors, each at most 2^-53 of
+// the sum of the first ones. The total is at most 44^2 2^-106 < 2^-95 of magnitude_. If magnitude_ exceeds
+// 2^-900, this bound also covers the loss of products below 2^-960. If magnitude_ is smaller, or so large
+// that partial sums may overflow, the result is NaN. Comparisons with NaN are false, so the callers then use
+// the non-overlapping expansion.
 double Expansion::error_bound() const {
   return magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The control register is MXCSR on x86-64 and FPCR on Arm. The constructor is defined in a source file, not
-// in the header. If the compiler could inline it, it might move floating-point arithmetic past the register
-// change.
+// in the header. If the compiler could inline the constructor, it might move floating-point arithmetic past
+// the register change.
 
 #include "pcl_bv/numeric/float_environment.h"
 

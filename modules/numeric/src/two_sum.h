@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The error-free addition TwoSum (Knuth), which all exact sums use. It needs -ffp-contract=off and rounding
-// to nearest. Include this header in .cpp files only, because public headers are compiled with the user's
-// flags.
+// The error-free addition TwoSum (Knuth), which all exact sums use. TwoSum needs -ffp-contract=off and
+// rounding to nearest. Include this header in .cpp files only: code in public headers is compiled with the
+// user's flags, which may allow contraction.
 #pragma once
 
 namespace pcl_bv::detail {

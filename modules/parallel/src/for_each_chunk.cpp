@@ -18,8 +18,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Hands out chunk numbers. If bodies fail, stores the exception of the lowest failed chunk, whichever thread
-// caught it.
+// Hands out chunk numbers. If bodies fail, stores the exception of the failed chunk with the lowest number.
 class ChunkQueue {
  public:
   ChunkQueue(std::size_t chunks, const std::function<void(std::size_t)>& body)
@@ -67,15 +66,15 @@ void work_with_openmp(ChunkQueue& queue, unsigned threads) {
   queue.work();
 }
 
-// State shared by a parallel region and the tasks of its executor. The tasks share ownership, because the
-// executor may call them after the region has ended.
+// State shared by a parallel region and the tasks of its executor. The region and the tasks own the state
+// together, because the executor may call tasks after the region has ended.
 class TaskQueue {
  public:
   explicit TaskQueue(ChunkQueue& queue) : queue_(&queue) {}
 
-  // Runs one task. Does nothing on a thread that is already inside a parallel region. There a body may be
-  // waiting for the executor, and the executor may run the task on the same thread meanwhile. The task must
-  // not use the thread's buffers then, because the waiting body still uses them.
+  // Runs one task. Does nothing on a thread that is already inside a parallel region: a body on this thread
+  // may be waiting for the executor, and the executor may use the thread for this task meanwhile. The task
+  // would then overwrite the thread's buffers, which the waiting body still uses.
   void help() {
     if (ParallelRegion::inside()) return;
     const std::shared_lock working(mutex_, std::try_to_lock);

@@ -20,7 +20,7 @@ namespace pcl_bv::detail {
 namespace {
 
 // The pool of the process; null until a pool is first needed. The pool is never deleted, because other
-// threads may be in WorkerPool::run() or call it while static objects are destroyed.
+// threads may still use WorkerPool::run() while static objects are destroyed.
 std::atomic<WorkerPool*> current{nullptr};
 
 thread_local bool inside_region = false;
@@ -44,9 +44,9 @@ bool spin_until(const Condition& condition) {
   return true;
 }
 
-// A forked child does not have the threads of the parent's pool. One of these threads may hold the pool's
-// lock, and the pool's condition variables still count them as waiting. So the child never touches the
-// parent's pool, and makes a new pool when it needs one.
+// A forked child does not have the threads of the parent's pool. One of these threads may have held the
+// pool's lock at the time of the fork, and the pool's condition variables still count the threads as waiting.
+// So the child never touches the parent's pool, and makes a new pool when it needs one.
 void reset_in_child() {
   current = nullptr;
   inside_region = false;
@@ -77,7 +77,8 @@ WorkerPool& WorkerPool::instance() {
   if (pool != nullptr) return *pool;
   auto fresh = std::make_unique<WorkerPool>();
   if (!current.compare_exchange_strong(pool, fresh.get())) return *pool;
-  std::atexit(end_pool);  // a forked child inherits the registration, so end() may be called twice
+  // A forked child inherits this registration and adds its own, so end_pool() may be called twice.
+  std::atexit(end_pool);
   return *fresh.release();
 }
 
@@ -91,7 +92,7 @@ void WorkerPool::end() {
     thread.join();
 }
 
-// If the system refuses a thread, the pool continues with fewer.
+// If the system refuses a thread, the pool continues with fewer threads.
 void WorkerPool::start(unsigned threads) {
   const SignalsBlocked blocked;
   try {
@@ -101,9 +102,10 @@ void WorkerPool::start(unsigned threads) {
   }
 }
 
-// Some systems run threads on as few processors as possible, to save power or to pack virtual machines. They
-// wake a helper on the processor of the thread that called run(). The helper then waits for milliseconds
-// until this thread stops, while other processors are idle.
+// Makes the pool's threads avoid `processor`, the one on which the caller works; -1 allows all processors.
+// Some systems run threads on as few processors as possible, to save power or to pack virtual machines. Such
+// a system wakes a helper on the caller's processor. The helper then waits for milliseconds until the caller
+// stops, while other processors are idle.
 void WorkerPool::exclude_processor(int processor) {
   if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
 }
@@ -114,9 +116,9 @@ WorkerPool::Task* WorkerPool::find_open_task() {
   return found == tasks_.end() ? nullptr : *found;
 }
 
-// Spins until the next task is offered. Returns false if no task was offered in time, or if no
+// Spins until run() offers the next task. Returns false if no task is offered within kSpinTime, or if no
 // SpinningThreads object exists any more. Spinning is worthwhile because waking a sleeping thread takes 25
-// us, and a stage of a frame may be as short.
+// us, and a stage of a frame may take no longer than that.
 bool WorkerPool::spin_for_task(std::unique_lock<std::mutex>& lock) {
   const std::uint64_t seen = run_count_;
   ++spinning_;
@@ -200,8 +202,8 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   }
   const auto done = [&] { return task.active == 0; };
   if (done_.wait_for(lock, kSpinTime, done)) return;
-  // Helpers may now use the caller's processor too. It is free while the caller waits, and the other
-  // processors may be busy.
+  // Helpers may now use the caller's processor too. The caller's processor is free while the caller waits,
+  // and the other processors may be busy.
   exclude_processor(-1);
   done_.wait(lock, done);
 }

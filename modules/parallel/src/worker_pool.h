@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A pool of threads that sleep between calls of WorkerPool::run(). run() waits only for threads that have
-// begun to work. So on a busy machine it takes hardly longer than on one thread, whereas a barrier waits
-// until the last thread gets a processor.
+// begun to work. So on a busy machine run() takes hardly longer than the work would take on one thread. A
+// barrier, in contrast, waits until the last thread gets a processor.
 #pragma once
 
 #include <atomic>
@@ -30,14 +30,14 @@ class ParallelRegion {
 
 class WorkerPool {
  public:
-  /// Returns the process's pool. Threads are started when first needed and joined at exit. Later calls of
-  /// run() use the calling thread alone. A forked child gets a new pool.
+  /// Returns the process's pool. Threads are started when first needed and joined at exit. After that, run()
+  /// uses the calling thread alone. A forked child gets a new pool.
   static WorkerPool& instance();
 
-  /// Runs work() on the calling thread and on at most `helpers` pool threads (helpers), namely on those that
-  /// become free before work() returns on the calling thread. Then waits for the helpers. Must not be called
-  /// inside a parallel region. Throws std::logic_error in a child that was forked by `work` and returns from
-  /// it, because the work of the other threads is lost in the child.
+  /// Runs work() on the calling thread and at the same time on at most `helpers` pool threads. The helpers
+  /// are those that become free before work() returns on the calling thread. Then waits for the helpers. Must
+  /// not be called inside a parallel region. If `work` forks and the child returns from `work`, throws
+  /// std::logic_error in the child, because the results of the other threads are missing there.
   void run(unsigned helpers, const std::function<void()>& work);
 
   /// Makes at most `helpers` pool threads spin for new tasks instead of sleeping, until stop_spinning() has

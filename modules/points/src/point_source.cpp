@@ -12,7 +12,8 @@
 namespace pcl_bv {
 namespace {
 
-// A source that reads from another source holds two buffers at a time.
+// Maximum number of unused buffers that a thread retains. A source that reads from another source uses two
+// buffers at a time.
 constexpr std::size_t kSpares = 2;
 
 thread_local std::vector<std::vector<std::byte>> spares;

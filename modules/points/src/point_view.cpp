@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-// The smallest index of a view, and the number after the largest.
+// The range of the indices of a view: `begin` is the smallest index, `end` is the largest index plus 1.
 struct IndexRange {
   std::size_t begin = 0;
   std::size_t end = 0;

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upper bounds of lengths, also of vectors transformed by a stored isometry, whose matrix is rarely exactly
-// orthonormal. Code that several sources share is in the namespace detail, because other modules
-// have internal functions with similar names.
+// Upper bounds of lengths, also of vectors transformed by a stored isometry. The matrix of a stored isometry
+// is rarely exactly orthonormal.
 #pragma once
 
 #include <Eigen/Core>

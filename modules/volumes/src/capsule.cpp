@@ -55,9 +55,9 @@ Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radi
 }
 
 // Let U = 2^-53. Rounding moves q and e by at most U of their size, and the foot of the perpendicular by less
-// than 12 U (|q| + |e|). It changes the distance by the sum of these errors plus 6 U of the distance. Near
-// the surface, the distance is about the radius, so the tolerance of 32 U (|q|_1 + |e|_1 + radius) exceeds
-// the total error.
+// than 12 U (|q| + |e|). Rounding changes the distance by at most the sum of these errors plus 6 U of the
+// distance. Near the surface, the distance is about the radius, so the tolerance of 32 U (|q|_1 + |e|_1 +
+// radius) exceeds the total error.
 bool Capsule::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;

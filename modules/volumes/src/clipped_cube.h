@@ -10,10 +10,10 @@
 
 namespace pcl_bv::detail {
 
-/// A convex polytope inside the unit cube, as a closed surface of vertex loops. The surface stays closed
-/// after every cut in spite of rounding, because a cut edge gets one new vertex, which both faces of the edge
-/// share, and the cap is the boundary of the remaining faces. A polytope that collapses becomes a polygon
-/// with two sides (rank 2), an edge (rank 1) or a vertex (rank 0).
+/// A convex polytope inside the unit cube, as a closed surface of vertex loops. In spite of rounding, the
+/// surface stays closed after every cut: the two faces of a cut edge share its new vertex, and the cap (the
+/// new face on the plane) consists of edges of the remaining faces. A polytope that collapses becomes a
+/// polygon with two sides (rank 2), an edge (rank 1) or a vertex (rank 0).
 class ClippedCube {
  public:
   using Loop = std::vector<std::int32_t>;
@@ -25,7 +25,7 @@ class ClippedCube {
   /// offset. A normal of 0 cuts nothing.
   void cut(const Eigen::Vector3d& normal, double offset, double rounding = 0);
 
-  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Also those cut off.
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Includes vertices cut off.
   const std::vector<Loop>& loops() const { return loops_; }                   ///< Empty if all was cut off.
   int rank() const { return rank_; }
 

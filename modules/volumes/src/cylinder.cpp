@@ -32,8 +32,8 @@ AxisComponents axis_components(const Eigen::Vector3d& axis, const Eigen::Vector3
   return {dot3(q, axis), q.cross(axis)};
 }
 
-// Returns the vector unchanged if its squared length is 1 to 2^-50, otherwise normalised. This ensures that a
-// vector that was normalised once never changes again.
+// Returns the vector unchanged if its squared length differs from 1 by at most 2^-50, otherwise normalised.
+// This ensures that a vector that was normalised once never changes again.
 Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
   const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
   return unit.array() + 0.0;
@@ -65,9 +65,9 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
 }
 
 // Error bounds, with U = 2^-53. Each component of q is off by at most U of itself, `along` by at most 5 U
-// |q|_1 and each component of `cross` by at most 6 U |q|_1, which changes the length of `cross` by at most 11
-// U |q|_1. Computing the length adds 4 U of the length; the deviation of |axis| from 1 adds another 4 U. The
-// tolerance of 32 U |q|_1 exceeds all sums of these errors.
+// |q|_1 and each component of `cross` by at most 6 U |q|_1. Therefore the length of `cross` changes by at
+// most 11 U |q|_1. Computing the length adds 4 U of the length; the deviation of |axis| from 1 adds another 4
+// U. The tolerance of 32 U |q|_1 exceeds all sums of these errors.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
@@ -91,7 +91,8 @@ double Cylinder::surface_area() const {
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  // For d nearly parallel to the axis, d - (d . axis) axis would be rounding noise in any direction.
+  // The cross products are accurate even if d is nearly parallel to the axis. d - (d . axis) axis would then
+  // be rounding noise in any direction.
   const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
          radius_ * perpendicular.stableNormalized();
@@ -108,10 +109,11 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
       .stableNorm();
 }
 
-// The distance from the ray's origin to its part inside the cylinder is bounded in terms of |q|, half_height
-// and the radius, so the ends of this part are off by less than `error_bound`. Half of `error_bound` covers
-// the positions, the other half the square roots. A cylinder that is inflated by `error_bound` therefore
-// encloses the exact cylinder.
+// The rounding error of a point of the ray grows with the point's distance from the ray's origin. For points
+// inside the cylinder, this distance is bounded in terms of |q|, half_height and the radius. So the ends of
+// the ray's part inside the cylinder are off by less than `error_bound`: half of it covers the positions, the
+// other half the square roots. The ray is clipped by a cylinder that is inflated by `error_bound`, so the
+// result encloses the exact part.
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
@@ -141,7 +143,7 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-// |axis| is 1 to 2^-50, so each half extent is off by at most 2^-49 (half_height + radius).
+// |axis| differs from 1 by at most 2^-50, so each half extent is off by at most 2^-49 (half_height + radius).
 Aabb Cylinder::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -69,8 +69,9 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
 
-// In coordinates in which the ellipsoid is the unit sphere, the positions of the ray up to its exit are off
-// by less than `error_bound` divided by the smallest radius. The sphere is inflated by this quotient.
+// The ray is clipped in coordinates in which the ellipsoid is the unit sphere. In these coordinates, points
+// of the ray up to its exit are off by less than `error_bound` divided by the smallest radius. The sphere is
+// inflated by this quotient.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {

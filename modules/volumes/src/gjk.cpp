@@ -22,9 +22,9 @@ Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& rotation, const Eigen::Ve
 
 // Tolerances of the two number types.
 //
-// `margin`: the origin is treated as inside four points only if all determinants of three of them exceed
-// `margin`. (Coordinates are below 4 in magnitude, so the error of a determinant, a sum of six products of
-// three numbers, is at most 1e-13.)
+// `margin`: the origin is treated as inside a tetrahedron only if the determinants of any three of its
+// vertices exceed `margin`. (Coordinates are below 4 in magnitude, so the error of a determinant, a sum of
+// six products of three numbers, is at most 1e-13.)
 //
 // `negligible_length`: shorter lengths are treated as 0.
 //
@@ -65,7 +65,8 @@ class GjkSearch {
       delta_rest_[k] = apart.lo;
       extent = std::max(extent, std::abs(delta_[k]));
     }
-    // If a number overflows or the size of a body is not known, the bodies are treated as overlapping.
+    // The bodies are treated as overlapping if the cores are the same point, if a number overflows, or if the
+    // size of a body is not known.
     overlap_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
     if (overlap_) return;
     scale_ = std::ldexp(1.0, -std::max(std::ilogb(extent), -1000));
@@ -103,7 +104,7 @@ class GjkSearch {
     return upper_bound_ - radii_ - lower_bound_ <= 0x1p-42 * upper_bound_ + 0x1p-46 * sizes;
   }
 
-  // Returns a lower bound of the distance, by exact arithmetic, from the gap along d, whose length must be
+  // Returns a proven lower bound of the distance, computed from the gap along d. The length of d must be
   // about 1. Returns 0 if d does not separate the bodies. With U = 2^-53, delta is off by at most U of
   // itself, the products and sums by 3.01 U of their terms, and each further step by U of its result.
   double certified(const Eigen::Vector3d& d) const {
@@ -127,8 +128,8 @@ class GjkSearch {
     return times(Real(scale_), w);
   }
 
-  // Runs the iteration. It ends if the points of the simplex prove that no direction is better, if rounding
-  // prevents further progress, if done() is true, or after 100 steps.
+  // Runs the iteration. The iteration ends if the points of the simplex prove that no direction is better, if
+  // rounding prevents further progress, if done() is true, or after 100 steps.
   template <typename Real>
   void search() {
     using P = Precision<Real>;
@@ -163,8 +164,8 @@ class GjkSearch {
   }
 
   // Returns whether two points of the cores, `length` apart after scaling, prove that the bodies overlap by
-  // more than rounding errors. For Goal::exceeds_bound: that their distance is below the bound by more than
-  // rounding errors.
+  // more than rounding errors. With Goal::exceeds_bound, returns whether these points prove that the distance
+  // of the bodies is below the bound by more than rounding errors.
   bool near_enough(double length) {
     if (goal_ == Goal::distance && lower_bound_ > 0) return false;
     overlap_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::exceeds_bound ? bound_ : 0);

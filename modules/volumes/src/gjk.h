@@ -12,13 +12,13 @@
 
 namespace pcl_bv::detail {
 
-/// A shape at its current pose. It consists of all points within `radius` of a point origin + rotation q,
-/// where q is any point of the shape's core.
+/// A shape at its current pose. The shape consists of all points within `radius` of the points origin +
+/// rotation q, where q is any point of the shape's core.
 struct PosedShape {
   explicit PosedShape(const ConvexBody& body);
   PosedShape(const SupportShape& point, const Eigen::Vector3d& at);
 
-  /// Same as the functions of SupportShape, for the rotated core, that is, its points rotation q.
+  /// Same as the functions of SupportShape, but for the rotated core, whose points are rotation q.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
   double support_value_up(const Eigen::Vector3d& direction) const;
 
@@ -34,10 +34,10 @@ enum class Goal {
   exceeds_bound,  ///< Whether the distance exceeds a bound. The search ends when this is known.
 };
 
-/// Returns a lower bound of the distance, by exact arithmetic. If the result is 0, no positive bound was
-/// found, because the bodies overlap or their distance is within rounding errors. With Goal::exceeds_bound,
-/// the result exceeds `bound` if the distance exceeds `bound` by more than rounding errors. The order of a
-/// and b does not change the result.
+/// Returns a proven lower bound of the distance. If the result is 0, no positive bound was found, because the
+/// bodies overlap or their distance is within rounding errors. With Goal::exceeds_bound, the result exceeds
+/// `bound` if the distance exceeds `bound` by more than rounding errors. The order of a and b does not change
+/// the result.
 double lower_bound(const PosedShape& a, const PosedShape& b, Goal goal, double bound);
 
 }  // namespace pcl_bv::detail

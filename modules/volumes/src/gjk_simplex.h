@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sub-algorithm of Gilbert, Johnson and Keerthi. It finds the point of a simplex that is nearest to the
-// origin.
+// The sub-algorithm of Gilbert, Johnson and Keerthi, which finds the point of a simplex that is nearest to
+// the origin.
 #pragma once
 
 #include <array>

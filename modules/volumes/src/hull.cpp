@@ -43,8 +43,8 @@ std::vector<Face> faces_of(const Hull& hull) {
   return faces;
 }
 
-// The hull relative to its first vertex, divided by `unit`. Its size is then about 1, so that products of
-// five lengths do not overflow.
+// The hull relative to its first vertex, divided by `unit`. The size of `polytope` is then about 1, so that
+// products of five lengths do not overflow.
 struct Body {
   Polytope polytope;
   double unit = 1;  // power of two

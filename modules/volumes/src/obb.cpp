@@ -26,7 +26,7 @@ namespace {
 
 // Returns axis . q in double, with an error bound. q is itself a rounded difference. Together, the rounding
 // errors of q, of three products and of two sums are at most 4.01 * 2^-53 |q|_1. The error bound is 8 * 2^-53
-// |q|_1, which also covers the rounding when a caller adds it.
+// |q|_1, which also covers the rounding when a caller adds the error bound.
 Projection component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
 }
@@ -176,8 +176,9 @@ std::array<Eigen::Vector3d, 8> Obb::corners() const {
   return result;
 }
 
-// For the direction w, let y_i = axis(i) . w, rounded, and r = w - A y (`residual`). Each q = p - center of
-// the box satisfies w . q <= sum |y_i| h_i + |r| |q|, with |q| <= 1.001 |h|_1.
+// For the direction w, let y_i = axis(i) . w, rounded, and let r = w - A y, where A is axes_; `residual`
+// bounds the components of r. Let h be half_extents_. Each q = p - center of the box satisfies w . q <= sum
+// |y_i| h_i + |r| |q|, with |q| <= 1.001 |h|_1.
 double Obb::support_value_up(const Eigen::Vector3d& direction) const {
   Eigen::Vector3d y;
   double bound = 0;
@@ -208,8 +209,9 @@ Mesh Obb::mesh() const {
   return mesh;
 }
 
-// For a new axis a' and the new centre c': a' . (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c'). The
-// last term is at most 1.001 times the rounding error of c'.
+// Let the transform map p to M p + t. Let c be the old centre, c' the new centre and a' a new axis. Then a' .
+// (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c'). The last term is at most 1.001 times the rounding
+// error of c'.
 Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -28,8 +28,8 @@ Eigen::Vector3d pointing_positive(const Eigen::Vector3d& axis) {
 }
 
 // Returns whether axis a precedes axis b. Both must be results of pointing_positive(). Axes are ordered by
-// the magnitude of their x components, largest first, then y, then z. If all magnitudes are equal, they are
-// ordered by the signs, positive first.
+// the magnitude of their x components, largest first, then y, then z. If all magnitudes are equal, the axes
+// are ordered by the signs, positive first.
 bool comes_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   for (int k = 0; k < 3; ++k) {
     const double difference = std::abs(a[k]) - std::abs(b[k]);
@@ -90,7 +90,7 @@ Obb Obb::canonical() const {
   const FloatEnvironment environment;
   if (empty()) return *this;
   const double same_size = 0x1p-40 * half_extents_.maxCoeff() +
-                           0x1p-50 * center_.cwiseAbs().maxCoeff();  // plus rounding of the centre
+                           0x1p-50 * center_.cwiseAbs().maxCoeff();  // for rounding of the centre
   Order order{0, 1, 2};
   std::array<Eigen::Vector3d, 3> axes;
   for (int i = 0; i < 3; ++i)
@@ -154,7 +154,8 @@ Obb Obb::oriented_as(const Obb& previous) const {
       signs[i] = along[i] < 0 ? -1 : 1;
     }
     const bool even = (order[1] - order[0] + 3) % 3 == 1;  // permutations 012, 120, 201
-    if ((signs.prod() > 0) != even) {                      // left-handed: negate the axis that costs least
+    if ((signs.prod() > 0) != even) {
+      // The axes are left-handed. Negating the axis with the smallest |along| reduces the sum least.
       Eigen::Index smallest;
       along.cwiseAbs().minCoeff(&smallest);
       signs[smallest] = -signs[smallest];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Obb::overlaps() and Obb::merged(). The smallest box around two boxes is expensive to find, so merged()
-// takes the best of three orientations.
+// Obb::overlaps() and Obb::merged(). Finding the smallest box around two boxes would be expensive. So
+// merged() returns the smallest box of three orientations.
 #include <algorithm>
 #include <cmath>
 

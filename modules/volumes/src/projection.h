@@ -12,8 +12,8 @@
 namespace pcl_bv::detail {
 
 /// A projection computed in plain double, and its error bound. Three products and two sums are off by at most
-/// 3.01 * 2^-53 of the sum of the products' magnitudes. The smallest normal number covers products that
-/// underflow.
+/// 3.01 * 2^-53 of the sum of the products' magnitudes. The error bound is 4 * 2^-53 of this sum, plus the
+/// smallest normal number for products that underflow.
 struct Projection {
   double value, error;
 

@@ -31,14 +31,16 @@ class RayClip {
     }
   }
 
-  /// Restricts the interval to the t from `enter` to `exit`. interval() allows for one rounding of each.
+  /// Restricts the interval to the t from `enter` to `exit`. interval() allows for one rounding of each
+  /// argument.
   void keep_between(double enter, double exit) {
     enter_ = std::max(enter_, enter);
     exit_ = std::min(exit_, exit);
   }
 
   /// Restricts the interval to the t where the ray is within `radius` of a point or a line. With s = t
-  /// 2^exponent, the squared distance of the ray is min_distance^2 + (speed (s - nearest))^2.
+  /// 2^exponent, the squared distance of the ray from this point or line is min_distance^2 + (speed (s -
+  /// nearest))^2.
   void keep_within_radius(double nearest, double min_distance, double radius, double speed, int exponent) {
     if (min_distance > radius) return keep(0, -1);
     const double half =

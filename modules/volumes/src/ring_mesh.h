@@ -27,8 +27,8 @@ struct Ring {
   double radius;
 };
 
-/// Returns a mesh of rings of `sides` vertices each, perpendicular to the triad's axis and ascending along
-/// it. There are quadrilaterals between neighbouring rings and a polygon at each end.
+/// Returns a mesh of rings of `sides` vertices each, perpendicular to the triad's axis and in ascending order
+/// along this axis. There are quadrilaterals between neighbouring rings and a polygon at each end.
 Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides);
 
 }  // namespace pcl_bv::detail

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The shapes of all kinds of volumes except k-DOPs and hulls. With U = 2^-53, three products and two sums are
-// off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum,
-// which also covers the rounding when the error bound is added. The smallest normal number covers underflow.
+// off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum.
+// This also covers the rounding when the error bound is added. The smallest normal number covers underflow.
 #include "shape.h"
 
 #include <algorithm>
@@ -94,8 +94,8 @@ struct Components {
 };
 
 // Returns the dual basis q_i of the axes as columns: axis i . q_i = 1, and q_i is perpendicular to the other
-// axes. The result is the axes after one correction by their deviation from orthonormal, which is accurate to
-// 1e-24.
+// axes. The result is the matrix of the axes after one correction of its deviation from orthonormal. This is
+// accurate to 1e-24.
 Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < 3; ++i) {
@@ -112,8 +112,7 @@ Eigen::Vector3d linear_combination(const Eigen::Matrix3d& columns, const Eigen::
   return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
 }
 
-// Upper bound of |q| divided by the length that is computed from q's components along axes that are
-// orthonormal to 1e-12.
+// Upper bound of |q| / |s|, where s_i = axis i . q and the axes are orthonormal to 1e-12.
 constexpr double kSkewFactor = 1 + 0x1p-36;
 
 class ObbShape final : public SupportShape {
@@ -177,8 +176,8 @@ class EllipsoidShape final : public SupportShape {
 };
 
 // Bound of the support value: let u be the axis. Each point is q = t u + v with |t| <= h / |u|, v
-// perpendicular to u and |v| <= r. Therefore d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50.
-// The error of d . u is below 4 U |d|, the error of d x u is below 6 U |d|.
+// perpendicular to u and |v| <= r. Therefore d . q <= (h |d . u| + r |d x u|) / |u|, where |u| differs from 1
+// by at most 2^-50. The error of d . u is below 4 U |d|, the error of d x u is below 6 U |d|.
 class CylinderShape final : public SupportShape {
  public:
   explicit CylinderShape(const Cylinder& c)
@@ -208,7 +207,7 @@ class CylinderShape final : public SupportShape {
   double core_radius_, half_height_;
 };
 
-// The shape of capsules, spheres and points. The ends relative to the origin are rounded once.
+// The shape of capsules, spheres and points. a_ and b_, the ends relative to the origin, are rounded once.
 class SegmentShape final : public SupportShape {
  public:
   SegmentShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double around) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Convex bodies for the GJK search for the nearest points of two bodies. Support points in plain double
-// propose directions. Proven upper bounds of the support value give the result.
+// Convex bodies for the GJK search (gjk.h). The search finds directions from support points in plain double.
+// The result is computed from proven upper bounds of the support values along these directions.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct Gap {
 };
 
 /// A body that consists of a convex core and all points within `radius` of the core. Points q of the core are
-/// relative to a nearby origin.
+/// relative to `origin`, a point near the core.
 class SupportShape {
  public:
   virtual ~SupportShape() = default;
@@ -28,8 +28,8 @@ class SupportShape {
   /// Returns a point of the core that is farthest along the direction, up to rounding.
   virtual Eigen::Vector3d support(const Eigen::Vector3d& direction) const = 0;
 
-  /// Returns an upper bound, by exact arithmetic, of direction . q over the points origin + q of the core.
-  /// The length of the direction must be about 1.
+  /// Returns a proven upper bound of direction . q over all points q of the core. The length of the direction
+  /// must be about 1.
   virtual double support_value_up(const Eigen::Vector3d& direction) const = 0;
 
   /// Returns a lower bound of the distance to another shape of the same kind, from pairs of parallel faces.

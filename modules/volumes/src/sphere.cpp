@@ -29,9 +29,9 @@ bool precedes(const Sphere& a, const Sphere& b) {
                                       b.center().end());
 }
 
-// Returns the smallest sphere around two spheres. Neither may enclose the other. The radius is the distance
-// from the rounded centre to the far side of each sphere, with each step rounded up, so the result encloses
-// both spheres in spite of the rounding error of the centre.
+// Returns the smallest sphere around two spheres. Neither may enclose the other. The radius is the larger of
+// the distances from the rounded centre to the far sides of the two spheres. Each step is rounded up, so the
+// result encloses both spheres in spite of the rounding error of the centre.
 Sphere around(const Sphere& big, const Sphere& small) {
   const Eigen::Vector3d step = small.center() - big.center();
   const double d = step.stableNorm();

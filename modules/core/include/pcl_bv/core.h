@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Everything for points in memory, without PCL: views of points, ground and clusters, fits, proofs, and
-// trees. Link pcl_bv::core.
+// Includes the public headers for which a program links pcl_bv::core. They need no PCL: point views and
+// sources, ground and clusters, volumes, fits with their proofs, and trees.
 #pragma once
 
 #include "pcl_bv/fitting/fit.h"

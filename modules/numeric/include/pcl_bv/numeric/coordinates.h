@@ -20,7 +20,7 @@ inline bool operator==(const Coordinates& a, const Coordinates& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// Largest magnitude of a valid coordinate. The squares of larger coordinates could overflow a double.
+/// Largest magnitude of a valid coordinate. A product of three valid coordinates does not overflow a double.
 inline constexpr double kMaxCoordinate = 1e100;
 
 /// Whether a point is valid: each coordinate is finite and at most kMaxCoordinate in magnitude. A finite

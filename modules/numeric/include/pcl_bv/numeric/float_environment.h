@@ -12,8 +12,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Sets the calling thread's floating-point environment to the IEEE default while the object lives. Denormals
 /// are preserved (no FTZ, no DAZ), rounding is to nearest, and no exception traps. The destructor restores
-/// the previous environment. If the environment is the default already, the control register is only read,
-/// and exception flags that are raised while the object lives stay raised.
+/// the previous environment. If the previous environment is the default, the control register is never
+/// written, so exception flags that are raised while the object lives stay raised.
 class FloatEnvironment {
  public:
   FloatEnvironment();

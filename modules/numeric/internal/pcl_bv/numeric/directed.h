@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Arithmetic that rounds to a known side. If every step of the computation of a bound rounds outward, the
-// bound is rounded outward, too. Volumes with such bounds enclose their points by exact arithmetic.
+// Arithmetic that rounds up or down. If every step of the computation of an upper bound rounds up, the result
+// is not below the exact bound. A volume with such bounds certainly encloses its points.
 //
 // The caller of these functions must hold a FloatEnvironment (IEEE default rounding, no flush-to-zero).
 #pragma once
@@ -16,14 +16,14 @@ double next_up(double x);
 double next_down(double x);
 
 /// Returns the smallest double >= a + b, a * b or sqrt(a). If the magnitude of the product is below 2^-960,
-/// the result of multiply_up() may be larger by at most the smallest normal double. Overflow returns
-/// +infinity.
+/// the result of multiply_up() may be larger by at most the smallest normal double. If 0 < a < 2^-970,
+/// sqrt_up() may return the next smaller double. Overflow returns +infinity.
 double add_up(double a, double b);
 double multiply_up(double a, double b);
 double sqrt_up(double a);
 
 /// Returns a / scale for a power of two `scale`. The result is exact unless the quotient is a denormal
-/// number. In that case it is rounded up or down.
+/// number, which divide_up() rounds up and divide_down() rounds down.
 double divide_up(double a, double scale);
 double divide_down(double a, double scale);
 

@@ -12,8 +12,8 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// A direction through a face, corner or edge of the unit cube. Its components are -1, 0 or 1; it is not
-/// normalised.
+/// A direction through a face, corner or edge of the unit cube. The components are -1, 0 or 1; the direction
+/// is not normalised.
 using CubeDirection = std::array<std::int8_t, 3>;
 // clang-format off
 inline constexpr std::array<CubeDirection, 13> kCubeDirections = {{

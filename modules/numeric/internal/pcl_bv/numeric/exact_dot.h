@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact projections n . p on any direction n. They decide the slabs of k-DOPs with user-defined directions.
+// Exact comparison and directed rounding of projections n . p on any direction n. The slabs of k-DOPs with
+// user-defined directions are computed with these functions.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact sums of three doubles. They decide the slabs of k-DOPs.
+// Exact sums of three doubles. The slabs of k-DOPs with built-in directions are computed with these sums.
 #pragma once
 
 namespace pcl_bv {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of many terms without rounding error. The bounds of volumes are computed with them.
+// Sums of many terms without rounding errors. The bounds of volumes are computed with such sums.
 #pragma once
 
 #include <array>
@@ -10,11 +10,13 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// An exact sum of doubles and of products of doubles, whose results are rounded only at the end.
+/// An exact sum of doubles and of products of doubles. Only the results of up(), down(), magnitude_up() and
+/// value() are rounded.
 ///
-/// Holds at most 44 terms (a product is two terms). When it is full, the terms are merged without loss into
-/// at most 41. Most results are decided by a sum of twice the precision of a double, with an error bound. A
-/// non-overlapping expansion (Shewchuk 1997) decides the others.
+/// Holds at most 44 terms (a product is two terms). When the capacity is reached, the terms are merged
+/// without loss into at most 41. up(), down() and sign() first use a sum of twice the precision of a double
+/// and its error bound. If the error bound leaves the result open, a non-overlapping expansion (Shewchuk
+/// 1997) decides.
 ///
 /// There is one inexact case. A product below 2^-960 in magnitude may lose about 2^-1074. Then is_lossless()
 /// returns false, and up() and down() move outward by the smallest normal double if the loss could matter.
@@ -39,14 +41,14 @@ class Expansion {
   double down() const;
   double magnitude_up() const;  ///< Smallest double >= the magnitude of the sum.
 
-  /// Returns the sum with an error below one unit in the last place. If the sum is a double, it is returned
+  /// Returns the sum with an error below one unit in the last place. A sum that is a double is returned
   /// exactly.
   double value() const;
 
-  /// Returns the sign (-1, 0 or 1) of the sum. It is exact if is_lossless().
+  /// Returns the sign (-1, 0 or 1) of the sum. The sign is exact if is_lossless().
   int sign() const;
 
-  /// Whether no product was so small (below 2^-960 in magnitude) that digits may be lost.
+  /// True unless digits may be lost because a product is below 2^-960 in magnitude.
   bool is_lossless() const { return !lossy_; }
 
  private:

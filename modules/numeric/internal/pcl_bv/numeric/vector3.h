@@ -19,8 +19,8 @@ namespace numeric_internal {
 template <typename Vector>
 using ScalarOf = std::decay_t<decltype(std::declval<Vector>()[0])>;
 
-// The type in which a result for a Vector can be returned. For an Eigen expression it is the plain matrix
-// type, for other types Vector itself.
+// The type in which functions return a vector computed from a Vector. For an Eigen expression, this is the
+// plain matrix type; for any other type, Vector itself.
 template <typename Vector, typename = void>
 struct Plain {
   using Type = Vector;

@@ -19,21 +19,24 @@ struct Serial {};
 
 /// Runs on OpenMP's thread pool, which the rest of the program may use as well.
 ///
-/// `threads` 0 means all processors that the calling thread may use. A parallel region ends when all threads
-/// have arrived, so on a busy machine it waits until the last thread gets a processor. Do not use this policy
-/// in a forked child whose parent has used OpenMP, because GNU's libgomp then waits forever.
+/// `threads` 0 means all processors that the calling thread may use. A parallel region ends only after each
+/// of its threads has run, so on a busy machine the region waits until the last thread gets a processor. Do
+/// not use this policy in a forked child whose parent has used OpenMP, because GNU's libgomp then waits
+/// forever.
 struct OpenMP {
   unsigned threads = 0;
 };
 
-/// Runs on the library's own thread pool. The threads of the pool sleep between parallel regions. A region
-/// waits only for threads that have begun to work, so on a busy machine it is never much slower than on one
-/// thread.
+/// Runs on the library's own thread pool. The threads of the pool sleep between parallel regions. A parallel
+/// region waits only for threads that have begun to work, so on a busy machine the region is never much
+/// slower than on one thread.
 ///
 /// `threads` 0 means all processors that the process's main thread may use. A forked child gets a new pool. A
-/// pool thread starts with the processors, scheduling policy and nice value that the process's main thread
-/// has at that time, whichever thread starts it. Pool threads are never real-time. They block signals, so
-/// that the host's threads handle signals. Programs that need other threads pass an Executor.
+/// pool thread takes the processors, the nice value and the scheduling policy that the process's main thread
+/// has when the pool thread starts. It does not matter which thread starts the pool thread. If the main
+/// thread is real-time, pool threads use SCHED_OTHER. Pool threads avoid the caller's processor while the
+/// caller works there. Pool threads block signals, except signals of faults such as SIGSEGV, so that the
+/// host's threads handle signals. Programs that need threads with other attributes pass an Executor.
 struct Threads {
   unsigned threads = 0;
 };
@@ -45,9 +48,9 @@ struct Threads {
 /// means as many as `Threads{}` uses. With TBB: `[](std::size_t tasks, const auto& task) {
 /// tbb::parallel_for(std::size_t{0}, tasks, task); }`.
 ///
-/// The thread that called `run` completes the work of tasks that `run` has not called. Calls after `run` has
-/// returned have no effect. An exception from `run` is rethrown when all tasks that have begun have ended. In
-/// this case some of the work may not have been done.
+/// The thread that called `run` completes the work of tasks that `run` has not called. Calls after the
+/// parallel region has ended have no effect. If `run` throws, the exception is rethrown when all tasks that
+/// have begun have ended. In this case some of the work may not have been done.
 struct Executor {
   unsigned threads = 0;
   std::function<void(std::size_t tasks, const std::function<void(std::size_t)>& task)> run;
@@ -64,18 +67,19 @@ unsigned thread_count(const ParallelPolicy& policy);
 /// Throws like thread_count().
 ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 
-/// The threads and the instruction set of a computation. Neither changes a bit of its result.
+/// The threads and the instruction set of a computation. Neither choice changes a bit of the result.
 ///
 /// A policy converts to an Execution, so a function that takes an Execution also takes `Threads{4}`.
 struct Execution {
   Execution() = default;
 
-  /// `instructions` `automatic` is resolved here, not when the Execution is copied; see UsableIsa.
+  /// By default, resolves Isa::automatic once, in this call; see UsableIsa. Copies of the Execution keep the
+  /// resolved set.
   template <typename Policy, typename = std::enable_if_t<std::is_convertible_v<Policy, ParallelPolicy>>>
   Execution(Policy policy, UsableIsa instructions = {}) : parallel(std::move(policy)), isa(instructions) {}
 
   ParallelPolicy parallel = Serial{};  ///< The threads.
-  UsableIsa isa;                       ///< The instruction set; by default Isa::automatic, resolved.
+  UsableIsa isa;                       ///< The instruction set. Default: the set that Isa::automatic selects.
 };
 
 }  // namespace pcl_bv

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Chunk and merge (Karlsson, Winberg and Larsson 2010, section 5). Work is cut into chunks of fixed size;
-// results are stored by chunk number and merged in that order. So no result depends on which thread does
+// results are stored by chunk number and merged in that order. So no result depends on which thread runs
 // which chunk.
 #pragma once
 
@@ -22,11 +22,11 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 /// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads. Returns
 /// when all calls have returned.
 ///
-/// Runs on the calling thread alone if the policy has one thread, if there is one chunk, or inside another
-/// parallel region (of pcl_bv or of OpenMP), to avoid oversubscription. If bodies throw, the remaining chunks
-/// are still run; then the exception of the lowest failed chunk is rethrown. A body may fork. The child may
-/// start parallel regions itself, but must never return from the body. A FloatEnvironment lives during each
-/// call.
+/// Runs on the calling thread alone if the policy has one thread or if there is only one chunk. Also runs on
+/// the calling thread alone inside another parallel region of pcl_bv or OpenMP, to avoid oversubscription. If
+/// bodies throw, the remaining chunks are still run; then the exception of the failed chunk with the lowest
+/// number is rethrown. A body may fork. The child may start parallel regions itself, but must never return
+/// from the body. A FloatEnvironment lives during each call.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   run_chunks(policy, chunks, std::ref(body));
@@ -41,12 +41,12 @@ void for_each_range(const ParallelPolicy& policy, std::size_t items, std::size_t
   });
 }
 
-/// Keeps the library's threads spinning between parallel regions while the object lives, so that they need
-/// not be woken. Waking a sleeping thread takes about 25 us.
+/// Keeps the library's threads spinning between parallel regions while the object lives, so that no thread
+/// needs to be woken. Waking a sleeping thread takes about 25 us.
 ///
-/// Each thread spins for at most 2 ms at a time and occupies its processor meanwhile. Use it around a
-/// sequence of short parallel stages. It has an effect only for the policy Threads, outside of parallel
-/// regions.
+/// Each thread spins for at most 2 ms at a time and occupies its processor meanwhile. Make such an object for
+/// a sequence of short parallel stages. The object has an effect only for the policy Threads, outside of
+/// parallel regions.
 class SpinningThreads {
  public:
   explicit SpinningThreads(const ParallelPolicy& policy);
@@ -58,8 +58,8 @@ class SpinningThreads {
   void* pool_ = nullptr;
 };
 
-/// Returns merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)). The maps run in parallel,
-/// the merges in order on the calling thread. Throws like for_each_chunk().
+/// Sets result = identity, calls merge(result, map(i)) for i = 0 ... chunks - 1, and returns the result. The
+/// maps run in parallel. The merges run in this order on the calling thread. Throws like for_each_chunk().
 template <typename Partial, typename Map, typename Merge>
 Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial identity, Map&& map,
                       Merge&& merge) {

@@ -20,9 +20,9 @@ template <typename Part>
 class PointParts {
  public:
   /// Sets `begin` and `end` of each part. A part has at least 8192 points (or all points), because a smaller
-  /// part would be done before another thread has started. There are two parts per thread, so that a thread
-  /// that starts late still finds work; a policy with one thread gets one part. Zero points give one empty
-  /// part.
+  /// part would be done before another thread has started. There are at most two parts per thread, so that a
+  /// thread that starts late still finds work. A policy with one thread gets one part. Zero points give one
+  /// empty part.
   void cut(std::size_t count, const ParallelPolicy& policy) {
     const std::size_t threads = thread_count(policy);
     used_ = std::clamp<std::size_t>(count / 8192, 1, threads == 1 ? 1 : 2 * threads);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A copy of points as structure of arrays (Karlsson, Winberg and Larsson 2010, Figure 1), in the order in
-// which vector registers load them. The copy is useful if several volumes are fitted to one cloud.
+// A copy of points as structure of arrays (Karlsson, Winberg and Larsson 2010, Figure 1). The coordinates are
+// in the order in which vector registers load them. The copy is useful if several volumes are fitted to one
+// cloud.
 #pragma once
 
 #include <cstddef>
@@ -19,23 +20,23 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// Coordinates keep their bits, NaN and infinity included, and points keep their order. Point i of view() is
 /// the i-th point visited by the assigned view. So PointView::index() of view() is the index in the cloud if
-/// a whole cloud was assigned. Otherwise it is the position in the slice or in the index list, whose element
-/// at this position is the index in the cloud.
+/// a whole cloud was assigned. If a slice or a view with an index list was assigned, it is the position in
+/// the slice or in the list.
 ///
 /// Every kernel and fit accepts view() and returns the same bits as for the assigned view. For an index list
-/// that is not ascending, only boxes and k-DOPs have the same bits. Other results may differ, because of
-/// points with equal projections the one with the smallest PointView::index() is the support point. In the
-/// copy this may be another point, and spheres start from the support points.
+/// that is not ascending, only boxes and k-DOPs have the same bits. Other results may differ: if points have
+/// equal projections, the support point is the point with the smallest PointView::index(), which in the copy
+/// may be another point. Spheres, for example, are computed from support points.
 class PointGroups {
  public:
   PointGroups() = default;
   /// Copies the points; see assign().
   explicit PointGroups(const PointView& points, UsableIsa isa = {});
 
-  /// Replaces the contents by a copy of the points, which must not be those of this object. Allocates memory
-  /// only if they need more than capacity(). O(n), one pass. `isa` changes no bit. Throws
-  /// std::invalid_argument if the points are not in memory, and std::bad_alloc; the object is then unchanged
-  /// or empty.
+  /// Replaces the contents by a copy of the points. `points` must not be a view of this object. Allocates
+  /// memory only if the points need more than capacity(). O(n), one pass. `isa` changes no bit. Throws
+  /// std::invalid_argument if the points are not in memory, and std::bad_alloc if an allocation fails. After
+  /// an exception, the object is unchanged or empty.
   void assign(const PointView& points, UsableIsa isa = {});
 
   /// Returns a view of all points, or an empty view after a move. The view is valid until the next assign(),

@@ -15,13 +15,13 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Number of points per block. A kernel accepts or rejects a block as a whole (is any point invalid, can any
-/// point be extreme?). A block of pcl::PointXYZ has 16 KiB, so a second pass finds it in the first-level
-/// cache.
+/// Number of points per block. A kernel tests each block as a whole: is any point of the block invalid, and
+/// can any be extreme? A block of pcl::PointXYZ has 16 KiB, so a second pass finds the block in the
+/// first-level cache.
 inline constexpr std::size_t kBlockPoints = 1024;
 
 /// Number of points per chunk. One call of a kernel processes one chunk, in about 10 us. A chunk of
-/// pcl::PointXYZ has 512 KiB, so a second kernel finds it in the second-level cache.
+/// pcl::PointXYZ has 512 KiB, so a second kernel finds the chunk in the second-level cache.
 inline constexpr std::size_t kChunkPoints = 32 * kBlockPoints;
 
 /// Returns the number of chunks of a cloud. The last chunk may be shorter than kChunkPoints.
@@ -35,8 +35,8 @@ inline PointView block_of(const PointView& points, std::size_t block) {
   return points.slice(begin, std::min(kBlockPoints, points.count - begin));
 }
 
-/// Provides the points of a view with PointView::source. Loading the same points again must give the same
-/// bits.
+/// Provides the points of views whose member PointView::source points to this object. Loading the same points
+/// again must give the same bits.
 class PointSource {
  public:
   virtual ~PointSource() = default;
@@ -48,8 +48,8 @@ class PointSource {
   virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
 };
 
-/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, copying them to memory is
-/// better.
+/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, a copy of the points in
+/// memory is better.
 inline PointView view_of(const PointSource& source, std::size_t count, ScalarType scalar) {
   PointView view;
   view.source = &source;
@@ -64,9 +64,9 @@ class LoadedPoints {
   /// Loads the visited points [begin, begin + count) of the view. Throws std::out_of_range if the view does
   /// not have these points.
   ///
-  /// For a view of a source, `count` is at most kChunkPoints. Then the constructor throws what the source
-  /// throws. It throws std::invalid_argument for more than kChunkPoints points, if the view has indices as
-  /// well, or if the source returns other points than requested.
+  /// For a view of a source, `count` must be at most kChunkPoints, and the view must not have indices.
+  /// Otherwise throws std::invalid_argument. Also throws std::invalid_argument if the source returns other
+  /// points than requested. Exceptions that the source throws are passed on.
   LoadedPoints(const PointView& points, std::size_t begin, std::size_t count) {
     if (begin > points.count || count > points.count - begin)
       throw std::out_of_range("LoadedPoints: the requested points are outside the view");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The input of all functions: a non-owning view that fits every layout of points. view() makes one from an
-// array of points of any type.
+// The input of all functions: a non-owning view that fits every layout of points. view() makes such a view
+// from a vector of points of any type.
 #pragma once
 
 #include <cstddef>
@@ -30,18 +30,19 @@ enum class PointOrder : std::uint8_t {
   groups    ///< 64 bytes of x, 64 bytes of y, 64 bytes of z, repeated (see point_groups.h).
 };
 
-/// Number of bytes of each coordinate in a group. They hold 16 floats or 8 doubles, and are as long as a
-/// cache line and as the widest vector of x86.
+/// Number of bytes of each coordinate in a group. These bytes hold 16 floats or 8 doubles. A cache line and
+/// the widest vector of x86 have the same size.
 inline constexpr std::size_t kGroupBytes = 64;
 
 class PointSource;
 
-/// A read-only view of points, either of all points of an array or of those that an index list selects. The
-/// view does not own the memory, which must outlive the view. Fits, verify(), cloud_statistics() and masks
-/// also take points of a PointSource; all other functions take points in memory.
+/// A read-only view of points, either of consecutive points of an array or of the points that an index list
+/// selects. The view does not own the memory, which must outlive the view. Fits, verify(), cloud_statistics()
+/// and masks also take points of a PointSource; all other functions take points in memory.
 ///
-/// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records they need
-/// no alignment. They may be NaN or infinite. Functions that read the coordinates drop such points.
+/// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records,
+/// coordinates need no alignment. Coordinates may be NaN or infinite. Functions that read the coordinates
+/// drop such points.
 struct PointView {
   const std::byte* data = nullptr;        ///< Address of x of the first point.
   std::size_t stride = 0;                 ///< Records: bytes from one point's x to the next point's x.
@@ -57,8 +58,8 @@ struct PointView {
   const PointSource* source = nullptr;
 
   /// Returns a view of float or double points (other types do not compile). `xyz` points to x of the first
-  /// point; points are `stride` bytes apart, and all `stride` bytes are readable (x is the first member of
-  /// the record). Indices are not checked; subset() checks them.
+  /// point; points are `stride` bytes apart. From each x on, `stride` bytes must be readable, which is true
+  /// if x is the first member of the record. Indices are not checked; subset() checks them.
   template <typename T, typename = std::enable_if_t<std::is_same_v<T, float> || std::is_same_v<T, double>>>
   static PointView of(const T* xyz, std::size_t stride, std::size_t count,
                       const std::int32_t* indices = nullptr) {
@@ -94,9 +95,9 @@ struct PointView {
 
   /// Returns a view of the points with the indices `selected`, in this order. These are indices in the cloud
   /// (values of index()), not positions in this view. `selected` must outlive the view. O(size), or O(size +
-  /// count) for a view with an index list. Throws std::out_of_range, naming the index, for an index below or
-  /// above those of this view, and std::invalid_argument for points of a source, which can only be visited in
-  /// their order.
+  /// count) for a view with an index list. Throws std::out_of_range, with the index in the message, if an
+  /// index is below the smallest or above the largest index of this view. Throws std::invalid_argument for a
+  /// view of a source, because the points of a source can only be visited in their order.
   PointView subset(const std::int32_t* selected, std::size_t size) const;
   PointView subset(const std::vector<std::int32_t>& selected) const {
     return subset(selected.data(), selected.size());
@@ -104,8 +105,8 @@ struct PointView {
   PointView subset(std::vector<std::int32_t>&& selected) const =
       delete;  // the view would outlive the indices
 
-  /// Returns a view of the visited points [begin, begin + n), which are not checked against the size. index()
-  /// of the returned view is still the index in the cloud.
+  /// Returns a view of the visited points [begin, begin + n). Does not check that the view has these points.
+  /// index() of the returned view is still the index in the cloud.
   PointView slice(std::size_t begin, std::size_t n) const {
     PointView part = *this;
     part.count = n;
@@ -133,8 +134,8 @@ struct IndexLists {
   const std::int32_t* list(std::size_t i) const { return indices.data() + offsets[i]; }
 };
 
-/// Returns one view for each list, of the points of `points` with these indices. The lists must outlive the
-/// views. O(points + indices). Throws as PointView::subset().
+/// Returns one view for each list. A view has those points of `points` whose indices are in its list. The
+/// lists must outlive the views. O(points + indices). Throws like PointView::subset().
 std::vector<PointView> subsets(const PointView& points, const IndexLists& lists);
 
 /// Returns a view of `count` points whose coordinates x, y, z follow one another without gaps. `first` is the
@@ -151,7 +152,7 @@ inline PointView packed_points(const std::byte* xyz, ScalarType scalar, std::siz
 }
 
 /// Returns whether both views visit the same memory, or points of the same source, in the same order. If so,
-/// they have the same points unless the memory or the source has changed in between.
+/// both views have the same points unless the memory or the source has changed in between.
 inline bool same_memory(const PointView& a, const PointView& b) {
   return a.data == b.data && a.stride == b.stride && a.count == b.count && a.indices == b.indices &&
          a.first == b.first && a.scalar == b.scalar && a.order == b.order && a.source == b.source;
@@ -204,7 +205,7 @@ struct has_xyz<Record, std::void_t<decltype(Record::x), decltype(Record::y), dec
 };
 
 /// Returns a view of all `count` records. Record is any struct with members x, y, z, all float or all double,
-/// adjacent in memory in this order. Throws std::invalid_argument if they are not adjacent.
+/// adjacent in memory in this order. Throws std::invalid_argument if these members are not adjacent.
 template <typename Record>
 PointView view_records(const Record* records, std::size_t count) {
   static_assert(has_xyz<Record>::value,
@@ -218,9 +219,9 @@ PointView view_records(const Record* records, std::size_t count) {
   return view;
 }
 
-/// Returns a view of a vector of points: of structs with members x, y, z as view_records() takes them, or of
-/// fixed-size arrays of float or double whose first three elements are x, y, z, such as Eigen::Vector3f,
-/// Eigen::Vector4d or std::array<float, 3>. The vector must outlive the view.
+/// Returns a view of a vector of points. A point is either a struct that view_records() takes, or a
+/// fixed-size array of float or double whose first three elements are x, y, z. Such arrays are
+/// Eigen::Vector3f, Eigen::Vector4d or std::array<float, 3>, for example. The vector must outlive the view.
 template <typename Record, typename Allocator>
 PointView view(const std::vector<Record, Allocator>& points) {
   if constexpr (has_xyz<Record>::value) {

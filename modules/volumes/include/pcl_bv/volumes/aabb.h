@@ -12,8 +12,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of an Aabb, rounded outward so that it encloses the box. A bound beyond the range of float
-/// becomes the largest finite float or infinity.
+/// A float copy of an Aabb, rounded outward so that the copy encloses the box. A bound beyond the range of
+/// float becomes the largest finite float or infinity.
 struct FloatAabb {
   Eigen::Vector3f min;
   Eigen::Vector3f max;
@@ -56,8 +56,8 @@ class Aabb {
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the box; 0 if the point is inside. Infinity if the box is empty
-  /// or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the box; 0 if the point is inside. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the box is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. The error
@@ -78,9 +78,9 @@ class Aabb {
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the axis-aligned box of the transformed box. It contains every transformed point of this box, by
-  /// exact arithmetic on the stored matrix. Each max is rounded up to the next double, and each min is
-  /// rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
+  /// Returns the axis-aligned box of the transformed box. The result contains every transformed point of this
+  /// box, by exact arithmetic on the stored matrix. Each max is rounded up to the next double, and each min
+  /// is rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
   Aabb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the box to contain the point. A point with a coordinate that is not finite is ignored.

@@ -42,26 +42,27 @@ class Capsule {
   double surface_area() const;     ///< Surface area in squared units; 0 if empty.
   Eigen::Vector3d center() const;  ///< Middle of the segment. NaN if empty.
 
-  /// Returns the point that is farthest along `direction` (any length; for a zero direction the centre). NaN
-  /// if empty.
+  /// Returns a point that is farthest along `direction`, which may have any length. For a zero direction,
+  /// returns the centre. NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the capsule; 0 if contains() is true. Infinity if the capsule is
-  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the capsule; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the capsule is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the capsule; see RayInterval. The
-  /// result is computed by Sphere::intersect() and Cylinder::intersect() and has their error bounds.
+  /// result is computed by Sphere::intersect() and Cylinder::intersect(), with a radius that is larger by
+  /// about 2^-46 (|b - a|_1 + radius). The error bounds of these functions apply.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns the smallest box of doubles that encloses the capsule by exact arithmetic.
   Aabb aabb() const;
 
-  /// Returns the mesh of two half spheres and the tube between them. It has 24 sides, and its vertices are on
-  /// the surface. An empty mesh if empty.
+  /// Returns the mesh of two half spheres and the tube between them. The mesh has 24 sides, and its vertices
+  /// are on the surface. Returns an empty mesh for an empty capsule.
   Mesh mesh() const;
 
-  /// Returns the transformed capsule. It contains every transformed point of this capsule, by exact
+  /// Returns the transformed capsule. The result contains every transformed point of this capsule, by exact
   /// arithmetic. The radius grows by the rounding error of the ends and by the scaling error of the stored
   /// matrix.
   Capsule transformed(const Eigen::Isometry3d& transform) const;

@@ -12,9 +12,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of a Cylinder's axis and radius. The infinite cylinder around the axis encloses the Cylinder:
-/// the radius includes the distance by which rounding moves the axis. An empty cylinder has centre and axis
-/// NaN and radius -1.
+/// A float copy of a Cylinder's centre, axis and radius. The infinite cylinder around the axis encloses the
+/// Cylinder: the radius includes the distance by which rounding moves the axis. An empty cylinder has centre
+/// and axis NaN and radius -1.
 struct FloatCylinder {
   Eigen::Vector3f center, axis;
   float radius;
@@ -33,7 +33,8 @@ class Cylinder {
 
   /// Makes a cylinder. A negative radius or half height gives the empty cylinder. Otherwise throws
   /// std::invalid_argument unless all numbers are finite and the axis is not zero. An axis whose squared
-  /// length is 1 to 2^-50 is stored unchanged; any other axis is normalised. Stores -0 as 0.
+  /// length differs from 1 by at most 2^-50 is stored unchanged; any other axis is normalised. Stores -0 as
+  /// 0.
   Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double radius, double half_height);
 
   const Eigen::Vector3d& center() const { return center_; }  ///< Centre; NaN if empty.
@@ -55,8 +56,8 @@ class Cylinder {
   /// Returns a point that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the cylinder; 0 if contains() is true. Infinity if the cylinder
-  /// is empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the cylinder; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the cylinder is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the cylinder; see RayInterval. Both
@@ -69,15 +70,16 @@ class Cylinder {
   Aabb aabb() const;
 
   /// Returns the mesh of a prism with 48 sides and two end polygons. The edges between the sides lie on the
-  /// surface. An empty mesh if empty.
+  /// surface. Returns an empty mesh for an empty cylinder.
   Mesh mesh() const;
 
-  /// Returns the transformed cylinder. It contains every transformed point of this cylinder, by exact
+  /// Returns the transformed cylinder. The result contains every transformed point of this cylinder, by exact
   /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the scaling
   /// error of the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Returns a float copy of axis and radius. The infinite cylinder around it encloses the cylinder.
+  /// Returns a float copy of centre, axis and radius. The infinite cylinder of this axis and radius encloses
+  /// the cylinder.
   FloatCylinder cast_float() const;
 
  private:

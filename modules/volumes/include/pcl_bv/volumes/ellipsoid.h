@@ -48,31 +48,32 @@ class Ellipsoid {
   /// ellipsoid count. 0 if empty.
   double surface_area() const;
 
-  /// Returns the point that is farthest along `direction` (any length; for a zero direction the centre). NaN
-  /// if empty.
+  /// Returns a point that is farthest along `direction`, which may have any length. For a zero direction,
+  /// returns the centre. NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the ellipsoid; 0 if contains() is true. Infinity if the ellipsoid
-  /// is empty or a coordinate is infinite, NaN if a coordinate is NaN. Accurate to about 1e-14 of the
-  /// distance or the size, whichever is larger (Eberly 2013, with bisection).
+  /// Returns the distance from the point to the ellipsoid; 0 if contains() is true. NaN if the point has a
+  /// NaN coordinate, otherwise infinity if the ellipsoid is empty or the point has an infinite coordinate.
+  /// Accurate to about 1e-14 of the distance or the size, whichever is larger (Eberly 2013, with bisection).
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Both
   /// ends of the interval lie in an ellipsoid whose radii are larger by 2^-44 * ratio * (|origin - center|_1
-  /// + largest radius), where `ratio` is the largest radius divided by the smallest radius.
+  /// + largest radius), where `ratio` is the largest radius divided by the smallest radius. For a flat
+  /// ellipsoid, the radii of that ellipsoid are about twice as large.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns a box that encloses the ellipsoid by exact arithmetic. The box exceeds the smallest such box by
   /// at most about 1e-12 of the size.
   Aabb aabb() const;
 
-  /// Returns a mesh of 13 rings of 24 vertices each, on the surface, and the faces between them. An empty
-  /// mesh if empty.
+  /// Returns a mesh of 13 rings of 24 vertices each. The vertices are on the surface. Returns an empty mesh
+  /// for an empty ellipsoid.
   Mesh mesh() const;
 
-  /// Returns the transformed ellipsoid. It contains every transformed point of this ellipsoid, by exact
-  /// arithmetic. Radii below 2^-30 of the largest radius are first raised to that value. Then all radii grow
-  /// by one factor that covers the rounding error of centre and axes.
+  /// Returns the transformed ellipsoid. The result contains every transformed point of this ellipsoid, by
+  /// exact arithmetic. Radii below 2^-30 of the largest radius are first raised to that value. Then all radii
+  /// grow by one factor that covers the rounding error of centre and axes.
   Ellipsoid transformed(const Eigen::Isometry3d& transform) const;
 
  private:

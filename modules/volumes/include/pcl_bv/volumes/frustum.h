@@ -10,13 +10,13 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Returns the view frustum of a camera, a pyramid cut off by two planes, as a hull of 8 vertices, 12
-/// triangles and 6 planes. All member functions of Hull and all queries of volumes accept it.
+/// triangles and 6 planes. The result can be used like any other Hull.
 ///
 /// `pose` is the transform from the camera's frame to the frame of the points. The camera is at the origin of
 /// its frame; z is its viewing direction, x is to the right and y is down. This is the optical frame of ROS.
-/// The frame of pcl::FrustumCulling differs, because its x is forward. In the camera's frame, the frustum is
-/// near <= z <= far, |x| <= z horizontal_tan and |y| <= z vertical_tan. `horizontal_tan` and `vertical_tan`
-/// are the tangents of half the fields of view. For a pinhole camera, horizontal_tan is (columns / 2) / fx.
+/// In the frame of pcl::FrustumCulling, in contrast, x is forward. In the camera's frame, the frustum is near
+/// <= z <= far, |x| <= z horizontal_tan and |y| <= z vertical_tan. `horizontal_tan` and `vertical_tan` are
+/// the tangents of half the fields of view. For a pinhole camera, horizontal_tan is (columns / 2) / fx.
 ///
 /// Vertex i is at `far` if bit 2 of i is set, at positive x if bit 0 is set and at positive y if bit 1 is
 /// set. The planes are near, far, positive x, negative x, positive y, negative y. Vertices are rounded; each

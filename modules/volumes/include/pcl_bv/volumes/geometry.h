@@ -23,8 +23,8 @@ struct Mesh {
 /// parameter t is in units of the direction's length, so the segment with t <= 1 meets the volume if
 /// enter <= 1.
 ///
-/// The member function intersect() of every volume returns this interval. It returns nothing if the ray
-/// misses the volume, if the volume is empty, or if the origin or direction is not finite.
+/// The member function intersect() of every volume returns this interval. intersect() returns nothing if the
+/// ray misses the volume, if the volume is empty, or if the origin or direction is not finite.
 ///
 /// The interval encloses the exact interval. A ray that hits the volume by exact arithmetic, even in one
 /// point or along a face, is therefore always reported as a hit. Each volume's intersect() documents the

@@ -29,10 +29,10 @@ struct HullPlane {
 /// of its faces and of its axis-aligned box. The vertices and the triangles between them define the surface;
 /// volume(), surface_area(), center(), support() and distance() use the vertices and triangles.
 ///
-/// A flat hull has a rank below 3 and no triangles. Its vertices are the corners of a polygon in order around
-/// it (rank 2), the ends of a segment (rank 1) or a point (rank 0). Along each direction in which it is flat,
-/// it has two planes that face opposite ways. The empty hull has rank 0 and neither vertices nor planes.
-/// Coordinates beyond 1e100 are not supported.
+/// A flat hull has a rank below 3 and no triangles. The vertices are the corners of a polygon in order (rank
+/// 2), the ends of a segment (rank 1) or a point (rank 0). For each direction in which the hull is flat, two
+/// of its planes face opposite ways. The empty hull has rank 0 and neither vertices nor planes. Coordinates
+/// beyond 1e100 are not supported.
 class Hull {
  public:
   using Triangle = std::array<std::int32_t, 3>;  ///< Indices of three vertices.
@@ -73,9 +73,9 @@ class Hull {
   /// returns the first. NaN if empty. O(vertices).
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the nearest triangle (to the polygon, segment or point if the
-  /// hull is flat); 0 if contains() is true. Infinity if the hull is empty or a coordinate is infinite, NaN
-  /// if a coordinate is NaN. O(triangles).
+  /// Returns the distance from the point to the nearest triangle or, if the hull is flat, to its polygon,
+  /// segment or point. 0 if contains() is true. NaN if the point has a NaN coordinate, otherwise infinity if
+  /// the hull is empty or the point has an infinite coordinate. O(triangles).
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the hull; see RayInterval. The
@@ -84,9 +84,9 @@ class Hull {
 
   /// Returns a box that encloses the hull by exact arithmetic. If the hull has a plane that faces the same
   /// way as a side of the box, the side lies in that plane. Other sides are at a proven upper bound of the
-  /// hull's support value. A fitted hull has all six planes, so its box is the box of its points. If the
-  /// planes leave the hull unbounded, the result is the box of the vertices. Neither a fit nor transformed()
-  /// of a fitted hull makes such a hull. O(planes).
+  /// hull's support value. A fitted hull has planes for all six sides, so its box is the box of its points.
+  /// If the planes leave the hull unbounded, the result is the box of the vertices. A fitted hull is never
+  /// unbounded, nor is its transformed() copy. O(planes).
   Aabb aabb() const;
 
   /// Returns vertices and triangles. The mesh of a hull of rank 2 has its polygon twice, once for each side.
@@ -94,7 +94,8 @@ class Hull {
 
   /// Returns the transformed hull. Each plane moves outward by the rounding error of its normal, so that the
   /// result contains every transformed point of this hull, by exact arithmetic on the stored matrix. If the
-  /// planes leave the hull unbounded, this holds only for the points in aabb(). O(planes).
+  /// planes leave the hull unbounded, the result is certain to contain only the transformed points of aabb().
+  /// O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;
 
  private:

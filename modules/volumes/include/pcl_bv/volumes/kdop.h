@@ -32,10 +32,11 @@ class KdopSet {
   /// magnitude.
   explicit KdopSet(std::vector<Eigen::Vector3d> directions);
 
-  /// The built-in sets have the first 3, the first 7, the first 3 and last 6, or all of the directions
+  /// The built-in sets. dop26() has these 13 directions, in this order:
   /// (1,0,0) (0,1,0) (0,0,1), (1,1,1) (1,1,-1) (1,-1,1) (1,-1,-1),
   /// (1,1,0) (1,-1,0) (1,0,1) (1,0,-1) (0,1,1) (0,1,-1).
-  /// The pointers own nothing, so copying a pointer changes no atomic reference count.
+  /// dop6() has the first 3, dop14() the first 7, and dop18() the first 3 and the last 6. The pointers own
+  /// nothing, so copying a pointer changes no atomic reference count.
   static const std::shared_ptr<const KdopSet>& dop6();
   static const std::shared_ptr<const KdopSet>& dop14();
   static const std::shared_ptr<const KdopSet>& dop18();
@@ -65,7 +66,8 @@ using SlabVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(
 /// A view of the numbers that a Kdop stores. Valid until the Kdop is destroyed or assigned to.
 using SlabView = Eigen::Map<const SlabVector>;
 
-/// A float copy of a Kdop with slabs rounded outward, to infinity beyond the range of float if necessary.
+/// A float copy of a Kdop whose slabs are rounded outward. A bound beyond the range of float becomes the
+/// largest finite float or infinity.
 struct FloatKdop {
   std::shared_ptr<const KdopSet> set;
   Eigen::Matrix<float, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1> min;
@@ -80,12 +82,13 @@ struct FloatKdop {
 /// 1e100 are not supported.
 ///
 /// Slabs that were measured on points always have a point in common. Other slabs may have no point in common
-/// although min <= max for each of them. Such a k-DOP has volume 0 and no corners, although empty() is false;
-/// tightened() turns it into the empty k-DOP.
+/// although min <= max for each of them. Such a k-DOP has volume 0 and no corners, although empty() is false.
+/// tightened() turns such a k-DOP into the empty k-DOP if the slabs miss each other by more than the
+/// tolerances documented there.
 ///
-/// The member functions that need the corners (volume, surface_area, center, corners, mesh, and distance to a
-/// point outside) intersect the half-spaces anew in each call, which takes 20 us for a 26-DOP. The corners
-/// are accurate to about 1e-13 of the extent.
+/// Some member functions need the corners: volume(), surface_area(), center(), corners(), mesh(), and
+/// distance() for a point outside. Each call of such a function intersects the half-spaces anew, which takes
+/// 20 us for a 26-DOP. The corners are accurate to about 1e-13 of the extent.
 class Kdop {
  public:
   /// Makes the empty k-DOP. Throws std::invalid_argument for a null set.
@@ -136,8 +139,8 @@ class Kdop {
   /// method, which takes about 1 us.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the k-DOP; 0 if contains() is true. Infinity if the k-DOP is
-  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the k-DOP; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the k-DOP is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the k-DOP; see RayInterval. `enter`
@@ -163,7 +166,7 @@ class Kdop {
   ///
   /// The result is empty if the new min of a slab exceeds its new max, which proves that the polytope has no
   /// point. Conversely, if slabs miss each other by more than these tolerances, the result was empty in all
-  /// tests, but this is not proven.
+  /// tests; this is not proven.
   Kdop tightened() const;
 
   /// Returns a box that encloses the polytope by exact arithmetic. If a coordinate axis is one of the
@@ -171,21 +174,21 @@ class Kdop {
   /// support values of the polytope, rounded outward.
   Aabb aabb() const;
 
-  /// Returns the vertices of the polytope without duplicates. There are none if the k-DOP is empty or its
-  /// slabs have no point in common.
+  /// Returns the vertices of the polytope without duplicates. Returns none if the k-DOP is empty or its slabs
+  /// have no point in common.
   std::vector<Eigen::Vector3d> corners() const;
 
   /// Returns the corners and the faces. A polygon has two faces, one for each side; a segment has one face of
   /// two vertices; a point has no face.
   Mesh mesh() const;
 
-  /// Returns the k-DOP of the transformed polytope along the same directions. It contains every transformed
-  /// point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few units in the
-  /// last place of the coordinates.
+  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every
+  /// transformed point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few
+  /// units in the last place of the coordinates.
   Kdop transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point,
-  /// rounded outward to the next double if it is not a double. A point with a coordinate that is not finite
+  /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point or, if
+  /// the projection is not a double, to the next double outward. A point with a coordinate that is not finite
   /// is ignored.
   Kdop& extend(const Eigen::Vector3d& point);
 
@@ -205,7 +208,7 @@ class Kdop {
   void store(const SlabVector& min, const SlabVector& max);
 
   // Up to 13 slabs (a 26-DOP) are stored inline, without an allocation. With an inline capacity of 49 slabs,
-  // every AnyVolume would have 824 bytes instead of 256, too much for a million clusters.
+  // every AnyVolume would have more than 800 bytes instead of 256. That is too much for a million clusters.
   static constexpr std::size_t max_inline_slabs = 13;
 
   std::shared_ptr<const KdopSet> set_;

@@ -22,8 +22,8 @@ struct PosedShape;
 /// are computed only once.
 ///
 /// A body is cheap to copy. Copies and transformed bodies share the prepared data, which never changes, so
-/// several threads may use them. Construction takes 35 us for a 26-DOP, 25 us for a hull of 100 vertices and
-/// 0.03 to 0.2 us for the other kinds.
+/// several threads may use bodies at the same time. Construction takes 35 us for a 26-DOP, 25 us for a hull
+/// of 100 vertices and 0.03 to 0.2 us for the other kinds.
 class ConvexBody {
  public:
   /// Makes the empty body, which overlaps nothing.
@@ -35,11 +35,11 @@ class ConvexBody {
   /// Returns whether the body has no point.
   bool empty() const { return !shape_; }
 
-  /// Returns the body moved by `transform`. The result contains the exact image of every point of this body,
-  /// where the elements of `transform` are taken as exact numbers. It may be larger than the exact image, by
-  /// the rounding errors of the coordinates. If the linear part is not exactly a rotation, the result also
-  /// grows, because the radius is multiplied by an upper bound of the matrix norm. A call takes 1.5 us for
-  /// every kind of volume.
+  /// Returns the body moved by `transform`. The result contains every transformed point of this body, by
+  /// exact arithmetic on the stored matrix. The result may be larger than the transformed body by the
+  /// rounding errors of the coordinates. If the linear part is not exactly a rotation, the result also grows,
+  /// because the radius of a round body is multiplied by an upper bound of the matrix norm. A call takes 1.5
+  /// us for every kind of volume.
   ///
   /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
   /// time, not the body of the previous step.
@@ -48,7 +48,8 @@ class ConvexBody {
  private:
   friend detail::PosedShape;
 
-  // The body is all points within radius_ of a point origin_ + rotation_ q, for the q of the shape's core.
+  // The body consists of all points within radius_ of the points origin_ + rotation_ q, where q is any point
+  // of the shape's core.
   std::shared_ptr<const detail::SupportShape> shape_;  // null if empty
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
@@ -57,30 +58,30 @@ class ConvexBody {
 };
 
 /// Returns whether two volumes have a point in common. Each volume is the set that its class defines. The
-/// test is conservative. If the result is false, exact arithmetic has proven that the volumes are separated
-/// along some direction. If the result is true, the distance of the volumes is at most about 1e-14 of their
-/// sizes and of the distance of their centres.
+/// test is conservative. If the result is false, the volumes are proven to be separated along some direction.
+/// If the result is true, the distance of the volumes is at most about 1e-14 of their sizes and of the
+/// distance of their centres.
 ///
 /// False if either volume is empty. The order of the arguments does not matter. Two Aabb are compared
 /// exactly. Two Kdop of equal sets are compared exactly along their directions. A Hull whose planes leave it
 /// unbounded overlaps every volume that is not empty.
 ///
-/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes directions; see docs/numerics.md. A call for
-/// two ConvexBody takes 0.1 to 0.2 us. If one of them is a 26-DOP, the call takes 0.7 to 1.5 us; if one is a
-/// hull of 100 vertices, 1.5 to 4 us. distance() takes two to three times as long as overlaps(), and at most
-/// 4 us for round bodies.
+/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes these directions; see docs/numerics.md. A
+/// call for two ConvexBody takes 0.1 to 0.2 us. If one of them is a 26-DOP, the call takes 0.7 to 1.5 us; if
+/// one is a hull of 100 vertices, 1.5 to 4 us. distance() takes two to three times as long as overlaps(), and
+/// at most 4 us for round bodies.
 bool overlaps(const AnyVolume& a, const AnyVolume& b);
 bool overlaps(const ConvexBody& a, const ConvexBody& b);
 
-/// Returns a certified lower bound of the distance of two volumes, in their unit, so no two points of the
-/// volumes are nearer. The bound is below the distance by at most about 1e-12 of the distance plus 1e-13 of
-/// the sizes. The bound is 0 if and only if overlaps() is true. Returns infinity if either volume is empty.
-/// The order of the arguments does not matter.
+/// Returns a certified lower bound of the distance of two volumes, in their unit: no point of one volume is
+/// nearer than this bound to any point of the other volume. The bound is below the distance by at most about
+/// 1e-12 of the distance plus 1e-13 of the sizes. The bound is 0 if and only if overlaps() is true. Returns
+/// infinity if either volume is empty. The order of the arguments does not matter.
 double distance(const AnyVolume& a, const AnyVolume& b);
 double distance(const ConvexBody& a, const ConvexBody& b);
 
-/// Returns a certified lower bound of the distance from the point to the body. Infinity if the body is empty
-/// or a coordinate is infinite, NaN if a coordinate is NaN.
+/// Returns a certified lower bound of the distance from the point to the body. NaN if the point has a NaN
+/// coordinate, otherwise infinity if the body is empty or the point has an infinite coordinate.
 double distance(const ConvexBody& body, const Eigen::Vector3d& point);
 
 /// Returns whether distance(a, b) <= margin. Conservative: true for all bodies whose distance is at most

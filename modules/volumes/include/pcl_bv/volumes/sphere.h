@@ -12,8 +12,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A float copy of a Sphere that encloses it. The radius includes the rounding error of the centre and is
-/// rounded up. A radius beyond the range of float is infinite. An empty sphere has centre NaN and radius -1.
+/// A float copy of a Sphere that encloses the Sphere. The radius includes the rounding error of the centre
+/// and is rounded up. A radius beyond the range of float is infinite. An empty sphere has centre NaN and
+/// radius -1.
 struct FloatSphere {
   Eigen::Vector3f center;
   float radius;
@@ -51,12 +52,12 @@ class Sphere {
   double volume() const;        ///< Volume in cubed units; 0 if empty.
   double surface_area() const;  ///< Surface area in squared units; 0 if empty.
 
-  /// Returns the point of the sphere that is farthest along `direction` (any length; for a zero direction the
-  /// centre). NaN if empty.
+  /// Returns the point of the sphere that is farthest along `direction`, which may have any length. For a
+  /// zero direction, returns the centre. NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
-  /// Returns the distance from the point to the sphere; 0 if contains() is true. Infinity if the sphere is
-  /// empty or a coordinate is infinite, NaN if a coordinate is NaN.
+  /// Returns the distance from the point to the sphere; 0 if contains() is true. NaN if the point has a NaN
+  /// coordinate, otherwise infinity if the sphere is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the sphere; see RayInterval. A ray
@@ -72,13 +73,13 @@ class Sphere {
   /// Returns the smallest box of doubles that encloses the sphere by exact arithmetic.
   Aabb aabb() const;
 
-  /// Returns an icosahedron that is subdivided twice. It has 162 vertices, on the surface, and 320 triangles.
-  /// An empty mesh if empty.
+  /// Returns an icosahedron that is subdivided twice. The mesh has 162 vertices, on the surface, and 320
+  /// triangles. Returns an empty mesh for an empty sphere.
   Mesh mesh() const;
 
-  /// Returns the transformed sphere. It contains every transformed point of this sphere, by exact arithmetic.
-  /// The radius grows by the rounding error of the centre and by the scaling error of the stored matrix,
-  /// which is rarely exactly orthonormal.
+  /// Returns the transformed sphere. The result contains every transformed point of this sphere, by exact
+  /// arithmetic. The radius grows by the rounding error of the centre and by the scaling error of the stored
+  /// matrix, which is rarely exactly orthonormal.
   Sphere transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the sphere to the smallest sphere around this sphere and the point, plus rounding errors (the
@@ -86,9 +87,9 @@ class Sphere {
   /// coordinate that is not finite is ignored.
   Sphere& extend(const Eigen::Vector3d& point);
 
-  /// Enlarges the sphere to the smallest sphere around this sphere and the other, plus rounding errors. If
-  /// one sphere encloses the other by exact arithmetic, the result is the enclosing sphere, unchanged.
-  /// Merging is commutative, but not associative.
+  /// Enlarges the sphere to the smallest sphere around this sphere and the other sphere, plus rounding
+  /// errors. If one sphere encloses the other by exact arithmetic, the result is the enclosing sphere,
+  /// unchanged. Merging is commutative, but not associative.
   Sphere& merge(const Sphere& other);
 
   /// Returns a float copy that encloses the sphere.
