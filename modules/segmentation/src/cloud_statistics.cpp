@@ -83,7 +83,7 @@ double nearest_listed(const PointView& points, std::size_t i, const Coordinates&
 std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
   const std::size_t samples = std::min(used, kMaxSamples);
   std::vector<Sample> taken;
-  std::size_t k = (before * samples + used - 1) / used;  // sample k is the used point number k * used / samples
+  std::size_t k = (before * samples + used - 1) / used;  // sample k is used point number k * used / samples
   for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
     const Coordinates p = load_point(points, i);
     if (!is_used(p)) continue;
