@@ -22,7 +22,8 @@ constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 // belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// A rise changes the slope by rise / (slope_memory + distance since ground was last seen). Metres.
+// A rise changes the slope by rise / (slope_memory + distance since ground was last seen). All three are in
+// metres.
 constexpr float slope_memory = 2.6F;
 
 // If the lowest point is below the expected height, the expected height follows by at most this fall per

@@ -28,7 +28,7 @@ constexpr std::size_t plane_sample =
     2048;  // 8192 points and 300 tries gave the same plane on recorded and generated sweeps
 
 // Factor of `distance` in cells with an object. Without this factor the feet of walls, hedges and cars would
-// be ground. They are 2 % of the points of a street scene.
+// be ground. These feet are 2 % of the points of a street scene.
 constexpr double foot_share = 0.2;
 
 void check(const GroundZonesOptions& options) {

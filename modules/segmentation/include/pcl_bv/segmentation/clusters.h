@@ -99,9 +99,9 @@ class EuclideanClusterer {
   EuclideanClusterer(EuclideanClusterer&&) noexcept;
   EuclideanClusterer& operator=(EuclideanClusterer&&) noexcept;
 
-  /// Replaces `clusters` by the clusters of `points`. A point without neighbours is a cluster of size one.
-  /// Points that are not valid (is_valid()) are ignored. A point that is twice in the index list counts once.
-  /// Without valid points there are no clusters.
+  /// Replaces `clusters` by the clusters of `points`. With min_points = 1 a point without neighbours is a
+  /// cluster of size one. Points that are not valid (is_valid()) are ignored. A point that is twice in the
+  /// index list counts once. Without valid points there are no clusters.
   ///
   /// The number of threads never changes the result. Steps over points use one thread for fewer than 16 384
   /// points. Steps over blocks of 64 cells use one thread for at most 256 blocks.

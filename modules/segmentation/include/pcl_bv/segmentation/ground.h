@@ -198,10 +198,10 @@ struct OtherUp {
 /// Looks for a better up direction, for which many more points of the cloud are ground.
 ///
 /// The directions are z, -y, y, -z, x, -x and (0, -1, -1), tried in this order with the distance and slope of
-/// `options`. (-y is up in a camera's frame, and (0, -1, -1) in that of a camera that looks down.) Directions
-/// close to options.up are skipped. `found` is the share of ground points for options.up. If `found` is above
-/// 0, only the direction opposite to options.up is tried. For the other directions a wall could be taken for
-/// the ground, because it may be larger than the ground. A direction is accepted if all of these hold:
+/// `options`. In a camera's frame -y is up. If the camera looks down, (0, -1, -1) is up. Directions close to
+/// options.up are skipped. `found` is the share of ground points for options.up. If `found` is above 0, only
+/// the direction opposite to options.up is tried. For the other directions a wall could be taken for the
+/// ground, because it may be larger than the ground. A direction is accepted if all of these hold:
 /// - It has a ground plane at least 0.2 m below `sensor`.
 /// - At most a tenth as many points are below the plane as near it.
 /// - The share of points near the plane is at least 3 % and at least three times `found`.
