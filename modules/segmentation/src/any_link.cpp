@@ -27,7 +27,8 @@ T longest_side(const Box<T>& box) {
   return std::max({e.x, e.y, e.z});
 }
 
-// Halves the points at the median of the longest side, so that the depth is logarithmic for any distribution.
+// Splits a group into halves at the median along the longest side of its box, so that the depth of the
+// recursion is logarithmic for any distribution.
 template <typename T>
 std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
   const Point<T> e = extent(group.box);
@@ -49,7 +50,8 @@ bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
   if (a.count * b.count <= max_direct_pairs) {
     return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
   }
-  // The test above decides for two groups without extent, so here the longer group has at least two points.
+  // If both boxes are single positions, one of the two tests above has decided. So here the longer group has
+  // at least two points.
   if (longest_side(a.box) < longest_side(b.box)) std::swap(a, b);
   auto [near, far] = split(a);
   if (min_squared_distance(far.box, b.box) < min_squared_distance(near.box, b.box)) std::swap(near, far);
@@ -78,8 +80,8 @@ Nearest<T> nearest(const PointRun<T>& run, const Point<T>& to) {
   return best;
 }
 
-// Let p be the point of a nearest to the first point of b. Returns whether p is linked to this first point,
-// or to the point of b nearest to p. This finds most links.
+// Let p be the point of run `a` that is nearest to the first point of run `b`. Returns whether p is linked to
+// this first point, or to the point of `b` that is nearest to p. This finds most links.
 template <typename T>
 bool nearest_points_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
   const Nearest<T> of_a = nearest(a, *b.points);

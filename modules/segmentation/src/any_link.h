@@ -25,9 +25,9 @@ struct LinkScratch {
   std::vector<Point<T>> a, b;
 };
 
-/// Returns the same as any_link(), for many points. First tests points that are nearest to some point of the
-/// other run. Then descends into both runs as k-d trees that are built on the way. Takes about m^1.5 tests
-/// for two parallel sheets of m points each.
+/// Returns the same as any_link(), for many points. First tests two pairs of points that are near each other.
+/// Then splits both runs recursively, like k-d trees, and skips parts that are too far apart for a link.
+/// Takes about m^1.5 tests for two parallel sheets of m points each.
 template <typename T>
 bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch);
 
@@ -45,7 +45,8 @@ bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
 /// Largest number of pairs for which testing all pairs is cheaper than splitting the runs.
 inline constexpr std::size_t max_direct_pairs = 256;
 
-/// Returns whether squared_distance(p, q) < r2 for any p of a and q of b. Neither run may be empty.
+/// Returns whether squared_distance(p, q) < r2 for any point p of run `a` and point q of run `b`. Neither run
+/// may be empty.
 template <typename T>
 bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
   return a.count * b.count <= max_direct_pairs ? any_link_of_few(a, b, r2)

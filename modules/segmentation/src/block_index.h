@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A hash table that numbers the keys of blocks in the order in which points first need them.
+// A hash table that numbers the keys of blocks in the order in which they first occur.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace pcl_bv::detail {
 
-/// Maps the key of a block to its number. Numbering costs less than sorting the points, because points come
-/// in scan order and the next point is mostly in the same block.
+/// Maps the key of a block to its number. Numbering the blocks costs less than sorting the points. In scan
+/// order consecutive points are mostly in the same block, so number() is called only once for many points.
 template <typename Key>
 class BlockIndex {
  public:
@@ -44,7 +44,7 @@ class BlockIndex {
 
   void allocate_slots(std::size_t slots) {
     slots_.assign(slots, {0, none});
-    old_.reserve(slots / 2);  // so that grow() need not allocate it
+    old_.reserve(slots / 2);  // enough for a later grow() to this number of slots
     shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
   }
 

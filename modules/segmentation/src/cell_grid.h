@@ -29,9 +29,9 @@ std::int64_t far_cell_number(double cells);
 /// magnitude for each valid coordinate. Two coordinates less than 1.9 cells apart get numbers that differ by
 /// at most 2.
 ///
-/// At a distance of at most 2^40 cells from the origin the number is floor(coordinate / side), computed in
-/// double, to 2^-12 of a cell. Farther out the width of a cell is 2^-28 of its distance from the origin. This
-/// is finer than the spacing of floats, so the cell holds only one float value.
+/// At a distance below 2^40 cells from the origin the number is floor(coordinate / side), computed in double
+/// with an error of at most 2^-12 of a cell. Farther out the width of a cell is at most 2^-28 of its distance
+/// from the origin. This is finer than the spacing of floats, so a cell holds at most one float value.
 inline std::int64_t cell_number(double coordinate, double inverse_side) {
   const double cells = coordinate * inverse_side;
   if (!(std::abs(cells) < far_cells)) return far_cell_number(cells);
@@ -39,8 +39,8 @@ inline std::int64_t cell_number(double coordinate, double inverse_side) {
   return towards_zero - (cells < static_cast<double>(towards_zero));
 }
 
-/// Position of a cell, given by the key of its block and its number in the block. The number has two bits
-/// each of x (lowest), y and z.
+/// Position of a cell, given by the key of its block and its number in the block. The number has two bits per
+/// axis. Those of x are the lowest, then come y and z.
 template <typename Key>
 struct CellKey {
   Key block;
@@ -51,8 +51,8 @@ struct CellKey {
 /// side, so that the key of a neighbour never carries into the next axis.
 struct CellGrid {
   double inverse_side;
-  std::array<std::int64_t, 3> origin;  ///< Cell number along x, y, z that the grid counts as 0.
-  std::array<unsigned, 3> shift;       ///< Lowest bit of the x, y, z of a block in its key.
+  std::array<std::int64_t, 3> origin;  ///< Along x, y, z, the cell_number() of cell 0 of the grid.
+  std::array<unsigned, 3> shift;       ///< Position of the lowest bit of x, y, z in the key.
   unsigned key_bits;                   ///< Width of the key, at most 120.
   bool near;                           ///< Whether all cell numbers are below near_cells in magnitude.
 

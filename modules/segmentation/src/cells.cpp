@@ -15,7 +15,7 @@ template <typename T, typename Key>
 void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockKeys<Key>& keys,
                CellPart<Key>& part) {
   part.runs.clear();
-  // No block with points has the key 0, because each axis has a spare block below them.
+  // No block with points has the key 0, because each axis has a spare block below the blocks with points.
   Key last = 0;
   std::uint64_t occupied = 0;  // local, because a register is faster than memory
   for (std::size_t i = part.begin; i < part.end; ++i) {
@@ -32,7 +32,7 @@ void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockK
   if (!part.runs.empty()) part.runs.back().occupied = occupied;
 }
 
-// Numbers the blocks in the order in which the points first need them.
+// Numbers the blocks in the order in which they first occur.
 template <typename Key>
 void number_blocks(std::size_t points, BlockKeys<Key>& keys) {
   keys.occupied.clear();
@@ -87,8 +87,8 @@ void count_cells(const BlockKeys<Key>& keys, std::uint32_t count, Cells<T>& cell
 }  // namespace
 
 std::int64_t far_cell_number(double cells) {
-  // The bits of a positive double increase with the double, with 2^52 values in each octave. Dropping 24 bits
-  // leaves 2^28 steps per octave. Each step is at least 2^12 cells.
+  // Read as an integer, the bits of a positive double increase with the double, with 2^52 values in each
+  // octave. Dropping 24 bits leaves 2^28 steps per octave. Each step is at least 2^12 cells.
   const auto steps = [](double v) { return std::bit_cast<std::int64_t>(v) >> 24; };
   const std::int64_t magnitude =
       static_cast<std::int64_t>(far_cells) + steps(std::abs(cells)) - steps(far_cells);
@@ -96,7 +96,7 @@ std::int64_t far_cell_number(double cells) {
 }
 
 void CellGrid::add_axis(std::size_t axis, double min, double max) {
-  constexpr std::int64_t spare = 4;  // cells of one block
+  constexpr std::int64_t spare = 4;  // in cells: one block
   const std::int64_t low = cell_number(min, inverse_side);
   const std::int64_t high = cell_number(max, inverse_side);
   origin[axis] = low - spare;

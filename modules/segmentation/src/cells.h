@@ -42,7 +42,7 @@ struct Block {
 template <typename T>
 struct Cells {
   std::vector<Point<T>> points;      ///< Points in the order of their cells.
-  std::vector<std::uint32_t> begin;  ///< Start of each cell in `points`; the last entry is the size.
+  std::vector<std::uint32_t> begin;  ///< Start of each cell in `points`; the last entry is points.size().
   std::vector<Block> blocks;         ///< Blocks in ascending order of their keys.
   std::vector<std::uint32_t> node;   ///< For each point passed to make_cells(), its node.
   bool by_point = false;             ///< Whether nodes are positions in `points`, not cells.
@@ -68,11 +68,11 @@ template <typename Key>
 struct CellPart {
   std::size_t begin, end;
   std::vector<BlockRun<Key>> runs;
-  std::vector<std::uint32_t> next;  ///< For each cell, the position of its next point.
+  std::vector<std::uint32_t> next;  ///< For each cell, its number of points, then the position of the next.
 };
 
 /// Smallest number of blocks for which the buffers of BlockKeys are freed after make_cells() instead of
-/// retained for the next call. A street has 10 000 blocks.
+/// retained for the next call. A street scene has about 10 000 blocks.
 constexpr std::size_t free_memory_from_blocks = 1 << 18;
 
 /// Keys of one width, and the buffers for sorting them.
@@ -82,7 +82,8 @@ struct BlockKeys {
   PointParts<CellPart<Key>> parts;
   std::vector<KeyedPoint<Key>> order, spare;
   BlockIndex<Key> index;
-  /// Position of each block in `keys`, by the number of the block in `index`. `occupied` has the same order.
+  /// Position in `keys` of each block, indexed by the number of the block in `index`. `occupied` is indexed
+  /// by the same number.
   std::vector<std::uint32_t> rank;
   std::vector<std::uint64_t> occupied;
   std::vector<std::uint8_t> bit_of_point;
@@ -95,8 +96,8 @@ struct BlockKeys {
   }
 };
 
-/// Sorts the points into the cells of `grid`. Within a cell, points stay in their order. Reads
-/// cells.by_point.
+/// Sorts the points into the cells of `grid`. Within a cell, points retain their order. The caller must set
+/// cells.by_point, which selects the nodes.
 template <typename T, typename Key>
 void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const ParallelPolicy& policy,
                 Cells<T>& cells, BlockKeys<Key>& keys);

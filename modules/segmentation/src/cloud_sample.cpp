@@ -19,7 +19,8 @@ void draw_sample(const PointView& points, std::uint32_t seed, std::size_t sample
   while (std::gcd(step, n) != 1)
     ++step;
   std::size_t i = seed % n;
-  // Consecutive points are far apart in memory, so each batch is prefetched before its points are read.
+  // Consecutive points of the sample are far apart in memory, so each batch is prefetched before its points
+  // are read.
   std::array<std::size_t, 64> batch;
   for (std::size_t visited = 0; visited < n && sample.size() < sample_size; visited += batch.size()) {
     const std::size_t count = std::min({batch.size(), n - visited, sample_size - sample.size()});

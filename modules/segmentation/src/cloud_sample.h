@@ -12,9 +12,9 @@
 
 namespace pcl_bv::detail {
 
-/// Replaces `sample` by at most `sample_size` valid points. The positions in the cloud advance by the golden
-/// section of its size, cyclically, so they visit each point once and cover the cloud evenly at any time. So
-/// the sample does not resonate with the rows of a sensor.
+/// Replaces `sample` by at most `sample_size` valid points. Visits the points cyclically, in steps of 0.618
+/// times the size of the cloud (the golden section). So no point is visited twice, and the visited points are
+/// evenly spread at any time. Unlike every n-th point, they have no common period with the rows of a sensor.
 void draw_sample(const PointView& points, std::uint32_t seed, std::size_t sample_size,
                  std::vector<Eigen::Vector3d>& sample);
 

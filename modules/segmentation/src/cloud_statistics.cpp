@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Finds the median spacing without an exact nearest-neighbour search for all samples. The smallest distance
-// found so far is an upper bound of the spacing of a sample. So the median of these bounds is at least the
-// median of the spacings. Each point is compared only with samples within the median of the bounds, because a
-// point farther away cannot change a spacing below this median.
+// found so far for a sample is an upper bound of its spacing. So the median of these bounds is at least the
+// median of the spacings. Each point is compared only with the samples whose distance is at most the median
+// of the bounds. A larger distance cannot lower a bound that is below this median.
 
 #include "pcl_bv/segmentation/cloud_statistics.h"
 
@@ -24,7 +24,8 @@ namespace {
 
 constexpr std::size_t kMaxSamples = 1000;
 
-// Number of points before and after a sample in the list that give the first bound of its spacing.
+// The first bound of a sample's spacing is computed from this number of points before the sample in the
+// cloud, and from as many after it.
 constexpr std::size_t kNeighboursInList = 64;
 
 bool is_no_return(const Coordinates& p) {
@@ -76,12 +77,13 @@ double nearest_listed(const PointView& points, std::size_t i, const Coordinates&
   return best;
 }
 
-// Takes the samples of a chunk. The samples of all chunks are evenly spaced among the `used` points of the
-// cloud. `before` is the number of such points in earlier chunks.
+// Takes the samples of a chunk. The samples of all chunks are evenly spaced among the points of the cloud for
+// which is_used() holds. `used` is the number of these points, and `before` is their number in earlier
+// chunks.
 std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
   const std::size_t samples = std::min(used, kMaxSamples);
   std::vector<Sample> taken;
-  std::size_t k = (before * samples + used - 1) / used;  // sample k is usable point k * used / samples
+  std::size_t k = (before * samples + used - 1) / used;  // sample k is used point number k * used / samples
   for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
     const Coordinates p = load_point(points, i);
     if (!is_used(p)) continue;
@@ -103,7 +105,7 @@ double median(const std::vector<Sample>& samples) {
 }
 
 // Compares points with the samples, which are sorted along `axis`, and lowers the distances of the samples.
-// The search radius is the median of the distances, so it shrinks.
+// The search radius is the median of these distances, so the radius shrinks.
 void lower_distances(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
   constexpr std::size_t points_per_update = 4096;
   const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };

@@ -10,7 +10,7 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t dropped = unseen - 1;  // component of a size that is not allowed
+constexpr std::uint32_t dropped = unseen - 1;  // noise, or a component of a size that is not allowed
 
 // Computes the sizes of the components, and lists the components of allowed sizes in the order of the result.
 void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,

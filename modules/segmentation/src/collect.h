@@ -13,7 +13,7 @@
 
 namespace pcl_bv::detail {
 
-/// The root of noise if all valid points are in clusters.
+/// Value for the root of noise if no point can be noise.
 constexpr std::uint32_t no_root = std::numeric_limits<std::uint32_t>::max();
 
 /// A connected component, with its root, its number of points and the position of its first point.
@@ -39,8 +39,8 @@ void write_clusters(const std::vector<std::uint32_t>& roots, const std::vector<s
 void append(const Clusters& from, std::size_t cluster, Clusters& to);
 
 /// Replaces the clusters of `to` by those of `from`, the largest first, and among equal sizes by smallest
-/// point index. Clusters above max_size are dropped, and their points are added to to.large_points. Sets
-/// `order` to the positions in `from` in this order.
+/// point index. Drops clusters with more than max_size points and adds their points to to.large_points. Sets
+/// `order` to the positions in `from`, sorted in this way, including dropped clusters.
 void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to);
 
 }  // namespace pcl_bv::detail

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In a dense cloud most points are core points because of the number of points in their cell. For other
-// points the cells around them are tested until enough points are found.
+// In a dense cloud most cells have at least min_points points, so their points are core points without a
+// test. For other points, the points in nearby cells are tested until enough linked points are found.
 #include "core_points.h"
 
 #include <algorithm>
@@ -29,8 +29,9 @@ struct CoreSearch {
   std::size_t min_points;
   bool solid;
 
-  // Calls test(begin, end) for the positions of a run, in groups of group_size. Skips a whole group if
-  // skip(box) is true for its box. Stops and returns false when test() returns false.
+  // Calls test(begin, end) for the positions of a run, split at multiples of group_size. If the run contains
+  // a whole group and skip() is true for the box of the group, the group is skipped. Stops and returns false
+  // when test() returns false.
   template <typename Skip, typename Test>
   bool by_group(const PositionRange& run, Skip skip, Test test) const {
     for (std::uint32_t i = run.begin; i < run.end;) {
@@ -43,7 +44,7 @@ struct CoreSearch {
     return true;
   }
 
-  // Returns how many points of a run are linked to p. Stops counting at `needed`.
+  // Returns how many points of a run are linked to p. May stop counting when at least `needed` are found.
   std::size_t count(const PositionRange& run, const Point<T>& p, std::size_t needed) const {
     const Box<T> at{p, p};
     std::size_t found = 0;
@@ -64,8 +65,8 @@ struct CoreSearch {
   }
 };
 
-// Returns whether a point is a core point. Searches other blocks only if the cells in its own block have too
-// few points.
+// Returns whether a point is a core point. Searches other blocks only if too few linked points are found in
+// the point's own block.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   std::size_t found = 0;
@@ -122,7 +123,7 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
           for (std::uint32_t i = begin; i < end; ++i) {
             const T d2 = squared_distance(search.cells.points[i], p);
             if (scratch.core[i] == 0 || d2 > min_d2) continue;
-            // d2 may be equal to the distance of another core point, or to r2. At r2 the points are not
+            // A tie means that another core point has the same d2, or that d2 is r2. Points at r2 are not
             // linked.
             const bool tie = d2 == min_d2;
             if (tie && (nearest == noise || scratch.number[i] > scratch.number[nearest])) continue;
@@ -207,7 +208,7 @@ std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch) {
     const std::uint32_t end_cell = cell + count_bits(cells.blocks[b].occupied);
     cells.blocks[b] = {scratch.core_cells[b], to_cell, false};
     for (; cell < end_cell; ++cell) {
-      // The end is read before begin[to_cell] is written, because both may be the same entry.
+      // Writing begin[to_cell] below overwrites no entry that is still needed, because to_cell <= cell.
       const std::uint32_t end = cells.begin[cell + 1];
       const std::uint32_t first = to;
       for (std::uint32_t i = begin; i < end; ++i) {

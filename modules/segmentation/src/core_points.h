@@ -18,30 +18,31 @@ template <typename T>
 struct CoreScratch {
   std::vector<std::uint8_t> core;         ///< Whether the point at each position of Cells::points is core.
   std::vector<std::uint64_t> core_cells;  ///< For each block, bits of its cells with core points.
-  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of its cells with other points.
+  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of cells with non-core points.
   std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
-  std::vector<std::uint32_t> label;   ///< For each border point, its core point. Later its node.
+  std::vector<std::uint32_t> label;   ///< Core point of each border point. Later the node of each core point.
   /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last
   /// group with fewer points has no box.
   std::vector<Box<T>> groups;
 };
 
-/// Number of consecutive positions with a common box. Cells of very many points are tested by these groups.
+/// Number of consecutive positions in a group with a common box. Cells with very many points are tested group
+/// by group.
 inline constexpr std::uint32_t group_size = 32;
 
 /// Finds the core points, and the core point of each border point. A point is a core point if at least
 /// min_points (>= 2) points, itself included, have squared_distance() < r2 from it. A border point belongs to
-/// its nearest core point, among equals to the one with the smallest index.
+/// its nearest core point. If several are equally near, it belongs to the one with the smallest index.
 ///
-/// `cells` must be made with by_point. `solid` means that all points of a cell are linked. Then the points of
-/// a cell with min_points or more points are core points without a test.
+/// `cells` must be made with Cells::by_point set. `solid` means that all points of a cell are linked. Then
+/// the points of a cell with min_points or more points are core points without a test.
 template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
                const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch);
 
 /// Removes all points but the core points from the cells. Nodes are then core points if cells.by_point, else
-/// cells. Sets cells.node of every point to the node of its cluster. For noise this is the number after the
-/// last node. Returns this number.
+/// cells. Sets cells.node of every point to the node of its cluster. The node of noise is the number of other
+/// nodes. Returns the node of noise.
 template <typename T>
 std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch);
 

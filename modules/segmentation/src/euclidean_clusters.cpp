@@ -56,10 +56,9 @@ void check(const ClusterOptions& options) {
   throw std::invalid_argument(message.str());
 }
 
-// Returns 1 / side of the cells. The coordinate differences of a linked pair (d2 < r2) are bounded by
-// sqrt(r2), not by the tolerance, because r2 may have been rounded up among the denormals, or to infinity
-// while d2 is finite. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell
-// are linked.
+// Returns 1 / side of the cells. The coordinate differences of a linked pair (d2 < r2) are at most sqrt(r2).
+// They may exceed the tolerance: r2 may be a denormal that was rounded up, or infinity while d2 is finite.
+// The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
 template <typename T>
 double inverse_cell_side(T r2) {
   using limits = std::numeric_limits<T>;

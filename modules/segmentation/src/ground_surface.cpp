@@ -10,35 +10,36 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A cell's lowest point is ground if it is at most `above` over or at most `below` under the expected height,
-// metres. Both limits grow per metre since ground was last seen, until `above_max` and `below_max`. With
-// these values curbs and clods are ground, but bonnets and the seats of benches are not.
+// The lowest point of a cell is ground if it is at most `above` metres above the expected height and at most
+// `below` metres below it. Both limits grow with the distance since ground was last seen, up to `above_max`
+// and `below_max`. With these values curbs and clods are ground, but bonnets and the seats of benches are
+// not.
 constexpr float above = 0.12F, above_growth = 0.024F, above_max = 0.225F;
 constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 
-// Limits above the expected height in cells with an object. They are low because the lowest point may belong
-// to the object.
+// `above` and `above_growth` in cells with an object. The values are small because the lowest point may
+// belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// Distance over which a rise changes the slope, metres. The distance since ground was last seen is added to
-// it.
+// A rise changes the slope by rise / (slope_memory + distance since ground was last seen). All three are in
+// metres.
 constexpr float slope_memory = 2.6F;
 
-// Largest fall of the expected height below its slope, per metre, when it follows lower points. It is small
-// because the ground behind a ditch continues at the height before the ditch.
+// If the lowest point is below the expected height, the expected height follows by at most this fall per
+// metre. The fall is small because the ground behind a ditch continues at the height before the ditch.
 constexpr float max_fall = 0.06F;
 
-// Metres since ground was seen, for the innermost cells. It is not 0 because the plane around the sensor is
-// only an estimate there.
+// since_ground at the centre of the rings, metres. It is not 0 because the height of the plane there is only
+// an estimate.
 constexpr float first_since_ground = 2;
-// since_ground while no ground has been seen. Larger than every distance within the cells.
+// since_ground before any ground has been seen, metres. It is larger than every distance within the cells.
 constexpr float never_seen = 1000;
-constexpr float roughness = 0.02F;  // metres from the lowest to the middle point of bare ground
+constexpr float roughness = 0.02F;  // height of the middle of bare ground above its lowest point, metres
 
 }  // namespace
 
-// Mixes the states of neighbouring sectors into the state of each sector, if the neighbours have seen the
-// ground more recently.
+// Mixes the states of neighbouring sectors into the state of each sector, if ground was seen more recently in
+// the neighbours. `width` is the width of a sector.
 void GroundSurface::WalkState::mix_with_neighbours(float width) {
   for (RingRow* row : {&height, &slope, &last_ground, &since_ground})
     row->close();
@@ -92,7 +93,7 @@ void GroundSurface::estimate_outwards(const CellSummary& cells) {
   }
 }
 
-// Interpolates the height linearly between two cells of a sector in which ground is seen.
+// Interpolates the height linearly between two cells with visible ground in the same sector.
 void GroundSurface::interpolate_inwards() {
   WalkState state;
   state.slope.fill(0), state.height.fill(0), state.last_ground.fill(0), state.since_ground.fill(never_seen);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Estimates the height of the ground in every cell from the lowest points of the cells where it is visible.
+// Estimates the height of the ground in every cell from the lowest points of the cells with visible ground.
 #pragma once
 
 #include <cstdint>

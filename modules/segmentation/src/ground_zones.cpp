@@ -20,15 +20,15 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// The plane around the sensor is searched within 12.5 m, where the ground is seen best and is flattest. If no
-// plane is found there, it is searched within 25 m, then everywhere.
+// Numbers of rings in which the plane around the sensor is searched: first within 12.5 m, where the ground is
+// seen best and is flattest. If no plane is found there, the plane is searched within 25 m, then everywhere.
 constexpr std::array<std::size_t, 3> central_rings{25, 50, ring_count};
 constexpr unsigned plane_tries = 100;
 constexpr std::size_t plane_sample =
-    2048;  // 8192 and 300 tries gave the same plane on recorded and generated sweeps
+    2048;  // 8192 points and 300 tries gave the same plane on recorded and generated sweeps
 
-// Factor of `distance` in cells with an object. Without it the feet of walls, hedges and cars, which are two
-// in a hundred points of a street, would be ground.
+// Factor of `distance` in cells with an object. Without this factor the feet of walls, hedges and cars would
+// be ground. These feet are 2 % of the points of a street scene.
 constexpr double foot_share = 0.2;
 
 void check(const GroundZonesOptions& options) {

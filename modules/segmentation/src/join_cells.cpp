@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // First the cells of each block are joined. Then neighbouring blocks, found by a sweep over the sorted keys,
-// are joined. After the first step the cells of most blocks are in one set. A pair of such blocks needs one
-// comparison if both already have the same root. Otherwise its tests end at the first link.
+// are joined. After the first step, all cells of a block are mostly in one set. Two such blocks need only one
+// comparison if they already have the same root. Otherwise the tests of their cells end at the first link.
 #include "join_cells.h"
 
 #include <algorithm>
@@ -33,8 +33,8 @@ struct JoinContext {
   bool is_non_solid(std::uint32_t cell) const { return !non_solid.empty() && non_solid[cell]; }
 };
 
-// Calls visit(bit in a, bit in b) for the pairs of occupied cells of two blocks that are neighbours by
-// `masks`. Stops and returns true when visit() returns true.
+// `a` and `b` are the occupied cells of two blocks. Calls visit(bit in a, bit in b) for each pair of cells
+// that are neighbours according to `masks`. Stops and returns true when visit() returns true.
 template <typename Visit>
 bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit visit) {
   for (; a != 0; a &= a - 1) {
@@ -46,7 +46,7 @@ bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit
   return false;
 }
 
-// Joins the points of two cells, at least one of which is non-solid. Both may be the same cell.
+// Joins the points of two cells, at least one of which is non-solid. `a` and `b` may be the same cell.
 template <typename T>
 void join_non_solid(const JoinContext<T>& context, std::uint32_t a, std::uint32_t b,
                     LinkScratch<T>& scratch) {
@@ -77,8 +77,8 @@ void join_pair(const JoinContext<T>& context, std::uint32_t a, std::uint32_t b, 
   if (context.sets.find(p) != context.sets.find(q) && context.linked(a, b, scratch)) context.sets.unite(p, q);
 }
 
-// Adds to `reached` the cells of a block that are linked to a cell of `from` and near it by `masks`. Returns
-// the added cells.
+// Tests the cells of a block that are near a cell of `from` according to `masks`. Adds to `reached` the cells
+// that are linked to that cell. Returns the added cells.
 template <typename T>
 std::uint64_t spread(const JoinContext<T>& context, const Block& block, const CellMasks& masks,
                      std::uint64_t from, std::uint64_t& reached, LinkScratch<T>& scratch) {
@@ -104,7 +104,7 @@ std::uint64_t spread(const JoinContext<T>& context, const Block& block, const Ce
 template <typename T>
 std::uint64_t component(const JoinContext<T>& context, const Block& block, std::uint64_t rest,
                         LinkScratch<T>& scratch) {
-  // Cells of other components are not tested again.
+  // Cells outside `rest`, which belong to earlier components, are treated as reached and not tested again.
   std::uint64_t reached = (rest & -rest) | (block.occupied & ~rest);
   std::uint64_t all = rest & -rest;
   std::uint64_t near = all;
@@ -139,7 +139,7 @@ void join_within(const JoinContext<T>& context, Block& block, LinkScratch<T>& sc
   }
 }
 
-// Joins the cells of one block if some of these cells may be non-solid.
+// As join_within(), for nodes that are points: cells may be non-solid. Does not set Block::united.
 template <typename T>
 void join_within_by_pairs(const JoinContext<T>& context, Block& block, LinkScratch<T>& scratch) {
   for (std::uint32_t i = 0; i < count_bits(block.occupied); ++i) {
@@ -173,8 +173,8 @@ void join_between(const JoinContext<T>& context, const TouchingAndNext& masks, c
   });
 }
 
-// Returns the key of the first block in a row of neighbours of a block, minus the key of the block, modulo
-// 2^bits.
+// Returns the key of the first block in a row of neighbours minus the key of the block between them, modulo
+// 2^bits of Key.
 template <typename Key>
 Key key_offset(const CellGrid& grid, const BlockRow& row) {
   const auto along = [&grid](int blocks, std::size_t axis) {
@@ -183,8 +183,8 @@ Key key_offset(const CellGrid& grid, const BlockRow& row) {
   return static_cast<Key>(along(row.dz, 2) + along(row.dy, 1) + along(-1, 0));
 }
 
-// Joins each block of a chunk with the preceding blocks in one row of its neighbours. The position in the row
-// only moves forward from block to block.
+// Joins each block of a chunk with the preceding blocks in one row of its neighbours. `first` is the index,
+// among all blocks, at which this row begins. The keys are sorted, so `first` never decreases.
 template <typename T, typename Key>
 void sweep(const JoinContext<T>& context, const std::vector<Key>& keys, Key offset,
            const std::array<TouchingAndNext, 3>& masks, std::size_t begin, std::size_t end,
@@ -225,7 +225,7 @@ void start_sets(const JoinContext<T>& context) {
 }
 
 // Reserves memory in each chunk for any two cells, but at most for 4096 points each. Which cells a thread
-// compares depends on timing, but allocations should not depend on it.
+// compares depends on timing, but whether memory is allocated should not.
 template <typename T>
 void reserve_links(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
   constexpr std::size_t max_reserved = 4096;

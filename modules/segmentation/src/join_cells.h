@@ -17,16 +17,18 @@ namespace pcl_bv::detail {
 template <typename T>
 struct JoinScratch {
   std::vector<LinkScratch<T>> links;  ///< One entry per chunk of blocks.
-  /// For each cell, whether some of its points may not be linked. Empty if nodes are cells.
+  /// For each cell, whether two of its points are possibly not linked. Empty if nodes are cells.
   std::vector<std::uint8_t> non_solid;
 };
 
-/// Sets `sets` to the connected components of the nodes. Sets Block::united of each block.
+/// Sets `sets` to the connected components of the nodes. If nodes are cells, sets Block::united of each
+/// block.
 ///
 /// The coordinates of a pair with d2 < r2 may differ by two cells along each axis, so the 124 cells around a
-/// cell have to be tested. If nodes are cells, all points of a cell must be linked. If nodes are points, each
-/// cell is tested for this. Cells in which rounding may separate two points (squares near the smallest float,
-/// doubles 10^8 cells out) are joined point by point.
+/// cell have to be tested. If nodes are cells, the caller guarantees that all points of a cell are linked. If
+/// nodes are points, this is tested for each cell, and cells that fail the test are joined point by point.
+/// Rounding causes such cells if squares are near the smallest float, or for doubles 10^8 cells from the
+/// origin.
 template <typename T, typename Key>
 void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const std::vector<Key>& keys,
                 Cells<T>& cells, UnionFind& sets, JoinScratch<T>& scratch);

@@ -35,8 +35,8 @@ using BlocksAround = std::array<std::uint32_t, 27>;
 inline constexpr std::uint32_t no_block = std::numeric_limits<std::uint32_t>::max();
 inline constexpr std::size_t own_block = 13;
 
-/// Finds the blocks around a block. Blocks must be queried in ascending order, because the position in each
-/// of the nine rows only moves forward.
+/// Finds the blocks around a block. Call find() for blocks in ascending order. next_[row] is the index of the
+/// first block in each of the nine rows, and find() only increases this index.
 template <typename Key>
 class BlockRows {
  public:
@@ -83,7 +83,7 @@ class Neighbourhood {
  public:
   explicit Neighbourhood(const Cells<T>& cells) : cells_(cells) {}
 
-  /// Starts at cell `bit` of the block in the middle of `around`, which must outlive the object.
+  /// Starts at cell `bit` of the block in the middle of `around`. `around` must outlive this object.
   void start(const BlocksAround& around, unsigned bit) {
     around_ = &around;
     bit_ = bit;
@@ -93,9 +93,9 @@ class Neighbourhood {
     has_other_blocks_ = false;
   }
 
-  /// Adds the runs in other blocks. At most seven blocks matter. A cell in the lower half of its block is
-  /// never within two cells of the next block, and a cell in the upper half is never within two cells of the
-  /// previous block.
+  /// Adds the runs in other blocks. These are at most seven blocks: along an axis, a cell in the lower half
+  /// of its block is never within two cells of the next block, and a cell in the upper half is never within
+  /// two cells of the previous block.
   void add_other_blocks() {
     if (has_other_blocks_) return;
     has_other_blocks_ = true;

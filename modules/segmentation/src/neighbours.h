@@ -21,8 +21,8 @@ struct BlockRow {
   int dy, dz;
 };
 
-/// Half of the 26 neighbours, because each pair of blocks is visited from one side only. Of the first row,
-/// only the first neighbour is used, because only this one precedes the block itself.
+/// Rows with half of the 26 neighbours, because each pair of blocks is visited from one side only. Of the
+/// first row, only the first neighbour is used, because only this one precedes the block itself.
 inline constexpr std::array<BlockRow, 5> half_of_neighbours{{{0, 0}, {-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
 /// For each cell of a block, a set of cells of another block.

@@ -21,7 +21,7 @@ using ClusterPoints = std::function<void(const PointView&, const ClusterOptions&
 
 /// Replaces each cluster above max_size by the clusters of its points with half the tolerance, up to three
 /// times. Clusters that are then still too large are dropped. `clusters` must be found with `options`, but
-/// without the max_size of `options`.
+/// without a limit of the size.
 void split_oversized(const PointView& points, const ClusterOptions& options, const ClusterPoints& cluster,
                      Clusters& clusters, SplitScratch& scratch);
 

@@ -47,7 +47,7 @@ Spread spread_of(const std::vector<Vector3d>& sample, const Vector3d& axis) {
   return {low - margin, *middle, high + margin};
 }
 
-// Returns the row or column of the grid. The outermost rows and columns hold all values beyond them.
+// Returns the row or column of a value. Values outside the grid are in the outermost rows and columns.
 std::size_t grid_line(double value, const Spread& spread) {
   if (!(spread.high > spread.low)) return 0;
   const double line = (value - spread.low) / (spread.high - spread.low) * cells_per_side;
@@ -59,7 +59,7 @@ struct Cell {
   std::size_t lowest = 0;  // position of its lowest point in GroundScratch::lowest
 };
 
-// Adds a point to its cell. Only the first points_per_cell points of a cell are support.
+// Adds a point to its cell. Only the first points_per_cell points of a cell are added to scratch.support.
 void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& scratch) {
   if (cell.count < points_per_cell) scratch.support.push_back(p);
   if (cell.count == 0) {
@@ -71,8 +71,8 @@ void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& s
   ++cell.count;
 }
 
-// Fills the buffers of `scratch` with points relative to the returned position, which is in the middle of the
-// cloud, so that UTM coordinates lose no precision. Without valid points all buffers are empty.
+// Fills the buffers of `scratch` with points relative to the returned position. This position is in the
+// middle of the cloud, so that UTM coordinates lose no precision. Without valid points all buffers are empty.
 // - `sample` has at most `sample_size` points, evenly spread over the point indices.
 // - `support` has at most 4096 points of the sample, evenly spread over the area seen from above.
 // - `lowest` has the lowest point of each of at most 1024 cells of this area.
@@ -103,8 +103,8 @@ constexpr double max_above = 1;
 constexpr double max_below = 2;
 constexpr unsigned refinements = 3;
 
-// Smallest ratio of the second width of points to the first width. Points with a smaller ratio are treated as
-// a line, which determines no plane.
+// Smallest ratio of the second largest width of points to the largest width. Points with a smaller ratio are
+// treated as a line, which determines no plane.
 constexpr double min_width_ratio = 0.02;
 
 Vector3d normalized(const Vector3d& v) {
@@ -142,10 +142,10 @@ std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const V
   return plane;
 }
 
-// Returns the sum over the points of the squared height in units of `distance`, clamped to max_above and
-// -max_below. Stops early for a plane that cannot have a smaller cost than `best`. Eigen's min and max do not
-// branch. Branches would be three times slower, because heights are unpredictable. Each of the four lanes is
-// summed in order, so the bits do not depend on the packet size.
+// Returns the sum of the squared heights of the points above the plane. The heights are in units of
+// `distance` and clamped to -max_below and max_above. Stops early when the sum is no longer below `best`.
+// Eigen's min and max do not branch. Branches would be three times slower, because heights are unpredictable.
+// Each of the four lanes is summed in order, so the bits do not depend on the SIMD width.
 double cost_of(const Plane& plane, const Points& points, double distance, double best) {
   using Lanes = Eigen::Array4d;
   constexpr std::size_t groups = 16;
@@ -189,8 +189,8 @@ std::optional<Plane> refine(const Plane& plane, const Points& points, double dis
   return refined;
 }
 
-// Returns the best plane through three of the lowest points. Even below tables, ground points are among the
-// lowest points.
+// Returns the best plane through three points of points.lowest. These points include ground points even under
+// tables.
 std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
                             const GroundPlaneOptions& options) {
   const Points& lowest = points.lowest;
@@ -201,7 +201,7 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
   };
   std::optional<Plane> best;
   double best_cost =
-      max_above * max_above * static_cast<double>(points.support.size());  // cost of a plane far below
+      max_above * max_above * static_cast<double>(points.support.size());  // cost of a plane far below them
   for (unsigned i = 0; i < options.iterations; ++i) {
     const Vector3d& a = pick();
     const Vector3d& b = pick();
@@ -227,8 +227,8 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& 
                       options.sensor_height};
   std::optional<Plane> best = search(scratch, limits, options);
   // The search weights points by area, so its plane fits a few distant points as well as many near points.
-  // Least squares over the whole sample moves the plane to where most points are. The refinement fails if
-  // three points were within the limits but the plane of the points near them is not, e.g. on a strip of a
+  // Least squares over the whole sample moves the plane towards the near points, which are most points. There
+  // is no result if the limits allow the plane of the search but not the refined plane, e.g. on a strip of a
   // wall.
   for (unsigned i = 0; best && i < refinements; ++i)
     best = refine(*best, scratch.sample, options.distance, limits);

@@ -23,8 +23,8 @@ inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
   return dot3(plane.normal, p) - plane.offset;
 }
 
-/// Number of points in the sample of a cloud. It is one in 15 points of a 64-beam sweep, and 8 points per
-/// cell of the grid of areas.
+/// Number of points in the sample of a cloud. These are one in 15 points of a 64-beam sweep, and on average 8
+/// points per cell of the grid seen from above.
 inline constexpr std::size_t default_sample_size = 8192;
 
 /// Finds the ground plane as split_ground() describes, in a sample of at most `sample_size` points.

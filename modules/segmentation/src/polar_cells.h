@@ -77,8 +77,8 @@ inline constexpr std::array<Direction, sector_count> sector_directions = [] {
   return all;
 }();
 
-/// A value for each cell of a ring. It also has a copy of the last value before the first, and of the first
-/// value after the last.
+/// A value for each cell of a ring. A copy of the last value is stored before the first value, and a copy of
+/// the first value after the last value.
 struct RingRow : std::array<float, sector_count + 2> {
   void copy(const float* cells) {
     std::copy_n(cells, sector_count, data() + 1);

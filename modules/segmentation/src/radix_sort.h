@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Stable radix sort of points by key.
+// Stable radix sort by key.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ struct KeyedPoint {
   std::uint32_t point;
 };
 
-/// Sorts by key. Items with equal keys stay in their order. Only the low `key_bits` bits of the keys may be
-/// set. `spare` is a buffer. Takes O(n) for each digit of 11 bits, beginning with the least significant
-/// digit. Digits that are equal in all items are skipped.
+/// Sorts by key. Items with equal keys retain their order. `items` must not be empty. Only the low `key_bits`
+/// bits of the keys may be set. `spare` is a buffer. Takes O(n) for each digit of 11 bits, beginning with the
+/// least significant digit. Digits that are equal in all items are skipped.
 template <typename Key>
 void radix_sort(std::vector<KeyedPoint<Key>>& items, std::vector<KeyedPoint<Key>>& spare, unsigned key_bits) {
   constexpr unsigned digit_bits = 11;

@@ -11,7 +11,7 @@
 namespace pcl_bv::detail {
 
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level) {
-  // A table instead of exp2(), whose result differs between libraries.
+  // Uses a table instead of exp2(), whose results differ between libraries.
   constexpr std::array<double, 4> quarters{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
   const double level_tolerance =
       std::ldexp(double{tolerance} * quarters[level % 4], static_cast<int>(level / 4));

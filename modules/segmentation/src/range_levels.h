@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clusters with a tolerance that grows with the distance from the origin, in levels of a quarter octave.
+// Clusters for ClusterOptions::tolerance_per_metre. The tolerance grows with the distance from the origin, by
+// a factor of 2^(1/4) from level to level.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,12 @@
 
 namespace pcl_bv::detail {
 
-/// A level. Level i has the tolerance tolerance * 2^(i/4). Points at min_squared_range or farther (squared,
-/// from the origin) have at least this tolerance.
+/// Level i has the tolerance ClusterOptions::tolerance * 2^(i/4). A point has at least this tolerance if its
+/// squared distance from the origin is at least min_squared_range.
 struct RangeLevel {
   double tolerance, min_squared_range;
 };
-/// Returns the given level for ClusterOptions::tolerance and tolerance_per_metre.
+/// Returns level number `level` for ClusterOptions::tolerance and tolerance_per_metre.
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level);
 
 /// Unites the clusters of all levels. A point is at a level if its tolerance is at least that of the level.

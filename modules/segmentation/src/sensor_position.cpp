@@ -60,8 +60,9 @@ Vector3d mean_near(const FlatPoints& points, const Vector3d& position) {
   return count > 0 ? Vector3d(sum / count) : position;
 }
 
-/// Returns the position where the points are densest. It starts at the centre of the square of 25 m with most
-/// points, in steps of 12.5 m, and moves twice to the mean of the points near the position.
+/// Returns the position where the points are densest. The position is first the centre of the square of 25 m
+/// with most points; squares are 12.5 m apart and overlap. The position is then replaced twice by the mean of
+/// the points within kNear of it.
 Vector3d densest_position(const FlatPoints& points) {
   using Square = std::pair<double, double>;
   std::array<Square, 4 * kSample> corners;  // for each point, the four corners of its grid cell

@@ -31,7 +31,7 @@ class SlopeLimit {
   void limit(std::size_t ring, std::size_t max_rings, const At& at) {
     for (std::size_t sectors = 1; sectors <= max_sectors; sectors *= 2)
       limit_by(ring, ring, 0, sectors);
-    // Number of neighbouring sectors that are together as wide as a ring.
+    // Number of sectors with a total width of ring_width, before rounding.
     const float square = ring_width / width_of(ring);
     const auto sectors =
         std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(square)), 1, max_sectors);

@@ -10,10 +10,10 @@
 
 namespace pcl_bv::detail {
 
-/// Lowers the heights of the first `rings` rings of cells to the highest surface whose slope against the
-/// horizontal is at most `max_slope` (a tangent) in every direction. Heights are relative to `plane`, metres.
-/// Distances are path lengths from cell to cell (Borgefors 1986). They exceed straight distances by at most 8
-/// % if cells are as wide as long, else by up to a fifth. O(cells).
+/// Lowers the heights of the first `rings` rings of cells to the highest surface below them that is nowhere
+/// steeper than `max_slope`. `max_slope` is the tangent of an angle from the horizontal. Heights are relative
+/// to `plane`, metres. Distances are path lengths from cell to cell (Borgefors 1986). If cells are as wide as
+/// long, path lengths exceed straight distances by at most 8 %, otherwise by up to 20 %. O(cells).
 void limit_slopes(float* heights, std::size_t rings, const Slope& plane, float max_slope);
 
 }  // namespace pcl_bv::detail

@@ -58,7 +58,7 @@ class UnionFind {
   /// Returns the root of every member. Call it after the last union.
   const std::vector<std::uint32_t>& roots() {
     for (std::uint32_t& parent : parent_)
-      parent = parent_[parent];  // a parent is smaller, so already replaced by its root
+      parent = parent_[parent];  // the parent is smaller, so its own entry is already its root
     return parent_;
   }
 

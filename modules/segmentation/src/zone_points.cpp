@@ -18,11 +18,12 @@ namespace {
 
 constexpr std::size_t kBatch = 512;
 
-// If the lowest point of a cell is this far below those of all cells around it, it is a reflection; metres.
+// If the lowest point of a cell is this far below the lowest points of all cells around, the point is a
+// reflection. Metres.
 constexpr float pit_depth = 0.2F;
 
 // An object stands in a cell if the cell has points this far above its lowest point, metres. Curbs are lower,
-// and things above a road are higher.
+// and things that hang over a road are higher.
 constexpr float object_from = 0.3F, object_to = 2;
 
 // Clamps a value to the range of float.
@@ -59,8 +60,8 @@ struct LoadTarget {
   std::int32_t* number;
 };
 
-// Loads floats for an up direction along an axis and a sensor at the origin. Then the coordinates are only
-// reordered, and the sign of the height may change.
+// Loads floats for an up direction along an axis and a sensor at the origin. In this case u, v and height are
+// coordinates of the point, except for the sign of the height.
 std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
                          const LoadTarget& to) {
   const std::size_t step = view.step();

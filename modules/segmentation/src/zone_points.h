@@ -42,7 +42,7 @@ struct ZoneFrame : UpFrame {
   Plane level(double height) const;
 };
 
-/// A summary of each cell, computed from some of the points.
+/// A summary of each cell, computed from the points of one part or of all parts.
 struct CellSummary {
   /// Height of the lowest point above the plane, metres. It is no_lowest for an empty cell.
   std::vector<float> lowest;
@@ -52,10 +52,10 @@ struct CellSummary {
 
 inline constexpr float no_lowest = 1e30F;
 
-/// A part of the points of a view. One thread takes it.
+/// A part of the points of a view. One thread processes it.
 struct ZonePart {
   std::size_t begin, end;  ///< Range in the view.
-  std::size_t valid;       ///< Number of valid points, stored from `begin`.
+  std::size_t valid;       ///< Number of valid points, stored from `begin` on.
   CellSummary cells;
 };
 

@@ -19,8 +19,8 @@ namespace {
 // Number of queries that a thread takes at a time. 256 queries take about 20 us.
 constexpr std::size_t kBlock = 256;
 
-// Returns the number of threads that pays, one for four blocks, because fewer blocks are finished before
-// another thread has started.
+// Returns the largest useful number of threads. It is one for each four blocks, because fewer blocks are
+// finished before another thread has started.
 std::size_t threads_for_queries(std::size_t count) {
   return count / (4 * kBlock);
 }
@@ -43,8 +43,8 @@ Eigen::Vector3d query_point(const PointView& query_points, std::size_t i) {
   return vector(load_point(query_points, i));
 }
 
-// Calls query(p, one) for each query point p, where `one` receives its neighbours, and concatenates the
-// results.
+// Calls query(p, one) for each query point p. query() writes the neighbours of p to `one`. Concatenates these
+// lists in `found`.
 template <typename Query>
 void list_for_each(const PointView& query_points, const Execution& execution, NeighborLists& found,
                    const Query& query) {
@@ -69,7 +69,7 @@ void list_for_each(const PointView& query_points, const Execution& execution, Ne
 
 }  // namespace
 
-// Calls the kernel directly because PointTree::nearest() sets a FloatEnvironment for each query, which takes
+// Calls the kernel directly. PointTree::nearest() would make a FloatEnvironment for each query, which takes
 // an eighth of the time of a query.
 void nearest(const PointTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
              double max_distance, const Execution& execution) {

@@ -22,7 +22,8 @@ class BodyDistance {
 
   /// Returns a lower bound of distance_to(p) for all points p in the box. Returns NaN for an empty box. The
   /// bound holds because the distances of two points from the volume differ by at most the distance between
-  /// the points. distance() is below the exact distance by at most 1e-12 of the distance and of the sizes.
+  /// the points. The margin of 2^-36 is needed because distance() may be below the exact distance by 1e-12 of
+  /// the distance and of the sizes.
   double lower_bound(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
     const double radius = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = distance_to(middle);

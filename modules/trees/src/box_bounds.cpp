@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The terms of all sums in this file are below a few times 1 + |point|, in double, so the errors of the sums
-// are below 2^-45 (1 + |point|). This is negligible against the margin of 2^-20 (1 + |point|), so no bound
-// adds another margin for it.
+// All sums in this file are in double, and their terms are below a few times 1 + |point|. So the errors of
+// the sums are below 2^-45 (1 + |point|). They are negligible against the margin of 2^-20 (1 + |point|), so
+// no bound adds another margin for them.
 
 #include "box_bounds.h"
 
@@ -28,7 +28,7 @@ void clip(double start, double slope, double low, double high, double& enter, do
 }
 
 // Returns the t >= 0 at which the ray enters, or infinity if the interval has no t >= 0. The margin covers
-// the error of the interval by underflow in intersect().
+// the error that underflow in intersect() may cause.
 double entered(const FrameRay& ray, double enter, double exit) {
   return enter - ray.underflow_margin <= exit + ray.underflow_margin
              ? std::max(0.0, enter - ray.underflow_margin)

@@ -18,21 +18,20 @@ struct FramePoint {
 
   FramePoint(const VolumeBoxes& boxes, const Coordinates& point);
 
-  /// Returns whether distances to bounds can be computed. Beyond 2^500 their squares leave the range of
-  /// double.
+  /// Returns whether distances to bounds can be computed. Beyond 2^500 the squares of distances leave the
+  /// range of double.
   bool is_in_range() const { return at.cwiseAbs().maxCoeff() < 0x1p500; }
 };
 
-/// A ray in the frame of the boxes, at + t u. `at` is from.at. The largest component of u is 1 to 2 in
-/// magnitude.
+/// A ray from.at + t u, in the frame of the boxes. The largest component of u is 1 to 2 in magnitude.
 struct FrameRay {
   FramePoint from;
   Eigen::Vector3d u;
-  int exponent;             ///< t in the frame is 2^exponent times t of the given ray.
-  double underflow_margin;  ///< Bound of the error of `enter` and `exit` by underflow in intersect().
+  int exponent;             ///< t in the frame is 2^exponent times t of the caller's ray.
+  double underflow_margin;  ///< Bound of the error of `enter` and `exit` from underflow in intersect().
 
   FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction);
-  /// Converts the parameter t of the given ray to the frame. Overflow gives infinity.
+  /// Converts the parameter t of the caller's ray to t in the frame. Overflow gives infinity.
   double time(double t) const;
 };
 

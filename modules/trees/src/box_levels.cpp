@@ -14,8 +14,8 @@ std::size_t groups_of(std::size_t below) {
   return (below + kTreeWidth - 1) / kTreeWidth;
 }
 
-// Returns an error bound of the rounding to float and of the two roundings before it. The second term of the
-// sum is for denormal floats.
+// Returns an error bound for the rounding to float in set_item_box() and for the two roundings in double
+// before it. The second term of the sum is for denormal floats.
 float rounding_error_bound(float rounded) {
   return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
 }

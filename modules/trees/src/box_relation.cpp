@@ -15,7 +15,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A box as a centre relative to the region's centre and half extents, with an error bound for comparisons.
+// The half extents of a box and its centre relative to the centre of the region, with an error bound for
+// comparisons.
 struct CenteredBox {
   Eigen::Vector3d center, half;
   double margin;
@@ -61,11 +62,11 @@ Relation relation_to_ball(const ConvexRegion& region, const CenteredBox& box) {
 }
 
 double weighted_square(double weight, double beyond) {
-  return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite
+  return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite; infinity * 0 is NaN
 }
 
-// Returns the relation for slabs and bodies. Compares the smallest and the largest distance of the box from
-// the centre along each axis.
+// Returns the relation for RegionShape::slabs and RegionShape::rounded. Compares the smallest and the largest
+// distance of the box from the centre along each axis.
 Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
   bool inside = true;
   double smallest = 0, largest = 0;

@@ -16,7 +16,7 @@ namespace pcl_bv::detail {
 enum class Relation : std::uint8_t {
   outside,   ///< contains() holds for no point of the box.
   inside,    ///< contains() holds for each point of the box.
-  crossing,  ///< It holds for some points only, or is undecided because of rounding.
+  crossing,  ///< contains() holds for some points only, or rounding leaves the relation open.
 };
 
 /// A box given by two corners, in the frame of the volume.
@@ -27,10 +27,11 @@ struct PlainBox {
 /// Returns box k of a group, in the frame of the points, rounded outward.
 PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k);
 
-/// Returns the relation of a box to the region of convex_region(). It is exact for RegionShape::box. For the
-/// other shapes it is also `crossing` if the distance of the surface from the box is within a margin, which
-/// covers rounding. The margin is 2^-38 (|low|_1 + |high|_1 + |region.center|_1 + region.radius) + 4
-/// region.surface_error + 2^-480. For slabs and bodies it is added to the distances along each axis.
+/// Returns the relation of a box to the region of convex_region(). The relation is exact for
+/// RegionShape::box. For the other shapes it is also `crossing` if the box is within a margin of the surface.
+/// This margin covers rounding. It is 2^-38 (|low|_1 + |high|_1 + |region.center|_1 + region.radius) + 4
+/// region.surface_error + 2^-480. For RegionShape::slabs and RegionShape::rounded the margin is added to the
+/// distances along each axis.
 Relation relation(const ConvexRegion& region, const PlainBox& box);
 
 }  // namespace pcl_bv::detail

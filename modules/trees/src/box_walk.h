@@ -16,7 +16,7 @@
 namespace pcl_bv::detail {
 
 /// Traverses the boxes depth-first. pick(group) returns as bits which boxes of a group to enter. Calls
-/// visit(item) for the items entered. Stops and returns true when visit returns true.
+/// visit(item) for the items entered. Stops and returns true when visit() returns true.
 template <typename Pick, typename Visit>
 bool walk(const BoxLevels& boxes, std::size_t level, std::size_t group, const Pick& pick,
           const Visit& visit) {
@@ -35,7 +35,8 @@ bool walk(const BoxLevels& boxes, const Pick& pick, const Visit& visit) {
 
 /// Calls visit(item) for the items whose lower bound is at most limit(). visit() may lower the limit. In each
 /// group, boxes are entered in ascending order of their bounds. bounds(group) returns the bounds of the 16
-/// boxes of a group, where infinity excludes a box. Bounds of boxes that the group lacks are ignored.
+/// boxes of a group, where infinity excludes a box. If the last group has fewer boxes, the bounds of missing
+/// boxes are ignored.
 template <typename Bounds, typename Limit, typename Visit>
 void visit_nearest_first(const BoxLevels& boxes, std::size_t level, std::size_t group, const Bounds& bounds,
                          const Limit& limit, const Visit& visit) {

@@ -42,8 +42,8 @@ struct Prepared {
         bounding_sphere(sphere_around(extent_of(volume))) {}
 };
 
-// Returns whether a point may be within `margin` of a moved volume. It is never wrongly false. It is tested
-// first because it takes a fiftieth of the time of is_within().
+// Returns whether a point may be within `margin` of a moved volume. The result is never wrongly false. This
+// test comes before is_within() because it takes a fiftieth of the time.
 bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
                    double stretch, double margin) {
   if (volume.body.empty()) return false;

@@ -46,8 +46,9 @@ Eigen::Matrix3d axes_about(const Eigen::Vector3d& unit) {
   return axes;
 }
 
-// Collects half-spaces relative to a centre. A normal along an axis also gives a side of the box, because
-// contains() accepts less than margin() beyond it.
+// Collects half-spaces relative to a centre. A plane perpendicular to an axis also gives a side of the
+// region's box. The side is margin() beyond the plane, because contains() accepts points that are less than
+// this distance beyond the plane.
 class Planes {
  public:
   explicit Planes(const Aabb& box) : center_(box.empty() ? Eigen::Vector3d::Zero().eval() : box.center()) {
@@ -68,7 +69,8 @@ class Planes {
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
-  // Returns the region. Its box is unbounded along an axis without a plane, which fitted volumes have.
+  // Returns the region. A side of its box is infinite if no plane is perpendicular to the axis there. Fitted
+  // volumes have planes for all six sides.
   const ConvexRegion& region() const { return region_; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each step rounds up, so that the result holds the inflated volume by exact arithmetic.
+// Each step rounds up, so that the result contains the exact inflated volume.
 
 #include "inflated.h"
 

@@ -34,7 +34,7 @@ class NearestToVolume {
 
   std::array<double, kTreeWidth> min_distances(const BoxGroup& group) const {
     std::array<double, kTreeWidth> distances;
-    for (std::size_t k = 0; k < kTreeWidth; ++k)  // NaN for boxes that the group lacks
+    for (std::size_t k = 0; k < kTreeWidth; ++k)  // NaN for missing boxes of the last group
       distances[k] = body_.lower_bound(plain_box(tree_.boxes, group, k));
     return distances;
   }

@@ -23,7 +23,8 @@ void require_rigid(const Eigen::Isometry3d& pose) {
     throw std::invalid_argument("PosedTree: a pose must be finite, its axes unit and orthogonal to 1e-6");
 }
 
-// Inverts a near-rotation, with one Newton step from the transpose. The error is that of rounding.
+// Inverts a near-rotation, with one Newton step from the transpose. The step squares the deviation from a
+// rotation, so for axes orthonormal to 1e-8 only rounding errors remain.
 Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d axes = pose.linear(), transposed = axes.transpose();
   Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
@@ -32,16 +33,17 @@ Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   return back;
 }
 
-// Returns an upper bound of |back (pose p) - p| for |p|_1 <= max_norm. Its terms are the deviation of back
-// times pose from the identity, and rounding.
+// Returns an upper bound of |back (pose p) - p| for |p|_1 <= max_norm. The first term is for the deviation of
+// back times pose from the identity, the second for rounding.
 double round_trip_error(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double max_norm) {
   const Eigen::Matrix3d deviation = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
   const double translations = taxicab3(pose.translation()) + taxicab3(back.translation());
   return deviation.cwiseAbs().sum() * max_norm + 0x1p-46 * (max_norm + translations);
 }
 
-// Returns an upper bound of |p|_1 for the points of the tree, from the topmost boxes of the tree. It is at
-// least 2^-401 if the tree has points, so bounds relative to it cover underflow of products, too.
+// Returns an upper bound of |p|_1 for the points of the tree, from the topmost boxes of the tree. The bound
+// is at least 2^-401 if the tree has points, so errors relative to this bound cover underflow of products,
+// too.
 double max_taxicab_norm(const BoxLevels& boxes) {
   double max_norm = 0;
   if (boxes.groups.empty()) return max_norm;

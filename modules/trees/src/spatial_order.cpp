@@ -69,8 +69,8 @@ void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::u
   }
 }
 
-// Groups the bins to buckets. A bin that a cut divides is one bucket. All bins between two such bins are
-// another bucket. `begin` holds the first position of each bucket.
+// Groups the bins into buckets. Each bin that a cut divides is a bucket by itself. All bins between two such
+// bins form one bucket. `begin` holds the first position of each bucket.
 struct Buckets {
   std::array<std::uint8_t, kMaxBins> of_bin;
   std::array<std::size_t, 2 * kMaxParts> begin{};
@@ -101,7 +101,7 @@ void move_items(const ItemRun<T>& run, const Buckets& buckets) {
     run.other[position[buckets.of_bin[run.bins[i]]]++] = run.items[i];
 }
 
-// Moves each item to `other`, to the positions of the item's part.
+// Moves the items to `other`, so that the items of each part are at the positions of this part.
 template <typename T>
 void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   std::array<std::uint32_t, kMaxBins> counts;
@@ -120,7 +120,7 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   }
 }
 
-// Cuts a run and calls take(part) for each part. If the run needs no cut, its items are only moved to the
+// Cuts a run and calls take(part) for each part. If the run needs no cut, its items are only copied to the
 // final buffer.
 template <typename T, typename Take>
 void cut_run(const ItemRun<T>& run, const Take& take) {

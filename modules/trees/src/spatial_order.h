@@ -46,14 +46,15 @@ struct Extremes {
   }
 };
 
-/// A run of items with their buffer, the buffer to which the next cut moves them, and a bin for each item.
+/// A run of items, with the buffer of the items, the buffer to which the next cut moves them, and the bin of
+/// each item.
 template <typename T>
 struct ItemRun {
   PositionedItem<T>* items = nullptr;
   PositionedItem<T>* other = nullptr;
   std::uint16_t* bins = nullptr;
   std::size_t count = 0;
-  /// Whether the sorted items belong to the buffer `items`, not `other`.
+  /// Whether the items must be in `items`, not in `other`, after the sort.
   bool in_place = true;
 
   /// Returns a part of the run after the items of the run have moved to `other`.
@@ -69,10 +70,12 @@ struct ItemRun {
 /// Items with equal coordinates are ordered by index. A run of at most 16 items, or with all items at the
 /// same position, is not cut.
 ///
-/// Which items are in such a run depends on the set of items only. The order within the run depends on the
-/// order before the sort. Neither depends on the policy. A cut takes three passes over a run. They find the
-/// longest side, count the items of each bin and move the items. In addition it partitions each bin that it
-/// divides, which is cheap for fewer than 1000 items per bin.
+/// Which items are in a run that is not cut depends only on the set of items. The order of the items within
+/// this run depends on their order before the sort. Neither depends on the policy.
+///
+/// A cut takes three passes over a run. These passes find the longest side, count the items of each bin and
+/// move the items. In addition the cut partitions each bin that it divides, which is cheap for fewer than
+/// 1000 items per bin.
 template <typename T>
 class SpatialOrder {
  public:

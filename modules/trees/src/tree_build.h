@@ -24,7 +24,7 @@ struct PacketPart {
   PositionBounds bounds{};
 };
 
-/// Buffers for building and refitting, reused for the next cloud.
+/// Buffers for building and refitting a tree. They are reused for the next cloud.
 struct TreeScratch {
   PointParts<LoadPart> loads;
   PointParts<PacketPart> packets;

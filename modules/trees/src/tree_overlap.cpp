@@ -53,9 +53,9 @@ class TreeOverlap {
 
 }  // namespace
 
-// The factor 1 + 2^-48 covers the roundings, 2^-49 in all. Six are in Neighbor::squared_distance, two in this
-// function and two in `distance`. The square does not underflow because the error of a transformed point is
-// at least 2^-500.
+// The factor 1 + 2^-48 covers ten roundings, 2^-49 in all. Six are in Neighbor::squared_distance, two are in
+// this function, and two are in the argument `distance`. The square does not underflow because the error of a
+// transformed point is at least 2^-500.
 bool any_within(const PointTree& points, const TransformedPoint& point, double distance) {
   const double limit = distance + point.error;
   return any_in_ball(points.isa(), packed_tree(points), point.position, limit * limit * (1 + 0x1p-48));

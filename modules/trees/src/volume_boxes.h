@@ -22,12 +22,13 @@ namespace pcl_bv::detail {
 inline constexpr std::size_t kVolumesOfChunk = 64;
 
 /// Returns an upper bound of the distance from a volume in `box` at which contains() may still accept a
-/// point. Along each of up to three perpendicular distances, contains() of each type exceeds the volume by
-/// less than 2^-45 of the distance and the sizes.
+/// point. Such a point is outside by less than 2^-45 of the distance and the sizes, in each of up to three
+/// perpendicular directions.
 double contains_margin(const Aabb& box);
 
 /// Returns a box around aabb() and all points that contains() may accept. For an empty volume `low` is above
-/// `high`. For a volume without a known box the result is infinite, because planes may bound no body.
+/// `high`. A side is infinite if the box is not known there, i.e. for a k-DOP or hull without a plane
+/// perpendicular to the axis.
 PositionBounds extent_of(const AnyVolume& volume);
 
 /// A box of floats, in the frame of the boxes, to compare with a BoxGroup.
@@ -41,7 +42,8 @@ class VolumeBoxes {
   /// Chooses the order of the volumes and builds the boxes. O(n log n).
   void build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy);
 
-  /// Rebuilds the boxes after the volumes have moved. Their number must be the same, and their order stays.
+  /// Rebuilds the boxes after the volumes have moved. The number of volumes must be the same. Their order
+  /// does not change.
   void refit(const std::vector<PositionBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }

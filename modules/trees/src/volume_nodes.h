@@ -30,8 +30,8 @@ struct VolumeTree::Nodes {
     return boxes.visit(boxes.query(point, point), visit);
   }
 
-  /// Calls visit(index) for the volumes with a box whose bound(group, k) is at most limit(), in the order of
-  /// visit_nearest_first().
+  /// Calls visit(index) for the volumes that have a box and whose lower bound, bound(group, k), is at most
+  /// limit(). The order is that of visit_nearest_first().
   template <typename Bound, typename Limit, typename Visit>
   void nearest_first(const Bound& bound, const Limit& limit, const Visit& visit) const {
     const auto bounds = [&](std::size_t group) {

@@ -29,8 +29,8 @@ std::uint32_t count_of(const std::vector<AnyVolume>& volumes) {
   return static_cast<std::uint32_t>(volumes.size());
 }
 
-// Calls visit(index) for all volumes. Used for points and rays beyond 1e100, which cannot be compared with
-// boxes.
+// Calls visit(index) for all volumes. Used for points and rays that cannot be compared with boxes, because
+// they are too far away or not finite.
 template <typename Visit>
 bool visit_all(const std::vector<AnyVolume>& volumes, const Visit& visit) {
   for (std::uint32_t index = 0; index < count_of(volumes); ++index) {
@@ -49,7 +49,7 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
 }
 
 // Calls visit(index) for the volumes that a ray may hit and whose lower bound of t is at most limit(). t is
-// in the unit of the given ray. Some volumes are visited twice.
+// the parameter of origin + t direction. Some volumes are visited twice.
 template <typename Nodes, typename Limit, typename Visit>
 void visit_ray_candidates(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                           const Limit& limit, const Visit& visit) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the points of a tree that are inside a volume. Boxes inside the volume are taken as a whole. Near the
-// surface single points are tested.
+// Finds the points of a tree that are inside a volume. All points of a box inside the volume are found
+// without a test. If a box crosses the surface, its points are tested one by one.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Statistics of a cloud, e.g. to choose a range, a tolerance or a file reader.
 struct CloudStatistics {
-  /// Box around the valid points that are not exactly at (0, 0, 0); empty if there are none.
+  /// Box around the valid points that are not exactly at (0, 0, 0); empty if there are no such points.
   Aabb box;
   /// Typical distance from a point to its nearest neighbour, in the unit of the points.
   std::optional<double> spacing;
@@ -28,8 +28,8 @@ struct CloudStatistics {
 /// Computes the statistics of a cloud, with three passes over all points.
 ///
 /// The box and the spacing ignore invalid points and points at (0, 0, 0). The spacing is the median, over at
-/// most 1000 evenly selected points, of the exact distance to the nearest other point. It is missing if fewer
-/// than two points are left. The cost is O(n) if the spacing is similar in all parts of the cloud.
+/// most 1000 evenly selected points, of the exact distance to the nearest other point. The spacing is missing
+/// if fewer than two points are left. The cost is O(n) if the spacing is similar in all parts of the cloud.
 CloudStatistics cloud_statistics(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

@@ -17,8 +17,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Numbers of points that are in no cluster, by reason.
 struct Counts {
-  std::size_t nonfinite = 0;      ///< Points with a coordinate that is not finite.
-  std::size_t range = 0;          ///< Finite points outside the range limits or on the own vehicle.
+  std::size_t nonfinite = 0;      ///< Points that are not valid (is_valid()).
+  std::size_t range = 0;          ///< Valid points outside the range limits or on the own vehicle.
   std::size_t ground = 0;         ///< Points removed as ground.
   std::size_t small = 0;          ///< Points in clusters of too few points.
   std::size_t large = 0;          ///< Points in clusters of too many points.
@@ -29,8 +29,8 @@ struct Counts {
 
 /// Treatment of clusters with more than max_size points.
 enum class Oversized : std::uint8_t {
-  drop,  ///< They are dropped.
-  keep,  ///< They stay; max_size is ignored.
+  drop,  ///< Such clusters are dropped.
+  keep,  ///< Such clusters are retained; max_size is ignored.
   /// The points of such a cluster are clustered again with half the tolerance and half of
   /// tolerance_per_metre, up to three times. Clusters that are then still too large are dropped and counted
   /// as large. Parts with fewer than min_size points are dropped and counted as small.
@@ -45,8 +45,8 @@ struct ClusterOptions {
   std::size_t min_size = 1;
   /// Clusters with more points are treated as `oversized` says.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
-  /// Core condition of DBSCAN, >= 1. A core point has at least this number of points, itself included, nearer
-  /// than the tolerance. With 1 every point is a core point.
+  /// Number of points in the core condition of DBSCAN, >= 1. A point is a core point if at least this number
+  /// of points, itself included, are nearer than the tolerance. With 1 every point is a core point.
   std::size_t min_points = 1;
   /// Growth of the tolerance for each unit of distance from the origin, for sensors whose points are sparser
   /// farther out. Finite and >= 0; must be 0 if min_points is above 1.
@@ -78,18 +78,19 @@ struct Clusters : IndexLists {
 ///
 /// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996). Linked core points are in one
 /// cluster. A border point is linked to core points but is not a core point. It belongs to the core point
-/// with the smallest d2, among equals to the one with the smallest index, so the result does not depend on
-/// the order of the points. All other points are noise. The size of a cluster includes border points.
+/// with the smallest d2. If several core points have this d2, it belongs to the one with the smallest index.
+/// So the result does not depend on the order of the index list. All other points are noise. The size of a
+/// cluster includes border points.
 ///
-/// The method is exact grid DBSCAN (Gunawan 2013, Gan and Tao 2015). Points in the same cell are always
-/// linked, because the side of a cell is just under tolerance / sqrt(3). Union-find joins cells that are at
-/// most two cells apart. The cost is O(n) for usual sensor data, whatever the number of neighbours. It is
-/// O(n^1.5) if dense sheets are just farther apart than the tolerance. With min_points > 1 there are at most
-/// O(n * min_points) more distance tests.
+/// The method is exact grid DBSCAN (Gunawan 2013, Gan and Tao 2015). Points in the same cell are linked,
+/// because the side of a cell is just under tolerance / sqrt(3). Union-find joins cells that are at most two
+/// cells apart. The cost is O(n) for usual sensor data, whatever the number of neighbours. It is O(n^1.5) if
+/// dense sheets are just farther apart than the tolerance. With min_points > 1 there are at most O(n *
+/// min_points) more distance tests.
 ///
-/// With a growing tolerance there is one pass for each factor of 2^(1/4), over the points with at least the
-/// tolerance of the pass. For example, a tolerance of 0.3 m that grows by 0.01 m per metre takes nine passes
-/// for points within 110 m.
+/// With tolerance_per_metre > 0 there is one pass for each tolerance that a point may have. The pass links
+/// the points with at least this tolerance. For example, a tolerance of 0.3 m and a tolerance_per_metre of
+/// 0.01 take nine passes for points within 110 m.
 class EuclideanClusterer {
  public:
   /// Allocates nothing until the first extract().
@@ -98,9 +99,9 @@ class EuclideanClusterer {
   EuclideanClusterer(EuclideanClusterer&&) noexcept;
   EuclideanClusterer& operator=(EuclideanClusterer&&) noexcept;
 
-  /// Replaces `clusters` by the clusters of `points`. A point without neighbours is a cluster of size one.
-  /// Points that are not valid (is_valid()) are ignored. A point that is twice in the index list counts once.
-  /// Without valid points there are no clusters.
+  /// Replaces `clusters` by the clusters of `points`. With min_points = 1 a point without neighbours is a
+  /// cluster of size one. Points that are not valid (is_valid()) are ignored. A point that is twice in the
+  /// index list counts once. Without valid points there are no clusters.
   ///
   /// The number of threads never changes the result. Steps over points use one thread for fewer than 16 384
   /// points. Steps over blocks of 64 cells use one thread for at most 256 blocks.

@@ -25,12 +25,13 @@ class Search;
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Drop-in replacement of pcl::EuclideanClusterExtraction, with the same partition (see EuclideanClusterer),
-/// setters and defaults. Takes any point type whose x, y, z are consecutive floats or doubles, without
-/// instantiation.
+/// Drop-in replacement of pcl::EuclideanClusterExtraction, with the same setters, defaults and partition (see
+/// EuclideanClusterer). Takes any point type whose x, y, z are consecutive floats or doubles. Needs no
+/// explicit instantiation.
 ///
 /// Differences from PCL:
-/// - Points that are not finite are ignored. In PCL they are undefined behaviour.
+/// - Points that are not valid (is_valid()) are ignored. In PCL, points that are not finite are undefined
+///   behaviour.
 /// - Clusters of equal size are in the order of their smallest index.
 /// - extract() replaces the vector's contents. In PCL it appends.
 /// - No search tree is needed or used.
@@ -44,8 +45,8 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   using KdTree = pcl::search::Search<PointT>;
   using KdTreePtr = std::shared_ptr<KdTree>;
 
-  /// Restricts the clusters to the points with these indices. A null pointer of any of these types removes
-  /// the restriction. (PCL's base class dereferences some null pointers.)
+  /// Restricts the clusters to the points with these indices. In each overload a null pointer removes the
+  /// restriction. (PCL's base class dereferences some null pointers.)
   void setIndices(const pcl::IndicesPtr& indices) override { indices_ = indices; }
   void setIndices(const pcl::IndicesConstPtr& indices) override {
     indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
@@ -57,12 +58,12 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   using pcl::PCLBase<PointT>::setIndices;
 
   /// Stores the search tree for getSearchMethod(), so that code written for PCL compiles. extract() ignores
-  /// it.
+  /// the tree.
   void setSearchMethod(const KdTreePtr& tree) { tree_ = tree; }
   KdTreePtr getSearchMethod() const { return tree_; }
 
-  /// Sets the tolerance. Points nearer to each other than the tolerance are linked. It is in the unit of the
-  /// points and is converted to float as in PCL.
+  /// Sets the tolerance. Points nearer to each other than the tolerance are linked. The tolerance is in the
+  /// unit of the points and is converted to float as in PCL.
   void setClusterTolerance(double tolerance) { tolerance_ = tolerance; }
   double getClusterTolerance() const { return tolerance_; }
 
@@ -70,7 +71,8 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setMinClusterSize(pcl::uindex_t size) { min_size_ = size; }
   pcl::uindex_t getMinClusterSize() const { return min_size_; }
 
-  /// Sets the largest size. Clusters with more points are dropped. By default there is no limit.
+  /// Sets the largest size. Clusters with more points are treated as setOversized() says. By default there is
+  /// no limit.
   void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
   pcl::uindex_t getMaxClusterSize() const { return max_size_; }
 
@@ -92,14 +94,17 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   /// thread. The number never changes the result.
   void setNumberOfThreads(unsigned threads) { execution_ = Threads{threads}; }
 
-  /// Replaces `clusters` by the clusters of the input cloud, or of its points given to setIndices(). The
-  /// largest clusters are first. The indices of each cluster are ascending. Each cluster has the header of
-  /// the cloud. Without finite points there are no clusters.
+  /// Replaces `clusters` by the clusters of the input cloud. If indices are set, only the points with these
+  /// indices are clustered. The largest clusters are first. The indices of each cluster are ascending. Each
+  /// cluster has the header of the cloud. Without valid points there are no clusters.
   ///
   /// Throws std::logic_error without an input cloud and std::out_of_range for an index outside of the cloud.
-  /// Throws std::invalid_argument if the tolerance is not finite and > 0 as a float, if the smallest size
-  /// exceeds the largest, if the growth is not finite and >= 0, or if the growth is not 0 and setMinPoints()
-  /// was given more than 1.
+  /// Throws std::invalid_argument in these cases:
+  /// - The tolerance, as a float, is not finite or not above 0.
+  /// - The smallest size exceeds the largest size.
+  /// - The number of setMinPoints() is 0.
+  /// - The growth is not finite or is below 0.
+  /// - The growth is above 0, and the number of setMinPoints() is above 1.
   void extract(std::vector<pcl::PointIndices>& clusters) {
     const ClusterOptions options{static_cast<float>(tolerance_), min_size_, max_size_, min_points_,
                                  static_cast<float>(per_metre_), oversized_};

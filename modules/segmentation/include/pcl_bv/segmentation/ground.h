@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ground removal, without PCL: by one plane for floors and flat roads, or by zones for outdoor scenes, where
-// roads climb, sink and have curbs, and roadsides are rough. Clustering needs it because the ground would
-// connect all objects. Also estimates where the sensor is: ground zones, ranges and growing tolerances are
-// measured from it.
+// Ground removal, without PCL. split_ground() finds one plane, for floors and flat roads. GroundZones is for
+// outdoor scenes, where roads rise, fall and have curbs, and roadsides are rough. The ground has to be
+// removed before clustering, because the ground would connect all objects.
+//
+// find_sensor() estimates the position of the sensor. GroundZones measures distances from this position.
+// Range limits and ClusterOptions::tolerance_per_metre use distances from the origin, so they are right only
+// if the sensor is at the origin.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,15 +27,16 @@ struct GroundPlaneOptions {
   /// Points at most this far above the plane are ground; metres, > 0.
   double distance = 0.2;
   double max_slope_degrees = 15;  ///< Largest angle between the plane's normal and up, 0 to 89.
-  /// Height of the cloud's origin above the ground, along up; metres, >= 0. If given, the plane must be this
+  /// Height of the cloud's origin above the ground, along up; metres, >= 0. If set, the plane must be this
   /// far below the origin, to within ground_height_tolerance.
   std::optional<double> sensor_height;
   std::uint32_t seed = 1;      ///< Seed of the random search. Other seeds may move the plane by millimetres.
   unsigned iterations = 1000;  ///< Number of planes tried, 1 to 1000000.
 };
 
-/// Largest accepted error of a given sensor height, metres. It allows for pitching vehicles and uneven
-/// ground. It excludes car bonnets and tables, which are 0.7 m high and more.
+/// Largest accepted error of the option sensor_height, metres. The value is large enough for pitching
+/// vehicles and uneven ground. It is small enough to exclude car bonnets and tables, which are 0.7 m high and
+/// more.
 inline constexpr double ground_height_tolerance = 0.5;
 
 /// Buffers that calls of split_ground() reuse.
@@ -43,7 +47,8 @@ struct GroundScratch {
 /// Position of the sensor of a cloud, found by find_sensor().
 struct SensorPosition {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< In the frame of the cloud, metres.
-  /// Whether the points lie around the assumed position. If they do not, `position` is an estimate.
+  /// Whether the points lie around the position `assumed` of find_sensor(). If not, `position` is an
+  /// estimate.
   bool confirmed = true;
   double far_share = 0;  ///< Share of points that are 100 m or farther from `position`, 0 to 1.
 };
@@ -55,8 +60,8 @@ struct GroundSplit {
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
-  /// Centre of the rings of GroundZones. A position given in the options is not checked. split_ground() does
-  /// not set it.
+  /// Centre of the rings of GroundZones. It is GroundZonesOptions::sensor, which is not checked, or the
+  /// result of find_sensor(). split_ground() does not set `sensor`.
   SensorPosition sensor{};
   /// Whether GroundZones found no plane and assumed level ground at sensor_height. Not set by split_ground().
   bool assumed_level = false;
@@ -68,20 +73,21 @@ struct GroundSplit {
 
 /// Finds the ground as one plane and splits the points by it.
 ///
-/// Ground is every point with (nx*x + ny*y) + nz*z - offset <= distance in double. So all points below the
-/// plane are ground, however deep, such as reflections from puddles and windows or ground that slopes down.
-/// Objects below the plane are lost. For hilly scenes use GroundZones.
+/// Ground is every point with (nx*x + ny*y) + nz*z - offset <= distance, computed in double. So all points
+/// below the plane are ground, at any depth, e.g. reflections from puddles and windows, or ground that slopes
+/// down. Objects below the plane are treated as ground, too. For hilly scenes use GroundZones.
 ///
-/// The plane is the one within the limits that has most points near it. A point clearly below a plane costs
-/// as much as four points clearly above it. So a floor is preferred to a table, and a road to a roof, if the
-/// lower surface has a quarter of the points of the upper one. The search weights points by the area that
-/// they cover seen from above, so that dense rings near the sensor do not outvote the distant road. Least
-/// squares over the sampled points near the plane then refine it. Three points are enough if their plane is
-/// within the limits.
+/// A plane is allowed if it satisfies max_slope_degrees and sensor_height. The result is the allowed plane
+/// with the smallest cost. Points near a plane cost little. A point clearly below a plane costs as much as
+/// four points clearly above it. So a floor is preferred to a table, and a road to a roof, if the lower
+/// surface has more than a quarter of the points of the upper one. The search weights points by the area that
+/// they cover seen from above, so that dense rings near the sensor do not outweigh the distant road. Least
+/// squares over the sampled points near the plane then refine the plane. Three points are enough if their
+/// plane is allowed.
 ///
 /// Points that are not valid (is_valid()) are in neither list. No plane is found in these cases:
 /// - There are fewer than three valid points, or all points are on a line.
-/// - No plane is within the limits.
+/// - No plane is allowed.
 /// - Each plane has at least a third as many points below it as near it.
 ///
 /// The same points and options give the same bits. The cost is O(n) in addition to a search of
@@ -98,12 +104,12 @@ GroundSplit split_ground(const PointView& points, const GroundPlaneOptions& opti
 /// Options of GroundZones.
 struct GroundZonesOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
-  /// Centre of the rings in the frame of the cloud, metres. If not given, the centre is the origin if the
+  /// Centre of the rings in the frame of the cloud, metres. If not set, the centre is the origin if the
   /// points lie around the origin, else the estimate of find_sensor().
   std::optional<Eigen::Vector3d> sensor;
   /// Height of `sensor` above the ground, along up; metres, >= 0. An error of up to ground_height_tolerance
-  /// is allowed. If not given, the height is estimated from the cloud. Ignored if the sensor's position is
-  /// estimated.
+  /// is allowed. If not set, the height is estimated from the cloud. The option is ignored if the sensor's
+  /// position is estimated.
   std::optional<double> sensor_height;
   /// Points at most this far above the ground surface are ground; metres, > 0.
   double distance = 0.15;
@@ -117,21 +123,22 @@ struct GroundZonesOptions {
 /// steps are:
 /// - Find the plane around the sensor as split_ground() does, among the points within 12.5 m. If none is
 ///   found, search within 25 m, then among all points.
-/// - Traverse all sectors outwards, ring by ring. The lowest point of a cell is ground if it is near the
-///   height expected in its sector. The tolerance grows with the distance since ground was last seen in this
-///   sector. A sector without ground for some distance takes its state from the neighbouring sectors.
+/// - Traverse all sectors outwards, ring by ring. The lowest point of a cell is ground if its height is near
+///   the height expected in the sector. The tolerance grows with the distance since ground was last seen in
+///   this sector. If ground was seen more recently in the neighbouring sectors, their expected heights and
+///   slopes are mixed into those of the sector.
 /// - Interpolate the surface linearly between two cells of a sector with visible ground.
-/// - Lower the surface to the highest surface that is nowhere steeper than allowed.
+/// - Lower the surface to the highest surface below it that is nowhere steeper than max_slope_degrees.
 ///
 /// So the ground may rise and fall, reflections below the ground do not lower it, and roofs and bonnets are
 /// not ground.
 ///
-/// As with split_ground(), every point at most `distance` above the surface is ground, however deep below it.
-/// In cells with an object (points 0.3 to 2 m above the lowest point of the cell) the limit is a fifth of
-/// `distance`, so that the feet of walls and cars are not ground.
+/// As with split_ground(), every point at most `distance` above the surface is ground, and so are all points
+/// below the surface. A cell has an object if it has points 0.3 to 2 m above its lowest point. In such cells
+/// the limit is a fifth of `distance`, so that the feet of walls and cars are not ground.
 ///
-/// Source: the slope criterion of Vosselman 2000, which compares all pairs of points. Here the distances are
-/// propagated from cell to cell (Borgefors 1986).
+/// Source: the slope criterion of Vosselman 2000, which compares all pairs of points. Here distances are path
+/// lengths from cell to cell (Borgefors 1986).
 class GroundZones {
  public:
   /// Allocates nothing until the first split().
@@ -142,9 +149,9 @@ class GroundZones {
 
   /// Replaces `split` by the split of `points`. The plane of `split` is the plane around the sensor.
   ///
-  /// Points that are not valid (is_valid()) are in neither list. If there is no plane around the sensor, but
-  /// a sensor height is given, level ground at that height is assumed (GroundSplit::assumed_level). Without a
-  /// height nothing is found and all valid points are in `rest`.
+  /// Points that are not valid (is_valid()) are in neither list. If there is no plane around the sensor,
+  /// level ground at options.sensor_height is assumed (GroundSplit::assumed_level). If this height is not set
+  /// or is ignored, no ground is found and all valid points are in `rest`.
   ///
   /// The same points and options give the same bits for any number of threads. O(n). Memory of about 40
   /// bytes per point is retained for the next call, which does not allocate for a similar cloud. Throws
@@ -169,32 +176,32 @@ GroundSplit split_ground_by_zones(const PointView& points, const GroundZonesOpti
 /// The check uses a sample of at most 1024 valid points, without the points at (0, 0, 0), which are rays
 /// without a return. Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR
 /// are near the sensor: in recorded sweeps at least 72 % of the points are within 12.5 m of the sensor, and
-/// at most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points lie around `assumed`
-/// if one of these holds:
+/// at most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are treated as lying
+/// around `assumed` if one of these holds:
 /// - At least 5 % of the points are within 12.5 m of `assumed`.
 /// - At least 5 % are within 25 m of `assumed`, as for a sensor that is high up or looks far ahead, and no
 ///   other position has half of the points within 12.5 m.
 /// - The sample has fewer than 100 points.
 ///
 /// Returns `assumed` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of
-/// the densest position, at the height of `assumed`. The same points give the same bits. O(1) for points in
-/// memory. Throws std::invalid_argument if `up` is 0 or not finite, or if a coordinate of `assumed` is not
+/// the densest position, at the height of `assumed`. The same points give the same bits. O(1) if most points
+/// are valid. Throws std::invalid_argument if `up` is 0 or not finite, or if a coordinate of `assumed` is not
 /// from -1e100 to 1e100.
 SensorPosition find_sensor(const PointView& points, const Eigen::Vector3d& up, const Eigen::Vector3d& assumed,
                            GroundScratch& scratch);
 
-/// An up direction and the share of the points that are ground in it.
+/// An up direction and its share of ground points.
 struct OtherUp {
   Eigen::Vector3d up;  ///< Direction against gravity.
   double share;        ///< Share of the points near the ground plane, 0 to 1.
 };
-/// Looks for a better up direction, in which many more points of the cloud are ground.
+/// Looks for a better up direction, for which many more points of the cloud are ground.
 ///
-/// The directions are z, -y (a camera's frame), y, -z, x, -x and (0, -1, -1) (a camera that looks down). They
-/// are tried in this order, with the distance and slope of `options`. Directions close to options.up are
-/// skipped. `found` is the share of ground points for options.up. If it is above 0, only the direction
-/// opposite to options.up is tried, because a wall may be larger than the ground. A direction is accepted if
-/// all of these hold:
+/// The directions are z, -y, y, -z, x, -x and (0, -1, -1), tried in this order with the distance and slope of
+/// `options`. In a camera's frame -y is up. If the camera looks down, (0, -1, -1) is up. Directions close to
+/// options.up are skipped. `found` is the share of ground points for options.up. If `found` is above 0, only
+/// the direction opposite to options.up is tried. For the other directions a wall could be taken for the
+/// ground, because it may be larger than the ground. A direction is accepted if all of these hold:
 /// - It has a ground plane at least 0.2 m below `sensor`.
 /// - At most a tenth as many points are below the plane as near it.
 /// - The share of points near the plane is at least 3 % and at least three times `found`.

@@ -16,14 +16,14 @@ namespace [[gnu::visibility("default")]] detail {
 /// and what is allowed.
 Eigen::Vector3d parse_up(std::string_view text);
 
-/// Returns a text that parse_up() reads as this vector. For a unit vector along an axis it is the name of the
-/// axis, else `X,Y,Z` with the fewest digits that read back exactly. parse_up() rejects the text of a vector
-/// that is 0 or not finite.
+/// Returns a text that parse_up() reads as this vector. For a unit vector along an axis the text is the name
+/// of the axis, e.g. `-y`. Otherwise it is `X,Y,Z` with the fewest digits that read back exactly. parse_up()
+/// rejects the text of a vector that is 0 or not finite.
 std::string format_up(const Eigen::Vector3d& up);
 
-/// Returns the unit vector along `up`, which may have any length above 0. It is exact along an axis, and has
-/// the same bits for all lengths whose ratio is a power of two. Throws std::invalid_argument if `up` is 0 or
-/// not finite.
+/// Returns the unit vector along `up`, which may have any length above 0. The result is exact if `up` is
+/// along an axis. Parallel vectors give the same bits if the ratio of their lengths is a power of two. Throws
+/// std::invalid_argument if `up` is 0 or not finite.
 Eigen::Vector3d normalized_up(const Eigen::Vector3d& up);
 
 }  // namespace detail

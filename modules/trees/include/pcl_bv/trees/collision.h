@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Collision checks between point clouds and volumes. One of the two may be moved by a pose.
+// Collision checks between two point clouds, a cloud and volumes, or two lists of volumes. A pose moves one
+// of the two.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -35,21 +36,21 @@ class MovingVolumes {
   std::shared_ptr<const State> state_;
 };
 
-/// Returns whether any point of one cloud is within `margin` of a point of the other.
+/// Returns whether any point of one cloud is within `margin` of a point of the other cloud.
 ///
-/// `pose` transforms `others` to the frame of `points`. The result is never false if, by exact arithmetic on
-/// the stored matrix, a point p and the image of a point q are within the margin. It may be true for points
-/// that are farther apart than the margin by about 1e-15 of the coordinates. It is false if either tree has
-/// no points. All functions in this header throw std::invalid_argument unless the margin is from 0 to 1e100
-/// and the pose is finite.
+/// `pose` transforms `others` to the frame of `points`. The exact image of a point is its image by the stored
+/// matrix without rounding. The result is never false if a point of `points` is within the margin of the
+/// exact image of a point of `others`. The result may be true for points that are farther apart than the
+/// margin by about 1e-15 of the coordinates. The result is false if either tree has no points. All functions
+/// in this header throw std::invalid_argument unless the margin is from 0 to 1e100 and the pose is finite.
 bool within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
 /// Returns whether any point is within `margin` of a volume that `pose` has moved.
 ///
-/// The distance of a point is distance() of the point from the moved ConvexBody. So the result is never false
-/// for a point within the margin. It may be true for a point that is farther by the rounding error that
-/// pair_queries.h states.
+/// The distance of a point is distance() of the point from the moved ConvexBody. distance() never exceeds the
+/// exact distance, so the result is never false if a point is within the margin. The result may be true for a
+/// point that is farther by the rounding error that pair_queries.h states.
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin = 0);
 
@@ -63,8 +64,8 @@ void list_within(const PointTree& points, const MovingVolumes& volumes, const Ei
 bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// Replaces `pairs` by the index pairs (in `volumes`, in `others`) of all volumes within `margin` of each
-/// other, ascending.
+/// Replaces `pairs` by all pairs of volumes within `margin` of each other, ascending. A pair is the index in
+/// `volumes` and the index in `others`. `pose` moves `others`.
 void list_within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                  double margin, std::vector<std::pair<std::int32_t, std::int32_t>>& pairs);
 

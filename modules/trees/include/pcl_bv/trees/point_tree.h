@@ -95,7 +95,7 @@ class PointTree {
 
   /// Returns the point of the tree nearest to the query point, if it is within `max_distance`.
   ///
-  /// Of equally near points it returns the one with the smallest index. "Within" means that
+  /// If several points are equally near, returns the one with the smallest index. "Within" means that
   /// Neighbor::squared_distance is at most max_distance * max_distance, rounded. Returns nothing if
   /// is_valid() does not hold for the query point. Throws std::invalid_argument if max_distance is negative
   /// or NaN.
@@ -128,9 +128,9 @@ class PointTree {
 
   /// Returns the point nearest to the volume, if its distance is at most `max_distance`.
   ///
-  /// The distance is distance() of the point from the volume's ConvexBody (pair_queries.h). It is 0 for a
-  /// point inside. Among equally near points it returns the one with the smallest index. Returns nothing for
-  /// an empty volume. Throws std::invalid_argument if max_distance is negative or NaN.
+  /// The distance is distance() of the point from the volume's ConvexBody (pair_queries.h). This distance is
+  /// 0 for a point inside. If several points are equally near, returns the one with the smallest index.
+  /// Returns nothing for an empty volume. Throws std::invalid_argument if max_distance is negative or NaN.
   std::optional<PointDistance> nearest_to(
       const AnyVolume& volume, double max_distance = std::numeric_limits<double>::infinity()) const;
 
@@ -166,8 +166,8 @@ struct NeighborLists {
 };
 
 /// Resizes `found` to the number of query points. Sets found[i] to PointTree::nearest() of the i-th query
-/// point, or to index -1 and distance infinity if there is none. Throws std::invalid_argument if the query
-/// points are not in memory, or if max_distance is negative or NaN.
+/// point, or to index -1 and squared distance infinity if there is none. Throws std::invalid_argument if the
+/// query points are not in memory, or if max_distance is negative or NaN.
 void nearest(const PointTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
@@ -191,11 +191,12 @@ void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
 /// The points of a PointTree after a rigid motion. The points are not moved. Instead, each query is moved to
 /// the tree's frame.
 ///
-/// The tree must outlive this object. A query volume is moved back and inflated, which covers the rounding of
-/// the inverse matrix. So every point is found whose image (by exact arithmetic on the stored matrix) is
-/// inside the volume. Points outside are found only if they are within about 1e-15 of the coordinates. Query
-/// points are rounded when they are moved back, and distances are computed in the tree's frame. Query points
-/// and distances are accurate to about 1e-15 of the coordinates.
+/// The tree must outlive this object. A query volume is moved back to the tree's frame and inflated by a
+/// bound of the error of the inverse matrix. So a point is found if its image, computed exactly from the
+/// stored matrix, is inside the volume. A point outside is found only if it is nearer to the volume than
+/// about 1e-15 of the coordinates. Query points are rounded when they are moved back, and distances are
+/// computed in the tree's frame. Query points and distances are accurate to about 1e-15 of the coordinates.
+/// These errors are larger if the axes of the pose are orthonormal only to 1e-6.
 class PosedTree {
  public:
   /// Places `tree` at `pose`, the transform from the tree's frame to the frame of the queries. Throws

@@ -17,8 +17,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A volume inflated by `padding` in every direction. The padding is in the unit of the points, 0 to 1e100.
 ///
-/// The inflated volume has the same type. It holds, by exact arithmetic, every point within `padding` of the
-/// volume, because each of its numbers is rounded up. An empty volume stays empty.
+/// The inflated volume has the same type. It contains every point within `padding` of the volume. Rounding
+/// excludes no such point, because the inflated sizes are rounded up. An empty volume stays empty.
 /// - Sphere and Capsule: the radius grows by the padding. The result holds no other points.
 /// - Aabb and Obb: the half extents grow by the padding, so corners stay sharp.
 /// - Cylinder: the radius and the half height grow by the padding.
@@ -51,10 +51,10 @@ class RegionMask {
   /// Resizes `inside` to points.count. Sets inside[i] to 1 if contains() holds for the i-th visited point,
   /// else to 0. Points with a NaN or an infinity get 0.
   ///
-  /// The result is the same for every Execution. Exceptions of a PointSource
-  /// pass through. With at most kFewRegions regions, each point is tested against all regions, which is cheap
-  /// for regions whose boxes are far away, and only `inside` is allocated. With more regions, the regions
-  /// near each run of points are looked up in a tree if this is cheaper.
+  /// The result is the same for every Execution. Exceptions of a PointSource pass through. With at most
+  /// kFewRegions regions, each point is tested against all regions, and only `inside` is allocated. Regions
+  /// whose boxes are far away cost little. With more regions, the regions near each run of consecutive points
+  /// are looked up in a tree if this is cheaper.
   void mark(const PointView& points, std::vector<std::uint8_t>& inside,
             const Execution& execution = {}) const;
 
