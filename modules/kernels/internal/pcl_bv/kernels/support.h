@@ -80,7 +80,7 @@ double projection_lower_bound(const SupportDirections& set, std::size_t support,
 
 /// The supports of a chunk. Only the first 2 * SupportDirections::count elements of `supports` are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if all valid points are below the bound.
+  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if no valid point reaches the bound.
   std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
 };
 
@@ -90,10 +90,9 @@ struct ChunkSupports {
 /// a support below its bound is found depends on `isa`.
 ///
 /// O(n * count). If floats overflow or underflow, all points are compared exactly, which is slow. Floats
-/// overflow for extents above 1e38. For directions other than the cube's, they underflow for extents below
-/// 1e-43. Needs at most 220 KiB of stack. The caller must hold a FloatEnvironment. Throws
-/// std::invalid_argument for more than kChunkPoints points or kMaxSupportDirections directions, and if the
-/// points are not in memory.
+/// overflow for extents above 1e38. Without SupportDirections::cube, they underflow for extents below 1e-43.
+/// Needs at most 220 KiB of stack. The caller must hold a FloatEnvironment. Throws std::invalid_argument for
+/// more than kChunkPoints points or kMaxSupportDirections directions, and if the points are not in memory.
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                     const SupportBounds& bounds, ChunkSupports& out);
 
