@@ -58,8 +58,8 @@ fs::path temporary_name() {
   return ".pcl_bv-" + std::to_string(random()) + "-" + std::to_string(random()) + ".tmp";
 }
 
-// The existing temporary files. If `ended`, no others may be created. The object is never destroyed, because
-// other threads may run until the process ends.
+// The existing temporary files. If `ended`, no further ones may be created. The object is never destroyed,
+// because other threads may run until the process ends.
 struct Temporaries {
   std::mutex mutex;
   std::vector<fs::path> paths;

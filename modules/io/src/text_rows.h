@@ -108,7 +108,8 @@ struct RowsRead {
 RowsRead read_text_rows(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row,
                         std::byte* records, const ParallelPolicy& policy);
 
-/// Moves body.begin behind at most `count` rows that are not blank. Returns the number of rows skipped.
+/// Moves body.begin behind the next `count` rows that are not blank, or to the end of the file if there are
+/// fewer. Returns the number of rows skipped.
 std::size_t skip_text_rows(TextBody& body, std::size_t count);
 
 }  // namespace pcl_bv::detail
