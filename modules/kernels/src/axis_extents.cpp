@@ -80,7 +80,7 @@ std::size_t second_packet(const PointView& points, std::size_t lanes) {
   if (reinterpret_cast<std::uintptr_t>(points.data) % 4 != 0) return lanes;
   std::size_t skipped = 0;
   if (layout == Layout::packed16 && missing % 4 == 0) skipped = missing / 4;
-  if (layout == Layout::packed12) skipped = missing * 11 % lanes;  // 11 is the inverse of 3 modulo 4, 8 and 16
+  if (layout == Layout::packed12) skipped = missing * 11 % lanes;  // 11 inverts 3 modulo 4, 8 and 16
   return skipped == 0 ? lanes : skipped;
 }
 

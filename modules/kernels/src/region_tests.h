@@ -32,7 +32,7 @@ struct RegionTest {
   SlabTest<T> slabs[3];
   T error;                       ///< Error bound of distances along axes.
   T square_inner, square_outer;  ///< For ball and rounded: squared radii, used like PlaneTest::inner.
-  T slope;                       ///< For planes: slope * |q|_1 is the error bound of n . q.
+  T slope;                       ///< For planes: slope * |q|_1 is the part of the error that depends on q.
   std::vector<PlaneTest<T>> planes;
 };
 
