@@ -58,8 +58,8 @@ fs::path temporary_name() {
   return ".pcl_bv-" + std::to_string(random()) + "-" + std::to_string(random()) + ".tmp";
 }
 
-// The existing temporary files. If `ended`, no others may be created. The object is never destroyed, because
-// other threads may run until the process ends.
+// The existing temporary files. If `ended`, no further ones may be created. The object is never destroyed,
+// because other threads may run until the process ends.
 struct Temporaries {
   std::mutex mutex;
   std::vector<fs::path> paths;
@@ -135,7 +135,8 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   const fs::path path = exists && !unresolved ? resolved : link_or_file;
   if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
   const fs::path folder = path.parent_path();
-  // Open the folder first, because the old file must not be replaced if the folder cannot be synchronised.
+  // Open the folder first, because the old file must not be replaced if the folder cannot be opened for its
+  // fsync.
   const FileDescriptor folder_descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0,
                                          cannot_write);
   const TemporaryName name(folder / temporary_name());

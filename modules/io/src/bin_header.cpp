@@ -53,8 +53,8 @@ float median_difference(const std::vector<float>& values, std::size_t distance) 
 }
 
 // Returns the smallest other number of fields with which successive records differ clearly less, or 0.
-// Multiples of the true number also give small differences. Therefore the factor is 3, and the smallest
-// number is returned.
+// Multiples of the true number also give small differences. Therefore the differences must be smaller by a
+// factor of 3, and the smallest number is returned.
 std::size_t better_field_count(const std::vector<float>& values, std::size_t fields, std::size_t file_size) {
   if (values.size() < 16 * fields) return 0;
   const float own = median_difference(values, fields);

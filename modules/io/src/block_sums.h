@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checksums that detect changes between two reads of the same points even if the file's times do not.
+// Checksums that detect changes between two reads of the same points even if the file's times do not show
+// them.
 #pragma once
 
 #include <atomic>

@@ -30,11 +30,11 @@ constexpr std::size_t kAhead = std::size_t{8} << 20;
 // Maximum size in bytes of records that are used as they are, without packing their coordinates.
 constexpr std::size_t kShortRecord = 64;
 
-// Bytes of longer records that are read at a time.
+// Bytes of records that pack() reads at a time.
 constexpr std::size_t kPiece = std::size_t{256} << 10;
 
-// Returns the header of a binary .pcd or a .bin file (by its extension). Returns nullopt for all other
-// formats.
+// Returns the header of a .bin file or of a binary .pcd file. Returns nullopt for other encodings of .pcd
+// files and for .ply, .las and .laz files.
 std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesystem::path& path,
                                        std::size_t bin_fields) {
   const std::string extension = lower_case_extension(path);

@@ -66,7 +66,8 @@ struct CoordinateFields {
   bool adjacent = false;  ///< The fields are adjacent in this order, of type `scalar`. No copy is needed.
 };
 
-/// Finds the coordinates in the record. CoordinateFields::readable is false if there are none.
+/// Finds the coordinates in the record. CoordinateFields::readable is false if a coordinate is missing or not
+/// supported.
 CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
 
 /// Returns a view of the coordinates in these records, without a copy. Requires `fields.adjacent`.

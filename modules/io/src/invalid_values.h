@@ -18,16 +18,18 @@
 namespace pcl_bv::detail {
 
 /// Replaces and counts invalid values, which are not numbers of their field's type. They become NaN, or 0 in
-/// integer fields. Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and
-/// are valid. Thread-safe. The report depends only on the file.
+/// integer fields. Negative integers in unsigned fields are valid if they fit in the signed type of the same
+/// size and in 32 bits. They wrap around as in C++ (-1 becomes the maximum). Thread-safe. The report is the
+/// same for any number of threads.
 class InvalidValues {
  public:
   /// `row` is the word for a row in messages, and `first_number` is the number of the first row. The cloud
   /// must outlive this object, and its `data` must have its final size.
   InvalidValues(const RawCloud& cloud, std::string_view row, std::size_t first_number);
 
-  /// Skips the value at the cursor, an element of this field, and writes the replacement to `to`. If the
-  /// field is a coordinate or the row has no more values, returns false and does nothing.
+  /// Skips the value at the cursor, which belongs to field number `field`, writes the replacement to `to` and
+  /// returns true. Returns false and replaces nothing if the field is a coordinate or the row has no more
+  /// values.
   bool replace_value(TextRows& rows, std::size_t field, std::byte* to);
 
   /// Adds the fields with invalid values to the cloud's note and to RawCloud::invalid_fields.

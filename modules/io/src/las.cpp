@@ -98,7 +98,7 @@ void add_fields(const PointFormat& format, LasHeader& header) {
 
 const PointFormat& point_format(const HeaderBytes& bytes) {
   const auto format = bytes.at<std::uint8_t>(104);
-  if (format >= 128)  // LASzip sets these bits
+  if (format >= 128)  // LASzip sets the highest bit
     throw IoError("compressed (LAZ) points cannot be read; unpack them first, with laszip or pdal");
   if (format >= std::size(kFormats))
     throw IoError("header: point format " + std::to_string(format) + " is not one of 0 to 10");
@@ -129,8 +129,8 @@ bool is_extended_record(const InputFile& file, std::size_t at) {
   return bytes <= file.size() - at - header;
 }
 
-// Returns an upper limit for the end of the point data, which is the start of the extended records behind it
-// (waveforms or other data), or the end of the file.
+// Returns an upper limit for the end of the point data. The limit is the start of the extended records behind
+// the points (waveforms or other data), or the end of the file if there are none.
 std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
   std::size_t end = file.size();
   const auto stop_at = [&](std::size_t at) {

@@ -56,7 +56,7 @@ class PointRow {
   }
 
  private:
-  // Handles value number `read` of the row (from 0) if it is missing or not a number of its field's type.
+  // Handles value number `read` of the row (from 0), which is missing or not a number of its field's type.
   void replace_value(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +

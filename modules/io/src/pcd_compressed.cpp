@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The block is two uint32 sizes (packed, unpacked), then the LZF stream of all x, then all y, and so on.
+// The compressed block begins with two uint32 sizes (packed, unpacked). An LZF stream follows. It unpacks to
+// all values of the first field, then all values of the second field, and so on.
 #include <liblzf/lzf.h>
 
 #include <algorithm>
@@ -43,7 +44,7 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
 }
 
 // Unpacks a block. Some writers store a block uncompressed if LZF does not shrink it. A block of equal packed
-// and unpacked size can also be LZF (which can expand data by 1 byte in 32). Therefore LZF is tried first.
+// and unpacked size can also be an LZF stream that happens to have this size. Therefore LZF is tried first.
 void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
                                       static_cast<unsigned>(unpacked.size()));

@@ -33,7 +33,8 @@ PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& pa
 /// Throws IoError unless the file has all records of a binary cloud. Adds a note if more records follow.
 void require_records(const InputFile& file, PcdHeader& header);
 
-/// Both functions read the points behind the header into header.cloud.data. They throw IoError.
+/// read_ascii_points() and read_compressed_points() read the points behind the header into header.cloud.data.
+/// They throw IoError.
 void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelPolicy& policy);
 void read_compressed_points(const InputFile& file, PcdHeader& header);
 

@@ -46,16 +46,16 @@ bool begins_with_data_line(std::string_view text) {
              pcd_encoding_names.end();
 }
 
-// Collects the header lines to the line DATA. Returns false if there is no such line in `start`. `more` is
-// whether the file is longer than `start`.
+// Collects the header lines up to and including the line DATA. Returns false if there is no such line in
+// `start`. `more` is whether the file is longer than `start`.
 bool collect_header_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
     const std::size_t end = std::min(newline, start.size());
     const std::string_view line = start.substr(at, end - at);
-    // An incomplete line is not interpreted, unless the file ends with it and it is a line DATA or the only
-    // line.
+    // An incomplete line is interpreted only if the file ends with this line, and if the line is a line DATA
+    // or the only line.
     if (newline == std::string_view::npos && (more || (!lines.empty() && !line.starts_with("DATA"))))
       return false;
     const std::string_view keyword = add_line(line, lines);

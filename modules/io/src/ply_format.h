@@ -53,7 +53,8 @@ std::string_view ply_type_name(const PointField& value);
 /// Reads the header. Throws IoError if it is invalid.
 PlyHeader read_ply_header(const InputFile& file);
 
-/// Both functions read the vertices into header.cloud.data, without lists. They throw IoError.
+/// read_ply_ascii() and read_ply_binary() read the vertices into header.cloud.data, without lists. They throw
+/// IoError.
 void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy);
 void read_ply_binary(const InputFile& file, PlyHeader& header);
 

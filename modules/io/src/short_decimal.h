@@ -40,8 +40,8 @@ inline DigitRun read_digit_run(const char* at) {
   std::uint64_t text;
   std::memcpy(&text, at, sizeof text);
   const std::uint64_t digits = text ^ 0x3030303030303030;  // bytes of digits become 0 to 9
-  // The highest bit marks a byte that is not a digit. The addition can carry out of such a byte, but only
-  // into later bytes, which do not matter.
+  // In `others`, the highest bit of a byte is set if the byte is not a digit. The addition can carry out of
+  // such a byte, but only into later bytes, which do not matter.
   const std::uint64_t others = (digits | (digits + 0x7676767676767676)) & 0x8080808080808080;
   const unsigned length = others == 0 ? 8U : static_cast<unsigned>(std::countr_zero(others)) / 8;
   const unsigned half_shift = 32 - 4 * length;  // applied twice, since a shift by 64 is undefined
@@ -79,7 +79,7 @@ struct Decimal {
 };
 
 /// Rounds to the nearest double. Returns false if the digits or the power of ten are not exactly a double.
-/// Otherwise only the product or quotient is rounded, so the result is exact (Clinger 1990).
+/// Otherwise only the product or quotient is rounded, so the result is correctly rounded (Clinger 1990).
 inline bool round_decimal(Decimal decimal, bool negative, double& value) {
   constexpr std::int64_t doubles_end = std::int64_t{1} << 53;
   if (decimal.digits > doubles_end || !decimal.has_power()) return false;
@@ -117,8 +117,8 @@ inline bool read_exponent(const char*& at, int& exponent) {
 }
 
 /// Reads a number that is followed by a blank or a line end. Returns the position behind the number, or null
-/// if this fast path cannot decide. Then the text may still be a valid number for std::from_chars. The text
-/// must be followed by kTextPadding bytes that begin with a line feed.
+/// if this fast path cannot decide. In the latter case, the text may still be a valid number for
+/// std::from_chars. The text must be followed by kTextPadding bytes that begin with a line feed.
 template <typename T>
 inline const char* read_short_decimal(const char* at, T& value) {
   static_assert(std::is_floating_point_v<T>);

@@ -20,10 +20,10 @@ namespace pcl_bv::detail {
 /// of 100 kB in comments.
 inline constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 
-/// Calls parse(start, more) with the beginning `start` of the file until it returns true. The first `start`
-/// has 64 KiB, each later one is longer. `more` is whether the file is longer than `start`. parse() returns
-/// false if the header does not end in `start`. Throws IoError, naming `last_line`, if the header does not
-/// end in the file or in its first kMaxHeaderBytes bytes.
+/// Calls parse(start, more) with the beginning `start` of the file until parse() returns true. The first
+/// `start` has 64 KiB, each later `start` is longer. `more` is whether the file is longer than `start`.
+/// parse() returns false if the header does not end in `start`. Throws IoError, naming `last_line`, if the
+/// header does not end in the file or in its first kMaxHeaderBytes bytes.
 void parse_header(const InputFile& file, const char* last_line,
                   const std::function<bool(std::string_view start, bool more)>& parse);
 
@@ -32,7 +32,7 @@ using Words = std::vector<std::string_view>;
 /// Returns the words of a line, which are separated by blanks.
 Words split(std::string_view line);
 
-/// Returns whether the text can be a field's name, which is not empty and has no blanks and line ends.
+/// Returns whether the text can be a field's name, which is not empty and has no blanks or line ends.
 bool is_word(std::string_view text);
 
 /// Returns the value of a well-formed decimal number that std::from_chars reported as out of range. The value

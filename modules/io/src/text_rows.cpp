@@ -55,7 +55,8 @@ const char* read_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-// A piece is first read with 1/512 of its size beyond its end, because its last line usually ends there.
+// At first, a piece is read together with 1/512 of its size behind its end, because the last line of the
+// piece usually ends there.
 constexpr std::size_t kOverhangFraction = 512;
 
 // Returns the offset behind the first line end at or after `from`, or npos.
@@ -153,8 +154,8 @@ std::size_t count_rows(std::string_view text) {
 
 // Reads rows with several threads. The numbers of the rows in a piece are known only when the rows of all
 // pieces before it have been counted. Therefore the threads first count the rows of all pieces, at a tenth of
-// the cost of parsing. Then they parse each piece directly into its records. No thread waits for another, as
-// it would if pieces were handed over in order.
+// the cost of parsing. Then they parse each piece directly into its records. So no thread has to wait until
+// the pieces before its own have been parsed.
 class RowReader {
  public:
   RowReader(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row, std::byte* records)

@@ -38,8 +38,8 @@ class TextRows {
   }
 
   /// Reads the next values of the row as the elements of one field. Stops at the first value that is missing
-  /// or not a number of the field's type. Returns the number of values before that value. Integer fields
-  /// accept whole numbers in any notation (1.0, 1e3).
+  /// or not a number of the field's type. Returns the number of values read. Integer fields accept whole
+  /// numbers in any notation (1.0, 1e3).
   std::uint32_t read(const PointField& field, std::byte* to);
 
   /// Reads all elements of one field. Calls on_invalid(index of the element, target address of the element)
@@ -67,8 +67,9 @@ class TextRows {
   const char* end_;
 };
 
-/// Adds the elements of the next field to `run`, so that one call of TextRows::read() reads both fields.
-/// Returns false and changes nothing if their types or sizes differ.
+/// Adds the elements of the next field to `run`, so that one call of TextRows::read() reads all of them.
+/// Returns false and changes nothing if the types or sizes of `run` and `next` differ, or if the number of
+/// elements would overflow.
 bool extend_run(PointField& run, const PointField& next);
 
 /// Bytes of text per piece. A piece and its records fit in the second-level cache.
@@ -102,12 +103,13 @@ struct RowsRead {
   bool more = false;      ///< Whether the text has more rows than wanted.
 };
 
-/// Reads rows that are not blank into `records`, which has wanted.count * record_bytes bytes. Each thread
-/// needs memory for one piece of text. Throws an IoError for the first wanted row that cannot be read.
+/// Reads rows that are not blank into `records`, which has wanted.count * wanted.record_bytes bytes. Each
+/// thread needs memory for one piece of text. Throws an IoError for the first wanted row that cannot be read.
 RowsRead read_text_rows(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row,
                         std::byte* records, const ParallelPolicy& policy);
 
-/// Moves body.begin behind at most `count` rows that are not blank. Returns the number of rows skipped.
+/// Moves body.begin behind the next `count` rows that are not blank, or to the end of the file if there are
+/// fewer. Returns the number of rows skipped.
 std::size_t skip_text_rows(TextBody& body, std::size_t count);
 
 }  // namespace pcl_bv::detail

@@ -16,10 +16,10 @@ struct ByteRange {
   std::size_t begin, end;
 };
 
-/// Adds a note to the cloud if the bytes `rest` behind the last point contain more points of `record` bytes,
-/// because a recorder that stopped early may not have updated the header. An incomplete record is ignored.
-/// Less than 4 KiB of zeros are ignored, too, because PCL appends them. Throws IoError if the header says 0
-/// points but more follow.
+/// Adds a note to the cloud if the bytes `rest` behind the last point contain more points of `record` bytes.
+/// A recorder that stopped early may not have updated the number of points in the header. An incomplete
+/// record is ignored. Less than 4 KiB of zeros are ignored, too, because PCL appends them. Throws IoError if
+/// the header says 0 points but more follow.
 void note_trailing_points(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud);
 
 }  // namespace pcl_bv::detail

@@ -4,7 +4,7 @@
 // Copies points of any layout to groups (point_view.h) in one pass and in order. Used by PointGroups, and by
 // kernels in which a lane must hold the same points on every instruction set.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_COPY_TO_GROUPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_COPY_TO_GROUPS_INL_H_
 #undef PCL_BV_COPY_TO_GROUPS_INL_H_

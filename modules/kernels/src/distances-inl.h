@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Squared distances of packets, for the target being compiled. Distances in float come with a proven bound
-// for the distance in double. Distances in double are computed in a fixed order of operations, none of them
-// fused.
+// Squared distances of packets, for the target being compiled. float_limit() relates distances in float to
+// distances in double with a proven bound. Distances in double are computed in a fixed order of operations,
+// none of which is fused.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_DISTANCES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_DISTANCES_INL_H_
 #undef PCL_BV_DISTANCES_INL_H_
@@ -125,7 +125,7 @@ struct FloatRejection {
   float limit;
 };
 
-// Consecutive packets of a view that float arithmetic rejects as a whole.
+// Consecutive packets of a view, which float arithmetic first tests as a whole.
 struct Run {
   std::size_t begin, end;
 };

@@ -20,7 +20,7 @@ namespace {
 struct Entry {
   Isa isa;
   std::string_view name;
-  std::int64_t target;  // Highway's bit of the set; 0 for `automatic` and `scalar`.
+  std::int64_t target;  // Highway's bit for the instruction set; 0 for `automatic` and `scalar`.
 };
 
 constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
@@ -32,7 +32,7 @@ constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
                                             {Isa::sve, "sve", HWY_SVE},
                                             {Isa::sve2, "sve2", HWY_SVE2}}};
 
-#if HWY_ARCH_X86 && HWY_COMPILER_GCC && !HWY_COMPILER_CLANG  // clang does not know all these names
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC && !HWY_COMPILER_CLANG  // clang does not know all feature names below
 // Queries the compiler's runtime for the features with which Highway compiles each target. Highway's own
 // detection is in libhwy, and a program that links libhwy calibrates Highway's timer before main(). This took
 // 3.1 of the 6.9 ms in which pcd_bv started.
@@ -60,9 +60,9 @@ bool usable(const Entry& entry) {
   return entry.isa == Isa::scalar || (entry.target & supported) != 0;
 }
 
-// Returns the default set. NEON is preferred to SVE for two reasons. With SVE, points of index lists and wide
-// records are loaded coordinate by coordinate (Layout::any in load-inl.h), and on most processors SVE vectors
-// are no longer than NEON vectors.
+// Returns the default instruction set. NEON is preferred to SVE for two reasons. With SVE, points of index
+// lists and wide records are loaded coordinate by coordinate (Layout::any in load-inl.h), and on most
+// processors SVE vectors are no longer than NEON vectors.
 Isa best_isa() {
   Isa best = Isa::scalar;
   for (const Entry& entry : kEntries) {

@@ -94,7 +94,7 @@ template <Layout layout, DirectionSet set, typename T>
 std::size_t project_blocks(const PointView& chunk, const T* center, const LaneProjections<T>& projections) {
   const Tag<T> d;
   std::size_t dropped = 0;
-  bool clean = true;  // false after a block with an invalid point, because others often follow
+  bool clean = true;  // false after a block with an invalid point, because the next block often has one, too
   T* out = projections.values;
   for (std::size_t begin = 0; begin < chunk.count;
        begin += projections.block_points, out += projections.per_block) {

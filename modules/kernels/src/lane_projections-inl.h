@@ -4,7 +4,7 @@
 // The maximum projection of each lane of a block, and the search for support points in lanes with large
 // projections. The points of a lane are those that load_packet() loads into this lane.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_LANE_PROJECTIONS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_LANE_PROJECTIONS_INL_H_
 #undef PCL_BV_LANE_PROJECTIONS_INL_H_
@@ -28,13 +28,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Maximum number of packets per block. Smaller blocks cost more stores; larger blocks have more points to
-/// compare per lane. A 26-DOP on AVX-512 takes 3.1 us with 32 packets and 4.2 us with 64 packets for 4010
-/// points, and 100 us and 97 us for 300 k points.
+/// Maximum number of packets per block. Smaller blocks cost more stores. Larger blocks have more points to
+/// compare per lane. A 26-DOP of 4010 points on AVX-512 takes 3.1 us with 32 packets and 4.2 us with 64
+/// packets. For 300 k points it takes 100 us with 32 packets and 97 us with 64 packets.
 inline constexpr std::size_t kPackets = 32;
 
-/// Returns the number of packets per block, with which a small number of points is cut into about eight
-/// blocks. A 26-DOP on AVX-512 takes 3.0 us for 1000 points (4.5 us in two blocks) and 2.4 us for 300 points
+/// Returns the number of packets per block. A small number of points is cut into about eight blocks. A 26-DOP
+/// of 1000 points on AVX-512 then takes 3.0 us (4.5 us in two blocks). A 26-DOP of 300 points takes 2.4 us
 /// (3.0 us in one block).
 inline std::size_t packets_per_block(std::size_t packets) {
   return HWY_MIN(HWY_MAX(packets / 8, std::size_t{4}), kPackets);
@@ -87,16 +87,16 @@ void search_lanes(const PointView& points, const LaneProjections<T>& projections
       const std::size_t point = point_of_lane<layout>(lane, n);
       search(begin + point, n, whole);
       if (whole == begin + count) continue;
-      // The last packet was loaded either in order or as the last n points, which may begin in an earlier
-      // block. Both possibilities are searched.
+      // An incomplete last packet was loaded either in order or as the last n points, which may begin in an
+      // earlier block. Both possibilities are searched.
       search(whole + lane, n, begin + count);
       if (begin + count >= n) search(begin + count - n + point, n, begin + count);
     }
   }
 }
 
-/// Updates the supports in `out` with the points of a part, given the maximum projections of its lanes. If
-/// `later` is not null, it receives lower bounds of the supports found, for the parts that follow.
+/// Updates the supports in `out` with the points of a part, from the maximum projections of the part's lanes.
+/// If `later` is not null, it receives lower bounds of the supports found, for the parts that follow.
 template <Layout layout, typename T>
 void search_supports(const PointView& part, const SupportDirections& set,
                      const LaneProjections<T>& projections, const CenteredExtent& extent,

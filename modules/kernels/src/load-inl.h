@@ -3,7 +3,7 @@
 
 // Loads points into packets (vectors of x, y and z), for the target being compiled.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_LOAD_INL_H_
 #undef PCL_BV_LOAD_INL_H_
@@ -265,7 +265,7 @@ HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
 }
 
 /// Loads the packet from `first` on and subtracts the centre. With `masked`, the centre replaces invalid
-/// points and fills the lanes past the end of the block, and valid_count grows by the number of valid lanes,
+/// points and fills the lanes past the end of the block. Then valid_count grows by the number of valid lanes,
 /// including the lanes past the end. Without `masked`, lanes past the end hold the centre or repeat points,
 /// which changes no extreme.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
@@ -296,9 +296,9 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
 
 /// Prefetches the memory of a packet 8 KiB ahead. Without this, a loop with much arithmetic per packet fills
 /// the core's reorder window before its loads get far enough ahead. A 26-DOP of 1 M points on AVX-512 runs at
-/// 2.9 Gpt/s with prefetching and at 0.9 Gpt/s without. Other layouts are not prefetched, because clouds of
-/// pcl::PointXYZI in the second-level cache then run at 0.9 instead of 1.8 Gpt/s, while clouds in memory gain
-/// only 15 %.
+/// 2.9 Gpt/s with prefetching and at 0.9 Gpt/s without. Other layouts are not prefetched. With prefetching,
+/// clouds of pcl::PointXYZI in the second-level cache would run at 0.9 instead of 1.8 Gpt/s, and clouds in
+/// memory would gain only 15 %.
 template <Layout layout, class D>
 HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
   if constexpr (layout == Layout::groups || layout == Layout::packed12 || layout == Layout::packed16) {
@@ -310,9 +310,9 @@ HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) 
   }
 }
 
-/// Keeps a loop's integer accumulator in its register. Otherwise g++ 12 does not see that the float vector
-/// and the integer vector are one register, and moves and spills it. This increases the speed from 2600 to
-/// 4500 Mpt/s (26-DOP, AVX-512).
+/// Keeps a loop's integer accumulator in its register. Without this, g++ 12 does not see that the float
+/// vector and the integer vector share one register, and copies and spills the accumulator. Keeping it in the
+/// register increases the speed from 2600 to 4500 Mpt/s (26-DOP, AVX-512).
 template <class Vector>
 HWY_INLINE void keep_in_register(Vector& v) {
 #if HWY_ARCH_X86

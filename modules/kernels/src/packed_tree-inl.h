@@ -3,7 +3,7 @@
 
 // Distances from a query point to the boxes of a group and to the points of a packet.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_PACKED_TREE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_PACKED_TREE_INL_H_
 #undef PCL_BV_PACKED_TREE_INL_H_
@@ -28,7 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET != HWY_SCALAR
 
 using Floats = hn::CappedTag<float, kTreeWidth>;
-// Doubles has as many lanes as Floats, or half as many.
+// Doubles has half as many lanes as Floats.
 using Doubles = hn::CappedTag<double, 8>;
 
 /// Returns a mask of at most 16 lanes as bits. Reads exactly the bytes that StoreMaskBits() wrote, because a
@@ -61,9 +61,9 @@ HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& prob
                            gap(d, group, probe, 2, k));
 }
 
-/// Returns, for each box and along one axis, squared upper bounds of the distance to a point on the nearer
-/// side of the box and of the distance to the farther side. Boxes were rounded outward by at most 2^-20, so
-/// the point that determines a side may be 2^-20 inside of it.
+/// Computes two squared upper bounds for each box along one axis. `nearer` is for the distance to a point on
+/// the nearer side of the box, and `farther` for the distance to the farther side. Boxes were rounded outward
+/// by at most 2^-20. So the point that determines a side may be up to 2^-20 inside the box.
 template <class D>
 HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis,
                              std::size_t k, V<D>& nearer, V<D>& farther) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks of a kernel's arguments, made before it runs. Without them a kernel would silently read or write
-// past an array, or return a volume that does not enclose its points. The checks take a few nanoseconds per
-// call.
+// Checks of a kernel's arguments before the kernel runs. Without these checks, a kernel could silently read
+// or write past an array, or give a result from which the caller computes a volume that does not enclose the
+// points. The checks take a few nanoseconds per call.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace pcl_bv::detail {
 /// Maximum number of points whose positions fit into 32 bits.
 inline constexpr std::size_t kMaxPositions = std::size_t{1} << 32;
 
-/// Throws std::invalid_argument unless the points are in memory and at most `maximum`.
+/// Throws std::invalid_argument unless the points are in memory and their number is at most `maximum`.
 void require_in_memory(const PointView& points,
                        std::size_t maximum = std::numeric_limits<std::size_t>::max());
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Maximum projections of lanes on both sides of zero. Floats are compared as integers. Of two positive
-// floats, the larger float is the larger signed integer. Of two negative floats, the float of larger
-// magnitude is the larger unsigned integer. Accumulators start at zero, which is inside the extent, so
-// numbers of the other sign never win. Recent cores compute integer maxima on all four vector pipes, but
-// float maxima on only two (26-DOP, AVX-512, Zen 5: 4500 instead of 3200 Mpt/s). NaN and infinity win against
-// all numbers and so reveal an invalid point.
+// Accumulates, in each lane, the largest projection above zero and the smallest projection below zero. Floats
+// are compared as integers. Of two positive floats, the larger float is the larger signed integer. Of two
+// negative floats, the float of larger magnitude is the larger unsigned integer. Accumulators start at zero,
+// which is inside the extent, so numbers of the other sign never win. Recent cores compute integer maxima on
+// all four vector pipes, but float maxima on only two (26-DOP, AVX-512, Zen 5: 4500 instead of 3200 Mpt/s).
+// NaN and infinity win against all numbers and so reveal an invalid point.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_PROJECTION_EXTREMES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_PROJECTION_EXTREMES_INL_H_
 #undef PCL_BV_PROJECTION_EXTREMES_INL_H_

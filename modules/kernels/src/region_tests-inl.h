@@ -3,7 +3,7 @@
 
 // Tests a packet of points against a region, for the target being compiled.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_REGION_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_REGION_TESTS_INL_H_
 #undef PCL_BV_REGION_TESTS_INL_H_
@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Number of tests between two checks whether further tests can change the result.
+// Number of tests between two checks of whether further tests can change the result.
 constexpr std::size_t kTestsPerCheck = 4;
 
 template <class D, typename T = hn::TFromD<D>>

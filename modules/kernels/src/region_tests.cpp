@@ -48,7 +48,7 @@ void set_box(const ConvexRegion& region, RegionTest<T>& test) {
   }
 }
 
-// Returns the largest |q| in the box along an axis.
+// Returns the largest |q[k]| in the box.
 double max_offset(const ConvexRegion& region, std::size_t k) {
   return std::max(region.center[k] - region.low[k], region.high[k] - region.center[k]);
 }

@@ -31,8 +31,8 @@ struct RegionTest {
   T max_offset[3];     ///< Largest |p - head| in the box, by axis.
   SlabTest<T> slabs[3];
   T error;                       ///< Error bound of distances along axes.
-  T square_inner, square_outer;  ///< For ball and rounded: squared radii, like PlaneTest::inner and outer.
-  T slope;                       ///< For planes: slope * |q|_1 is added to the error bound of n . q.
+  T square_inner, square_outer;  ///< For ball and rounded: squared radii, used like PlaneTest::inner.
+  T slope;                       ///< For planes: slope * |q|_1 is the part of the error that depends on q.
   std::vector<PlaneTest<T>> planes;
 };
 

@@ -18,7 +18,7 @@ struct RunExtremes {
   static constexpr T kMost = std::numeric_limits<T>::infinity();
   T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
 
-  // Adding 0 turns -0 into +0, because which zero a minimum returns depends on the order of the points.
+  // Adds 0 to turn -0 into +0. Otherwise the order of the points would decide which zero is the minimum.
   RunBox box() const {
     RunBox box;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -29,9 +29,10 @@ namespace HWY_NAMESPACE {
 inline constexpr std::size_t kGroup = 4;  // number of directions on which a block is projected at a time
 
 // The memory of supports_of(). `points` is a block of points relative to a centre, in packets of x, y and z.
-// It takes 12 KiB for floats, in the first-level cache. `projections` are the maximum projections of lanes.
-// Their capacity is a whole chunk for at most 13 directions of floats. 49 directions on AVX-512 run at 320
-// Mpt/s with 25 KiB of projections, at 380 Mpt/s with 50 KiB and at 435 Mpt/s with 104 KiB.
+// For floats it takes 12 KiB and stays in the first-level cache. `projections` is for the maximum projections
+// of the lanes. For floats and at most 13 directions it has capacity for a whole chunk. 49 directions on
+// AVX-512 run at 320 Mpt/s with 25 KiB of projections, at 380 Mpt/s with 50 KiB and at 435 Mpt/s with 104
+// KiB.
 template <typename T>
 struct Workspace {
   HWY_ALIGN T points[3 * kBlockPoints];
@@ -152,7 +153,7 @@ std::size_t project_part(const PointView& part, std::size_t count, const LanePro
   const std::size_t blocks = kBlockPoints / projections.block_points;  // copied at a time
   const std::size_t step = blocks * projections.block_points;
   std::size_t dropped = 0;
-  bool clean = true;  // false after a block with an invalid point, because others often follow
+  bool clean = true;  // false after a block with an invalid point, because the next block often has one, too
   T* values = projections.values;
   for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * projections.per_block) {
     const PointView block = part.slice(begin, HWY_MIN(step, part.count - begin));

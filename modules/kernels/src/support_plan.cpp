@@ -18,9 +18,9 @@
 #include "preconditions.h"
 
 namespace pcl_bv::detail {
-// Chooses, from eight points, the one nearest to their mean. If the centre is itself a support point, the
-// maximum projection is 0. Every lane has this maximum then, and all points have to be compared, which takes
-// 0.4 us for 300 points.
+// Chooses, from eight points, the one nearest to their mean. Such a point is rarely a support point. If the
+// centre were a support point, the maximum projection would be 0. Every lane would have this maximum, and all
+// points would have to be compared, which takes 0.4 us for 300 points.
 bool central_point(const PointView& points, Coordinates& center) {
   constexpr std::size_t samples = 8;
   std::array<Coordinates, samples> sample;

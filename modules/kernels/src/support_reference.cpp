@@ -121,11 +121,11 @@ std::size_t project_block(const PointView& points, const Project& project, Block
   return project_block<T>(points.count, load, project, out);
 }
 
-// Bounds the error of the difference of the projections of two points, whose coordinates are at most `m` in
-// magnitude. For the cube's directions and each point, the bound has one u (the unit roundoff of T) per
-// addition, and one more u for the difference and its rounding. It is infinite if sums may overflow. For
-// other directions, it has 3.01 * 2^-53 of the magnitudes for each point, and covers the underflow of
-// products and of the direction's tiny components.
+// Returns an error bound of the difference of the projections of two points whose coordinates are at most `m`
+// in magnitude. For the cube's directions, let u be the unit roundoff of T. Each of the two points adds one u
+// per addition, and one more u for the difference and its rounding. The bound is infinite if sums may
+// overflow. For other directions, the error of each projection is at most 3.01 * 2^-53 of the magnitudes. The
+// bound also covers the underflow of products and of the direction's tiny components.
 template <typename T>
 double pair_error(const SupportDirections& set, std::size_t k, const Coordinates& m) {
   const Direction& d = set.scaled[k];

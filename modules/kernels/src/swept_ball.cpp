@@ -11,7 +11,7 @@ namespace pcl_bv::detail {
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
     : from(start), radius(r) {
-  // Floats are not precise enough for boxes and points beyond 2^60 times the size of the cloud.
+  // Floats are not precise enough for a start point or a radius beyond 2^60 times the size of the cloud.
   constexpr double kFar = 0x1p60;
   const int exponent =
       std::ilogb(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));

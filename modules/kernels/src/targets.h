@@ -57,7 +57,7 @@ KernelTable(std::nullptr_t, Function*, Others...) -> KernelTable<Function>;
 }  // namespace pcl_bv::detail
 
 /// The initialiser of a KernelTable. The source that uses this macro must define `function` in every
-/// HWY_NAMESPACE except N_SCALAR, in whose place `reference` is used. Use the macro inside HWY_ONCE.
+/// HWY_NAMESPACE except N_SCALAR. `reference` is the version for Isa::scalar. Use the macro inside HWY_ONCE.
 #define PCL_BV_KERNEL_TABLE(function, reference)                                                         \
   {                                                                                                      \
     nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \

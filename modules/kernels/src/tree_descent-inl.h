@@ -3,7 +3,7 @@
 
 // Walks through a tree depth first, the nearest box of each group first.
 
-// Included once per target by Highway's foreach_target.h.
+// Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_TREE_DESCENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PCL_BV_TREE_DESCENT_INL_H_
 #undef PCL_BV_TREE_DESCENT_INL_H_
@@ -37,8 +37,8 @@ HWY_INLINE std::uint32_t bits_within(const float* bounds, float limit) {
   return bits;
 }
 
-// Opens a group. Removes its nearest box from `open` and returns it; returns kTreeWidth if none is within
-// `limit`.
+// Opens a group. Returns the number of its nearest box and stores the other boxes in `open`. Returns
+// kTreeWidth if no box is within `limit`.
 template <typename Bound>
 HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, float limit, std::size_t level,
                                   std::size_t item, OpenGroup& open) {
@@ -60,7 +60,8 @@ HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, fl
   return k;
 }
 
-// Removes the nearest of the remaining boxes and returns it; returns kTreeWidth if none is within `limit`.
+// Removes the nearest of the remaining boxes and returns its number. Returns kTreeWidth if no remaining box
+// is within `limit`.
 HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
   const std::uint32_t near = open.bits == 0 ? 0 : open.bits & bits_within(open.bounds, limit);
   std::size_t nearest = kTreeWidth;
@@ -76,7 +77,7 @@ HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
 
 /// Calls take(packet), depth first and nearest box first, for the packets whose boxes have a bound of at most
 /// `limit`. take() may lower `limit`. bound(d, group, k) returns the bounds of the boxes k, k + 1, ... of a
-/// group; for unused boxes it must return infinity or the smallest bound of the used boxes.
+/// group. For unused boxes, bound() must return infinity or the smallest bound of the used boxes.
 template <typename Bound, typename Take>
 HWY_INLINE void descend(const BoxLevels& boxes, const Bound& bound, const float& limit, const Take& take) {
   OpenGroup open[BoxLevels::kMaxLevels];

@@ -73,7 +73,8 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
       });
 }
 
-// Returns the time at which the ball enters box k of a group; infinity if it does not enter it.
+// Returns the time at which the ball enters box k of a group. Returns infinity if the ball does not enter the
+// box.
 float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {

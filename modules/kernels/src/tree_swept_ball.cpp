@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Returns the times at which the ball enters the boxes k, k + 1, ...; infinity for boxes that it does not
-// enter.
+// Returns the times at which the ball enters the boxes k, k + 1, ... of a group. The time is infinity for
+// boxes that the ball does not enter.
 HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBall& ball, std::size_t k) {
   auto enter = hn::Zero(d), leave = hn::Inf(d);
   for (std::size_t axis = 0; axis < 3; ++axis) {

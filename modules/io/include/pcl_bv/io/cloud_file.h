@@ -12,23 +12,23 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An open binary .pcd or .bin file, whose points are read on demand. Each read gives its own position in the
-/// file, so several threads can read and fit at the same time. The operating system is asked to read 8 MiB
-/// ahead.
+/// An open binary .pcd or .bin file, whose points are read on demand. Each read passes its own file position
+/// to the system, so several threads can read and fit at the same time. The operating system is asked to read
+/// 8 MiB ahead.
 ///
 /// A file that changes while it is read causes an IoError instead of a volume of mixed content. Two checks
 /// detect changes:
 /// - The file's size and times are compared after each read.
 /// - A checksum for each block of 1024 points is stored when the block is read first, and compared when it is
-///   read again. It detects changes that a writer can hide from the times, such as st_mtim restored together
-///   with a new link, or a late write through a mapping. A checksum covers one byte in 64. It therefore
-///   detects that the cloud was replaced, but not every edit of a single point. A block that is only partly
-///   read is not checked.
+///   read again. The checksum detects changes that the times do not show. Examples are a writer that adds a
+///   link to the file and restores st_mtim, and a late write through a memory mapping. A checksum covers one
+///   byte in 64. It therefore detects that the cloud was replaced, but not every edit of a single point. A
+///   block that is only partly read is not checked.
 class CloudFile final : public PointSource {
  public:
   /// Opens the file and reads only its header. Returns null if the points can only be read from first to last
   /// (ascii, binary_compressed, .ply, .las), or if there are at most kChunkPoints points. Use read_cloud()
-  /// for such files. `bin_fields` is as in read_bin(). Throws as read_cloud() does.
+  /// for such files. `bin_fields` is as in ReadOptions. Throws as read_cloud() does.
   static std::unique_ptr<CloudFile> open(const std::filesystem::path& path, std::size_t bin_fields = 0);
   ~CloudFile() override;
 
@@ -38,12 +38,12 @@ class CloudFile final : public PointSource {
   /// Returns a view of all points, in file coordinates. The view is valid as long as this object.
   PointView xyz() const;
 
-  /// Throws IoError if the file has been cut or changed since it was opened. Call it when all results of the
-  /// file have been computed.
+  /// Throws IoError if the file has been cut or changed since it was opened. Call it after the last result
+  /// has been computed from the file.
   void require_unchanged() const;
 
   /// Reads points [first, first + count) into `buffer` and returns a view of them (see PointSource::load()).
-  /// Throws IoError if they cannot be read, or if the file has been cut or changed since it was opened.
+  /// Throws IoError if the points cannot be read, or if the file has been cut or changed since it was opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:

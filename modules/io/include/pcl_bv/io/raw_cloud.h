@@ -35,9 +35,9 @@ void* allocate_buffer(std::size_t bytes);
 void free_buffer(void* memory, std::size_t bytes) noexcept;
 }  // namespace detail
 
-/// Standard allocator that leaves value-initialised elements uninitialised, such as the new elements of
-/// std::vector::resize(). Blocks of 4 MiB or more are aligned to 2 MiB, and the operating system is advised
-/// to use huge pages of 2 MiB for them.
+/// Allocator for standard containers. New elements without a value, such as those that std::vector::resize()
+/// appends, stay uninitialised. Blocks of 4 MiB or more are aligned to 2 MiB, and the operating system is
+/// advised to use huge pages of 2 MiB for them.
 template <typename T>
 class BufferAllocator {
  public:
@@ -85,8 +85,8 @@ struct PointField {
   std::size_t bytes() const { return std::size_t{size} * count; }
 };
 
-/// Points as records of `point_step` bytes, row by row. Organised clouds have height > 1. The fields of a
-/// record follow each other without gaps and fill it.
+/// Points as records of `point_step` bytes, row by row. Organised clouds have height > 1. The fields follow
+/// each other without gaps and fill the record.
 struct RawCloud {
   std::vector<PointField> fields;  ///< Fields of a record, in the order of their offsets.
   std::size_t width = 0;           ///< Points per row.
@@ -109,11 +109,11 @@ struct RawCloud {
   std::size_t size() const { return width * height; }
 
   /// Returns a view of the coordinates of all points, in the order of the points. The coordinates are the
-  /// fields x, y and z, or X, Y and Z where the lower-case name is missing (see coordinate_names()). If their
-  /// types differ or are integers, the view has float32 if float32 represents all values of these types
-  /// exactly, else float64. The view refers to `data` or `packed_xyz` and is valid as long as the cloud.
-  /// Returns an empty view if the cloud is empty, or if one of the three fields is missing or has more than
-  /// one element.
+  /// fields x, y and z, or X, Y and Z where the lower-case name is missing (see coordinate_names()). If the
+  /// types of the three fields differ or are integers, the view is float32 if float32 represents all values
+  /// of these types exactly, else float64. The view refers to `data` or `packed_xyz` and is valid as long as
+  /// the cloud. Returns an empty view if the cloud is empty, or if one of the three fields is missing or has
+  /// more than one element.
   PointView xyz() const;
 };
 

@@ -28,9 +28,9 @@ struct ReadOptions {
 };
 
 /// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() for .bin, read_las() for
-/// .las and .laz, and read_pcd() for all others. The threads of the execution read text; no reader uses its
-/// instruction set. Throws IoError with the reason. For extensions of other known formats (meshes,
-/// recordings) the reason includes advice.
+/// .las and .laz, and read_pcd() for all others. The readers of text use the threads of `execution`. No
+/// reader uses its instruction set. Throws IoError with the reason. For extensions of other known formats
+/// (meshes, recordings) the reason includes advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
                     const Execution& execution = {Serial{}, Isa::scalar});
 
@@ -38,7 +38,7 @@ RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& option
 struct CloudHeader {
   RawCloud cloud;                           ///< The cloud without its points.
   ScalarType scalar = ScalarType::float32;  ///< Type of the coordinates in RawCloud::xyz().
-  bool random_access = false;               ///< Whether any point can be read on its own (see CloudFile).
+  bool random_access = false;               ///< Whether each point can be read on its own (see CloudFile).
 };
 
 /// Reads the header of a cloud file. The points are not read. A later read can therefore still find that the
@@ -53,22 +53,23 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptio
 /// points gives an empty cloud.
 ///
 /// Values in ascii files:
-/// - Numbers are rounded to the nearest value of their field's type. Numbers outside its range become
+/// - Floating-point fields take the nearest value of their type. Numbers outside the range of the type become
 ///   infinity or zero.
 /// - "nan" and "inf" in any case are accepted for floating-point fields only.
 /// - Integer fields accept whole numbers in any notation (1.0, 1e3). -1 in an unsigned field becomes the
 ///   maximum.
-/// - Any other text is an error in a coordinate. In another field it becomes 0 or NaN, and RawCloud::note
-///   reports it.
+/// - Any other text, such as an integer out of range, is an error in a coordinate. In another field the text
+///   becomes 0 or NaN, and RawCloud::note reports it.
 /// - Rows after the last point are an error.
 ///
-/// Further points after the last point of a binary file are not read, and RawCloud::note reports them. They
-/// are an error if the header says 0 points, as after a recorder stopped before it updated the header.
-/// RawCloud::note also reports a VIEWPOINT other than the identity, which is never applied.
+/// Further points after the last point of a binary file are not read, and RawCloud::note reports them.
+/// Further points are an error if the header says 0 points. This happens if a recorder stopped before it
+/// updated the header. RawCloud::note also reports a VIEWPOINT other than the identity, which is never
+/// applied.
 ///
 /// The threads of the execution read the rows of text. The cloud and the error are the same for any number of
-/// threads. In addition to the cloud, ascii needs 0.3 MiB of memory per thread (more only if a row is
-/// longer), and binary_compressed needs the size of the file plus the size of the points.
+/// threads. In addition to the memory of the cloud, ascii needs 0.3 MiB per thread, or more if a row is
+/// longer. binary_compressed needs the size of the points once more.
 ///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent or
 /// of an unsupported type.
@@ -84,7 +85,7 @@ enum class PcdEncoding { ascii, binary, binary_compressed };
 ///
 /// Throws IoError if the file cannot be written, if an ascii cloud has a field of type F and size 1 or 2, or
 /// if a binary_compressed cloud has more than 4e9 bytes of points. Throws std::invalid_argument for a cloud
-/// that violates the rules of RawCloud.
+/// that violates the rules of RawCloud or needs a header of more than 1 MiB.
 void write_pcd(const std::filesystem::path& path, const RawCloud& cloud,
                PcdEncoding encoding = PcdEncoding::binary);
 

@@ -18,9 +18,10 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// A new file gets mode 0644 without the bits of the umask. An existing file keeps its mode. If this process
 /// may not write the existing file, the file stays unchanged and IoError is thrown. If `path` is a symbolic
-/// link, the link stays and its target is replaced. A dangling link is replaced itself. Anything other than a
-/// regular file (a device, a pipe) and any path in /dev or /proc (such as /dev/stdout, even if it leads to a
-/// file) is opened and written directly, not atomically.
+/// link, the link stays and its target is replaced. A dangling link is itself replaced by the new file.
+/// Anything other than a regular file, such as a device or a pipe, is opened and written directly, not
+/// atomically. The same holds for every path in /dev or /proc, such as /dev/stdout, even if the path leads to
+/// a regular file.
 ///
 /// Returns when the file and its name are on the disk (fsync of the file and of the folder, some
 /// milliseconds). Throws IoError with the reason, also for errors that the disk reports at fsync. If only the

@@ -20,7 +20,7 @@ namespace [[gnu::visibility("default")]] detail {
 /// The header may have at most 1 MiB. The sizes in it are checked against the size of the file before
 /// anything is allocated. Data after the vertices is ignored, with two exceptions for files whose last
 /// element is `vertex`. Further rows of an ascii file are an error. Further vertices of a binary file are
-/// reported in RawCloud::note. Numbers, threads and errors are as in read_pcd().
+/// reported in RawCloud::note, unless vertices have lists. Numbers, threads and errors are as in read_pcd().
 RawCloud read_ply(const std::filesystem::path& path, const Execution& execution = {Serial{}, Isa::scalar});
 
 }  // namespace detail

@@ -53,8 +53,8 @@ class InputFile {
   std::size_t size() const { return size_; }
 
   /// Reads `bytes` bytes from `offset` on into `to`. Throws IoError if the file is too short. Also throws
-  /// IoError if the file has changed since it was opened, because bytes read before and after could belong to
-  /// different clouds.
+  /// IoError if the file has changed since it was opened, because bytes read before and after the change
+  /// could belong to different clouds.
   void read(std::size_t offset, void* to, std::size_t bytes) const;
 
   /// Tells the system that these bytes will be read soon.

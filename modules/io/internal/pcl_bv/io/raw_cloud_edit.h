@@ -18,22 +18,22 @@ namespace [[gnu::visibility("default")]] detail {
 RawCloud make_cloud(const std::vector<float>& xyz);
 
 /// Sets the uint32 field `name` of every point. The field replaces an existing field of this name, whatever
-/// the existing type. A new field is appended to the record. All other fields keep their values and order.
+/// its type. A new field is appended to the record. All other fields keep their values and order.
 ///
 /// Throws std::invalid_argument if there is not one value per point, or if the name is empty, contains white
 /// space, or is "_" (padding) or a coordinate (x, y, z, X, Y, Z).
 void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
 
 /// Returns the values of an integer field, one per point. If several fields have this name, the first is
-/// used. Throws std::runtime_error if there is no such field (the message lists the existing fields), or if
-/// the field is floating point, has several elements per point, is unsigned with 8 bytes, or is in
-/// RawCloud::invalid_fields.
+/// used. Throws std::runtime_error if there is no such field. The message then lists the existing fields.
+/// Also throws std::runtime_error if the field is floating point, has several elements per point, is unsigned
+/// with 8 bytes, or is in RawCloud::invalid_fields.
 std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name);
 
-/// Recomputes `packed_xyz` from `data`. Call it after changing `data` or `fields`, as every reader does.
-/// `packed_xyz` is filled if RawCloud::xyz() needs a copy. This is the case if the fields x, y and z exist
-/// with one element each but are not adjacent in this order as one floating-point type. Otherwise
-/// `packed_xyz` becomes empty. Throws IoError for integers above 2^53 in magnitude.
+/// Recomputes `packed_xyz` from `data`. Call it after changing `data` or `fields`. `packed_xyz` is filled if
+/// RawCloud::xyz() needs a copy. This is the case if the fields x, y and z exist with one element each but
+/// are not adjacent in this order as one floating-point type. Otherwise `packed_xyz` becomes empty. Throws
+/// IoError for integer coordinates above 2^53 in magnitude.
 void update_packed_xyz(RawCloud& cloud);
 
 }  // namespace detail

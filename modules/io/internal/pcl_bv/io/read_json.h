@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Parses untrusted JSON. All JSON from outside must be parsed by these functions. Objects are nlohmann's
-// default sorted maps, because ordered_json compares each new key with all keys before it, in quadratic time.
+// default sorted maps, because ordered_json compares each new key with all previous keys, which takes
+// quadratic time.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +17,9 @@ namespace pcl_bv::detail {
 
 using UntrustedJson = nlohmann::json;
 
-/// Parses the next value of a text that contains any number of JSON values. Returns nullopt at the end of the
-/// text. Throws IoError with line and column for invalid JSON and for values nested more than kMaxJsonDepth
-/// deep.
+/// Parses the next value, from `at` on, of a text that contains any number of JSON values, and moves `at` to
+/// the end of the value. Returns nullopt at the end of the text. Throws IoError for invalid or truncated JSON
+/// and for values nested more than kMaxJsonDepth deep.
 inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::size_t& at) {
   const std::string_view value = next_json_value(text, at);
   if (value.empty()) return std::nullopt;
@@ -49,8 +50,9 @@ inline const UntrustedJson& member(const UntrustedJson& object, const char* key)
   return *found;
 }
 
-/// Returns a value as text for an error message. The text is the first 40 characters of the value. For an
-/// array or object that is long or nested, it is only the length.
+/// Returns a value as text for an error message. The text is the value as JSON, cut to 40 characters. An
+/// array or object that has more than 8 elements, or an element that is a string, array or object, becomes
+/// its number of elements.
 inline std::string abbreviated(const UntrustedJson& value) {
   constexpr std::size_t few = 8;
   const auto is_long = [](const UntrustedJson& part) { return part.is_structured() || part.is_string(); };

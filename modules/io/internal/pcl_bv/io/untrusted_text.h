@@ -35,7 +35,8 @@ std::string read_untrusted_text(const std::filesystem::path& path, std::size_t m
 /// linear time and allocates nothing.
 std::string_view next_json_value(std::string_view text, std::size_t& at);
 
-/// Returns the position of byte `at` such as "line 2, column 7". Lines and columns are counted from 1.
+/// Returns the position of byte `at` as text, such as "line 2, column 7". Lines and columns are counted from
+/// 1.
 std::string position_in(std::string_view text, std::size_t at);
 
 }  // namespace detail

@@ -17,22 +17,23 @@ namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
 /// A centre from which distances are measured, and a factor for the distances. The centre must be valid
-/// (is_valid()). `scale` is a power of two that brings the distances near 1. For float points it must be 1,
-/// because their squared distances cannot leave the range of double.
+/// (is_valid()). `scale` is a power of two that brings the distances near 1. For float points `scale` must be
+/// 1. They need no scaling, because their squared distances cannot leave the range of double.
 struct DistanceCenter {
   double x = 0, y = 0, z = 0;
   double scale = 1;
 };
 
 /// Returns the squared distance (qx^2 + qy^2) + qz^2 with q = (p - center) * scale, each step rounded to
-/// double. All functions of this header compare this value with a limit. For a valid point its relative error
-/// is at most 5 * 2^-53, plus underflow.
+/// double. scan_octants() and the functions that list points compare this value with a limit. For a valid
+/// point, the relative error of the value is at most 5 * 2^-53, plus underflow.
 double squared_distance(const Coordinates& p, const DistanceCenter& center);
 
 /// Whether float arithmetic rejects points before double arithmetic decides. The choice changes the speed and
-/// OctantScan::bounds, but no other result. `reject` is faster if most blocks are clearly within the limit,
-/// but not if nearly all points are equally far. Use it for extents from 1e-30 to 1e18. For other extents
-/// squares of floats underflow or overflow, and double arithmetic decides about every point anyway.
+/// OctantScan::bounds, but no other result. `reject` is faster if most blocks are clearly within the limit.
+/// It is not faster if nearly all points have about the same distance from the centre. Use `reject` for
+/// extents from 1e-30 to 1e18. For other extents, squares of floats underflow or overflow, and double
+/// arithmetic decides about every point anyway.
 enum class FloatFilter : std::uint8_t { off, reject };
 
 /// Returns the number of blocks of a cloud. The last block may be shorter than kBlockPoints.
@@ -74,11 +75,11 @@ struct ScanBounds {
 /// these points in the block, in any order, and returns their number. `positions` needs a capacity of
 /// kBlockPoints.
 ///
-/// Of these points, all valid ones whose squared_distance() from the centre of the scan is at least
-/// scanned.limit are listed. Points nearer to the centre of the scan and infinite points may or may not be
-/// listed. The function is fast if only a small number of bounds exceeds scanned.limit. `isa` must be the one
-/// with which the bounds were written. Throws like scan_octants(). Also throws std::invalid_argument for
-/// double points and for null bounds.
+/// All such points are listed, with two exceptions. Points whose squared_distance() from the centre of the
+/// scan is below scanned.limit and points with an infinite coordinate may be missing. The function is fast if
+/// only a small number of the bounds exceeds scanned.limit. `isa` must be the one with which the bounds were
+/// written. Throws like scan_octants(). Also throws std::invalid_argument for double points and for null
+/// bounds.
 std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
 

@@ -18,8 +18,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// Maximum number of half-spaces, which is the maximum number of facets of a polytope with 26 vertices.
 inline constexpr std::size_t kMaxHalfSpaces = 48;
 
-/// The half-space of all q with n . q below `limit`, where q is a point relative to a centre. The boundary n
-/// . q = limit is outside in HalfSpaces and inside in ConvexRegion.
+/// The half-space of all q with n . q below `limit`, where q is a point relative to a centre. HalfSpaces
+/// treats the boundary (n . q = limit) as outside, ConvexRegion treats it as inside.
 struct HalfSpace {
   double x = 0, y = 0, z = 0;  ///< Normal n.
   double limit = 0;

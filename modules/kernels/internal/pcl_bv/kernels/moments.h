@@ -25,9 +25,10 @@ struct Moments {
 /// Returns the moments of at most kBlockPoints points, summed in double. The result has the same bits for
 /// every `isa`. Without valid points the count and all sums are 0.
 ///
-/// Each sum has 8 lanes. The point at position i of the block is added to lane i modulo 8; then the lanes are
-/// added in order. So the error of each sum is at most 140 rounding errors of the sum of magnitudes (128
-/// points per lane, 8 lanes, the subtraction and the product).
+/// Each sum has 8 lanes. The point at position i of the block is added to lane i modulo 8. Then the lanes are
+/// added in order. So the error of each sum is at most 140 * 2^-53 times the sum of the magnitudes of its
+/// terms. The 140 roundings are those of 128 points per lane, of 8 lanes, of the subtractions and of the
+/// product.
 ///
 /// The exponent keeps squares of doubles from underflowing. It is the smallest of 0, 500 and 1000 with which
 /// the sum of all squares is at least 2^-660, or 1000 if none is sufficient. For floats the exponent is 0.

@@ -38,7 +38,7 @@ struct alignas(64) PointPacket {
   T lanes[3 * kTreeWidth];
 
   /// Returns the address of coordinate `axis` (0 to 2) of point k. The same coordinate of points k + 1, k +
-  /// 2, ... follows in memory, up to the next multiple of kLanes.
+  /// 2, ... follows in memory, for point numbers below the next multiple of kLanes.
   const T* at(std::size_t axis, std::size_t k) const {
     return lanes + (k / kLanes * 3 + axis) * kLanes + k % kLanes;
   }
@@ -108,7 +108,7 @@ std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, cons
                                      double limit);
 
 /// Replaces the contents of `found` by the `most` nearest points that have a squared distance of at most
-/// `limit` (or by all such points if there are fewer), in the order of Neighbor.
+/// `limit`, or by all such points if there are fewer. The points are in the order of Neighbor.
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found);
 

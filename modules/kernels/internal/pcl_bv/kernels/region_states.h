@@ -35,7 +35,8 @@ struct ConvexRegion {
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// Error bound of the surface. The error of the surface is at most surface_error + 2^-43 (|q|_1 + radius).
+  /// Error bound of the other members. The surface that they describe may be off the true surface by at most
+  /// surface_error + 2^-43 (|q|_1 + radius).
   double surface_error = 0;
 
   std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11, like the normals of planes.

@@ -24,9 +24,10 @@ namespace [[gnu::visibility("default")]] detail {
 inline constexpr std::size_t kMaxSupportDirections = 49;
 inline constexpr std::size_t kMaxSupports = 2 * kMaxSupportDirections;
 
-/// The directions of chunk_supports(). Each direction k has two supports. Support 2k is the minimum of the
-/// projections on direction k, and support 2k + 1 is the maximum. Each support is the maximum of the
-/// projections on its support_direction(). For a minimum this is the direction opposite to direction k.
+/// The directions of chunk_supports(). Each direction k has two supports. Support 2k belongs to the minimum
+/// projection on direction k, and support 2k + 1 to the maximum projection. The minimum is computed as the
+/// maximum projection on the opposite direction. So each support is the maximum projection on its
+/// support_direction().
 struct SupportDirections {
   std::size_t count = 0;
   std::array<Direction, kMaxSupportDirections> exact{};
@@ -43,10 +44,10 @@ struct SupportDirections {
   /// magnitude. Throws std::invalid_argument for other directions, and if there are kMaxSupportDirections
   /// already.
   void add(const Direction& direction);
-  /// Returns the direction whose maximum projection is the given support. This is exact[support / 2] for an
-  /// odd support number, and the opposite of it for an even one.
+  /// Returns the direction whose maximum projection is the support. This is exact[support / 2] if `support`
+  /// is odd, and the opposite direction if `support` is even.
   Direction support_direction(std::size_t support) const;
-  /// Returns the same direction, but taken from `scaled`.
+  /// Like support_direction(), but returns a direction of `scaled` or its opposite.
   Direction scaled_support_direction(std::size_t support) const;
 };
 
@@ -61,9 +62,9 @@ struct SupportPoint {
 /// or if both projections are equal and the index of `other` is smaller.
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best);
 
-/// Known lower bounds of a cloud's supports, one per support. The projection of some other point on the
-/// scaled_support_direction() is certainly at least the bound. So points with smaller projections need not be
-/// found. The bound is -infinity if no such point is known.
+/// Known lower bounds of a cloud's supports, one per support. A point of the cloud is already known whose
+/// projection on the scaled_support_direction() is certainly at least the bound. So points with smaller
+/// projections need not be found. The bound is -infinity if no point is known.
 using SupportBounds = std::array<double, kMaxSupports>;
 
 /// Returns -infinity for each support, which means that no bound is known.
@@ -79,19 +80,19 @@ double projection_lower_bound(const SupportDirections& set, std::size_t support,
 
 /// The supports of a chunk. Only the first 2 * SupportDirections::count elements of `supports` are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if no valid point exceeds the bound.
+  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if no valid point reaches the bound.
   std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
 };
 
 /// Finds the support points of at most kChunkPoints points, which are the points with the largest exact
 /// projections. If several points have the largest projection, the one with the smallest index is the support
 /// point. A support that is at least its bound in `bounds` is found and is the same for every `isa`. Whether
-/// another support is found depends on `isa`.
+/// a support below its bound is found depends on `isa`.
 ///
-/// O(n * count). All points are compared exactly, which is slow, if floats overflow (extents above 1e38) or,
-/// for directions other than the cube's, underflow (extents below 1e-43). Needs at most 220 KiB of stack. The
-/// caller must hold a FloatEnvironment. Throws std::invalid_argument for more than kChunkPoints points or
-/// kMaxSupportDirections directions, and if the points are not in memory.
+/// O(n * count). If floats overflow or underflow, all points are compared exactly, which is slow. Floats
+/// overflow for extents above 1e38. Without SupportDirections::cube, they underflow for extents below 1e-43.
+/// Needs at most 220 KiB of stack. The caller must hold a FloatEnvironment. Throws std::invalid_argument for
+/// more than kChunkPoints points or kMaxSupportDirections directions, and if the points are not in memory.
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                     const SupportBounds& bounds, ChunkSupports& out);
 

@@ -49,11 +49,11 @@ class PacketVisitor {
   ~PacketVisitor() = default;
 };
 
-/// Calls visitor.visit() for packets until the ball enters all other boxes after the time that visit()
-/// returned last. With every `isa`, visit() receives every point that the ball touches by then, as decided by
-/// Sphere(point, radius).intersect(). Which other points visit() receives, and in which order, depends on
-/// `isa`. (Vector kernels visit boxes with early entry times first.) For an empty tree visit() is not called.
-/// The caller must hold a FloatEnvironment.
+/// Calls visitor.visit() for packets until the ball enters all remaining boxes after the time that visit()
+/// returned last. With every `isa`, visit() receives every point that the ball touches up to that time, as
+/// decided by Sphere(point, radius).intersect(). Which other points visit() receives, and in which order,
+/// depends on `isa`. (Vector kernels visit boxes with early entry times first.) For an empty tree visit() is
+/// not called. The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 }  // namespace detail
