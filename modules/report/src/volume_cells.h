@@ -20,7 +20,7 @@ struct CellOwner {
   std::size_t method = 0;   ///< Index in VolumeCells::methods.
   std::size_t points = 0;   ///< Number of points of the cluster.
   double volume = 0;
-  std::size_t entry = 0;  ///< Index of the cluster in the list.
+  std::size_t entry = 0;  ///< Index of the cluster in the argument of volume_cells().
 };
 
 struct Cell {
@@ -39,7 +39,8 @@ struct VolumeCells {
 /// Returns the cells of all volumes. Throws std::length_error for more than 2147483647 vertices.
 VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters);
 
-/// Returns the .ply file of volumes_ply().
+/// Returns the .ply file of volumes_ply(). Vertices have the colour of their cluster if `colour_by_cluster`,
+/// else of their method.
 std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster);
 
 }  // namespace pcl_bv::detail
