@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The index of an MCAP file, which has the channels and the positions of the messages.
+// The index of an MCAP file, which has the channels and the positions of the file's parts with messages.
 #pragma once
 
 #include <cstdint>

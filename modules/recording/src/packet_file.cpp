@@ -128,7 +128,7 @@ bool PacketFile::begins_packet() {
   return (last_seconds_ && is_run(2, last_seconds_)) || is_run(3, std::nullopt);
 }
 
-// Returns whether `packets` valid packets (or all packets to the file's end) follow each other from at_ on.
+// Returns whether `packets` valid packets follow each other from at_ on. At the file's end, fewer are enough.
 // `seconds` is the time of the packet before at_, if known.
 bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const {
   std::uint64_t at = at_;

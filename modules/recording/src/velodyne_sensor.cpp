@@ -100,7 +100,7 @@ std::size_t step_of(const Payload& packet) {
   return std::to_integer<int>(packet.data[kVelodynePacket - 2]) == 0x39 ? 2 : 1;
 }
 
-// Returns the signed difference of two azimuths, -180 to 180 degrees.
+// Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
 double azimuth_difference(double from, double to) {
   return std::remainder(to - from, static_cast<double>(kFullCircle));
 }

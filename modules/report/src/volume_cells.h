@@ -33,7 +33,7 @@ struct VolumeCells {
   std::vector<CellOwner> owners;     ///< One for each volume that is not empty.
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::size_t> vertex_owners;     ///< Index in `owners` of each vertex.
-  std::vector<Cell> points, lines, polygons;  ///< Cells of one, of two and of more vertices.
+  std::vector<Cell> points, lines, polygons;  ///< Cells of one, of two, and of three or more vertices.
 };
 
 /// Returns the cells of all volumes. Throws std::length_error for more than 2147483647 vertices.

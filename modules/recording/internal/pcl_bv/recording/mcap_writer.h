@@ -23,7 +23,7 @@ class McapWriter final : public RecordingWriter {
  public:
   struct Options {
     Compression compression = Compression::zstd;  ///< Compression of the chunks.
-    /// A chunk ends with the message that brings its uncompressed size to this number of bytes.
+    /// A chunk ends when its uncompressed size reaches this number of bytes. The last message is not split.
     std::size_t chunk_bytes = 1U << 20U;
   };
 

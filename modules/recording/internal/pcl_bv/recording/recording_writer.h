@@ -17,7 +17,7 @@ struct WrittenTopic {
   std::string type;        ///< Type, such as "vision_msgs/msg/Detection3DArray".
   std::string definition;  ///< schema_of(type), for formats that store it.
   /// Further properties by name. MCAP stores all of them. rosbag2 stores only "offered_qos_profiles", which
-  /// is a text in rosbag2's YAML form. If this property is missing, both store an empty text for it.
+  /// is a text in rosbag2's YAML form. If this property is missing, an empty text is stored for it.
   std::map<std::string, std::string> metadata;
 };
 

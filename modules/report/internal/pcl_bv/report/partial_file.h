@@ -52,7 +52,7 @@ struct PartialFile {
   bool is_whole() const;
 
   /// Returns a text about the points that are missing in this share, such as "points 100 to 200, 300 to 350
-  /// of 400".
+  /// of 400". The second number of a range is not included in the range.
   std::string missing() const;
 };
 

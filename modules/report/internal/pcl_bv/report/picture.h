@@ -34,7 +34,7 @@ enum class ViewFrom {
   iso,    ///< Looks down at 35 degrees, from the front left.
   top,    ///< Looks down. The first horizontal axis points right, the second up.
   front,  ///< Looks along the second horizontal axis. The first points right, `up` points up.
-  side    ///< Looks against the first horizontal axis. The second points right, `up` points up.
+  side    ///< Looks opposite to the first horizontal axis. The second points right, `up` points up.
 };
 
 /// The content of a picture.
