@@ -23,7 +23,7 @@ int main() {
                 static_cast<int>(result.clusters.size()));
   };
   pcl_bv::StreamRunner runner(callbacks,
-                              pcl_bv::RunnerConfig());  // a queue of one frame; a newer frame replaces it
+                              pcl_bv::RunnerConfig());  // queue of one frame, which a newer frame replaces
   const auto sensor_callback = [&](const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud) {
     runner.push(pcl_bv::make_frame<pcl::PointXYZ>(cloud));
   };

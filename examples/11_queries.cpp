@@ -31,7 +31,7 @@ int main() {
   const bool long_path = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {6, 0, 1}, 0.5));
   const auto hit = tree.first_hit({0, 0, 1}, {1, 0, 0}, 0.05);
 
-  // An arm of two links is tested at the pose of its model and 4.08 m ahead of that pose.
+  // An arm of two links is tested twice: where its volumes are defined, and 4.08 m ahead (x).
   const pcl_bv::MovingVolumes arm(
       {pcl_bv::Capsule({0, 0, 1}, {0.5, 0, 1}, 0.1), pcl_bv::Aabb({0.5, -0.1, 0.9}, {0.9, 0.1, 1.1})});
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

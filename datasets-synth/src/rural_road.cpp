@@ -25,7 +25,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 struct Sensor {
   std::size_t beams, columns;
-  double height, pitch, roll;  // metres; degrees, > 0: nose down; degrees, > 0: left side down
+  double height, pitch, roll;  // height in metres; pitch (nose down) and roll (left side down) in degrees
 };
 
 Sensor sensor_of(std::size_t beams) {
@@ -111,9 +111,9 @@ struct Return {
   ReturnKind kind = ReturnKind::nothing;
 };
 
-// Adds noise, missing returns and false returns to a hit. Grass may stop a ray before the ground.
-// The false return of a reflected ray is below the ground. `descent_rate` is the ray's descent in metres per
-// metre of range. above(range) is the ray's height above the ground.
+// Adds noise, missing returns and false returns to a hit. Grass of height `grass` may stop a ray before the
+// ground. The false return of a reflected ray is below the ground. `descent_rate` is the ray's descent in
+// metres per metre of range. above(range) is the ray's height above the ground at this range.
 template <typename Above>
 Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double descent_rate,
                  Above above) {
@@ -127,7 +127,8 @@ Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, doub
   if (grass > 0 && random.uniform() < kGrassProbability) {
     const double blade = grass * random.uniform(0.2, 1);
     double back = std::min(blade / std::max(descent_rate, 0.02), 1.5);
-    // Where the ground falls towards the sensor, as in a ditch, the ray may be above the grass at this range.
+    // Where the ground falls towards the sensor, as in a ditch, the ray may be above the grass at the range
+    // hit.range - back.
     while (back > 0.01 && above(hit.range - back) > grass)
       back *= 0.5;
     return {hit.range - back + noise, ReturnKind::grass};

@@ -161,7 +161,7 @@ std::vector<PlacedRoadObject> place_road_objects(const World& world, std::uint64
     const auto last = static_cast<std::int64_t>(
         std::ceil((sensor_distance + kMaxObjectDistance - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
-      // Skip the slots near 0 of the row that moves with the sensor's car: that car is there.
+      // In the row that moves with the sensor's car, skip the slots near 0, where the sensor's car is.
       if (rows[row].motion == with_sensor_car &&
           std::abs((static_cast<double>(slot) + 0.5) * rows[row].spacing) < 12)
         continue;

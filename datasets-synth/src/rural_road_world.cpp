@@ -143,9 +143,9 @@ double World::side_profile(Roadside side, std::uint64_t key, double away) const 
   return t < 1 ? -0.5 * depth * (1 + std::cos(std::numbers::pi * t)) : 0;
 }
 
-// Returns the height across the road, without the hills. The road has a camber of 2 % down to both kerbs. The
-// profile of the roadside begins at the kerb. Over the first kBlend metres of a stretch, it is blended with
-// the profile of the previous stretch.
+// Returns the height of the road's cross-section, without the hills. The road has a camber of 2 % down to
+// both kerbs. The profile of the roadside begins at the kerb. Over the first kBlend metres of a stretch, its
+// profile is blended with the profile of the previous stretch.
 double World::profile(double along, double left) const {
   const double away = std::abs(left);
   const double camber = -0.02 * std::min(away, kKerb);
@@ -244,9 +244,9 @@ double Terrain::grass(double x, double y) const {
   return grass_[static_cast<std::size_t>(u) * kSide + static_cast<std::size_t>(v)];
 }
 
-// Marches along the ray, then bisects. The slope of the ground is at most 1 except on the banks of ditches,
-// so the ray's height above the ground decreases by at most `speed` per metre of range. A step of
-// clearance / speed therefore misses no ground.
+// Marches along the ray, then bisects. If the slope of the ground is at most 1, the ray's height above the
+// ground decreases by at most `speed` per metre of range. A step of clearance / speed then misses no ground.
+// Only on the banks of ditches can the slope exceed 1, and a step may miss an edge there.
 double Terrain::cast(Vec3 origin, Vec3 direction) const {
   const double level = std::hypot(direction.x, direction.y);
   const double speed = 1.0 * level + std::abs(direction.z);

@@ -26,8 +26,9 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Clips the span to the ranges with speed * range <= distance, where the ray is inside a half-space.
-/// `distance` is the signed distance from the ray's origin to the plane, positive inside.
+/// Clips the span to the ranges with speed * range <= distance, where the ray is inside a half-space. `speed`
+/// is the component of the ray's direction along the plane's outward normal. `distance` is the signed
+/// distance from the ray's origin to the plane, positive inside.
 void clip(Span& span, double speed, double distance) {
   if (speed > 0) {
     span.exit = std::min(span.exit, distance / speed);

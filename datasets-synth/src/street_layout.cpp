@@ -28,10 +28,10 @@ struct Row {
   bool tilted;     // whether the object's up axis is normal to the slope instead of vertical
 };
 
-// Objects of different rows are at least 0.7 m apart in y for all random sizes, so that clustering with a
-// tolerance of 0.5 m never joins two objects. Half widths in metres: cars 1.02 and hedges 0.42 including
-// their yaw, posts 0.3, people 0.34, trees 1.5, houses 4.6 including their bays. The cars in the sensor's
-// lane have their centres at least 8 m ahead of or behind the sensor.
+// All objects are more than 0.5 m apart for all random sizes, so that clustering with a tolerance of 0.5 m
+// never joins two objects. Objects of rows with different `side` are at least 0.7 m apart in y. Half widths
+// in metres: posts 0.3, people 0.34, trees 1.5, cars 1.02 (rotated), hedges 0.42 (rotated), houses 4.6 (with
+// bays). The cars in the sensor's lane have their centres at least 8 m ahead of or behind the sensor.
 // clang-format off
 constexpr std::array rows{
     //                     spacing shift jitter  side  share  speed    tilted

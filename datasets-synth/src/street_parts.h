@@ -31,8 +31,8 @@ Part ellipsoid(Vec3 center, Vec3 radii);
 /// Returns an ellipsoid of leaves. Rays near its rim often pass through it.
 Part leaves(Vec3 center, Vec3 radii);
 
-/// Intersects the part with the half-space normal . p <= normal . point. Does not update `part.bounds`.
-/// Use it therefore only to cut off corners and edges.
+/// Intersects the part with the half-space normal . p <= normal . point. Does not update `part.bounds`, so
+/// the bounds are exact only if the cut removes no more than corners and edges.
 void cut(Part& part, Vec3 normal, Vec3 point);
 
 /// Combines the parts to one model, whose bounds are the union of the parts' bounds.

@@ -11,9 +11,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-/// Adds the object to the columns whose rays may hit it. If the sensor is inside the object's footprint
-/// (below a bridge), these are all columns. Otherwise they lie between the smallest and the largest azimuth
-/// of the corners of the object's box. The azimuth of each corner is within pi of that of the box's middle.
+/// Adds the object to the columns whose rays may hit the object. These columns lie between the smallest and
+/// the largest azimuth of the corners of the object's box. The azimuths are measured from the azimuth of the
+/// box's middle, from -pi to pi. If the sensor is inside the object's footprint, such as below a bridge, all
+/// columns are added.
 void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
   const double nearest = min_range(object);
   if (nearest == 0) {

@@ -11,7 +11,8 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the azimuth of the middle of a column, radians. Azimuths run clockwise from pi (backward) to -pi.
+/// Returns the azimuth of the middle of a column, radians. Azimuths decrease from pi (backward) to -pi, which
+/// is clockwise as seen from above.
 double azimuth_of(double column, std::size_t columns);
 
 struct Candidate {

@@ -60,7 +60,7 @@ constexpr std::array scenes{
     Scene{"rural-road-128", 230'400, true, make_rural_road<128>},
 };
 
-/// Replaces `verges`, the old name of the rural road, by `rural-road`. Returns other names unchanged.
+/// Replaces `verges`, the old name of `rural-road`, in a scene's name. Returns other names unchanged.
 std::string current_name(std::string_view name) {
   constexpr std::string_view old_name = "verges";
   if (name != old_name && !name.starts_with("verges-")) return std::string(name);

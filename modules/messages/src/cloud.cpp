@@ -37,8 +37,8 @@ struct Layout {
   std::size_t points() const { return width * height; }
 };
 
-// Tolerates two errors of drivers, namely a wrong row_step (redundant for rows without padding), and height
-// 0 for an unorganised cloud. They are ignored if the data has exactly the bytes that the points need.
+// Returns the positions of the points. If the data has exactly the bytes that the points need, two errors of
+// drivers are ignored: height 0 for an unorganised cloud, and a wrong row_step.
 Layout layout_of(const msg::PointCloud2& cloud) {
   const std::uint64_t width = cloud.width, step = cloud.point_step, size = cloud.data.size;
   const std::uint64_t packed = width * step;  // below 2^64
@@ -57,7 +57,7 @@ Layout layout_of(const msg::PointCloud2& cloud) {
   return {width, height, height == 1 || exact ? packed : cloud.row_step};
 }
 
-// Returns what is wrong with a field, namely an unknown type, or that it exceeds the record. Returns an empty
+// Returns what is wrong with a field: its type is unknown, or the field exceeds the record. Returns an empty
 // text for a valid field.
 std::string problem_of(const msg::PointField& field, std::uint32_t count, std::uint32_t point_step) {
   if (field.datatype < 1 || field.datatype > std::size(kDatatypes))
@@ -70,8 +70,8 @@ std::string problem_of(const msg::PointField& field, std::uint32_t count, std::u
 
 using Coordinates3 = std::array<const msg::PointField*, 3>;
 
-// Finds the fields x, y and z. For a missing one, X, Y or Z is used, as some writers name them. Throws
-// MessageError.
+// Finds the fields x, y and z. If one is missing, X, Y or Z is used instead, because some writers use these
+// names. Throws MessageError if a coordinate is missing or its field is invalid.
 Coordinates3 coordinates_of(const msg::PointCloud2& cloud) {
   Coordinates3 found{};
   const auto named = [&](const char* name) -> const msg::PointField* {
@@ -207,8 +207,8 @@ void set_fields(RawCloud& cloud, const std::vector<FieldConversion>& conversions
   }
 }
 
-// Returns a cloud without points. Its fields can be missing, because filters that remove all points often
-// publish none.
+// Returns a cloud without points. The message may have no fields, because filters that remove all points
+// often publish a cloud without fields.
 RawCloud cloud_without_points(const msg::PointCloud2& cloud) {
   RawCloud made = make_cloud({});
   try {

@@ -19,8 +19,8 @@ namespace pcl_bv::detail {
 namespace {
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
-  // Limits the memory that a small file can request. The ratio of bz2 can be 20 000, but real data of more
-  // than 8 MiB does not exceed 1000.
+  // Limits the memory that a small file can request. bz2 can compress by a factor of 20 000, but real data of
+  // more than 8 MiB is not compressed by more than 1000.
   if (expected > std::max<std::size_t>(8U << 20U, 1000 * size))
     throw IoError("bz2: " + std::to_string(size) + " bytes for " + std::to_string(expected));
   to.resize(expected);
@@ -32,7 +32,7 @@ void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, s
   if (status != BZ_OK || made != expected) throw IoError("bz2: not " + std::to_string(expected) + " bytes");
 }
 
-// Location of a record, which is its header and the position and size of its data. The data is not read.
+// The header of a record, and the position and size of its data, which has not been read.
 struct BagRecordLocation {
   std::vector<std::byte> header;
   std::uint64_t data = 0, size = 0;
@@ -181,8 +181,8 @@ class BagReader final : public ChunkedReader {
     }
   }
 
-  // Returns the position of the next chunk, which is found by the field "op" of its header, or the file's
-  // end.
+  // Returns the position of the next chunk, or the file's end if there is none. A chunk is found by the field
+  // "op" of its header.
   std::uint64_t find_chunk(std::uint64_t from) const {
     constexpr std::string_view mark("\x04\0\0\0op=\x05", 8);
     std::uint64_t chunk = file_.size();
@@ -246,7 +246,8 @@ class BagReader final : public ChunkedReader {
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
     const std::optional<BagRecordLocation> location = record_at(part_offset(part));
     if (!location) throw IoError("it is cut");
-    // Refuse overlapping chunks, because each entry of a small file's index could refer to most of the file.
+    // Refuse overlapping chunks. Otherwise each entry of a small file's index could refer to most of the
+    // file, which would then be read many times.
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
     if (next != offsets_.end() && location->data + location->size > *next)
       throw IoError("the chunk overlaps the next one");

@@ -36,9 +36,8 @@ class ChunkedReader : public RecordingReader {
   /// functions.
   void start(std::vector<RecordedTopic> topics, std::vector<Part> parts);
 
-  /// Appends the messages of a part whose topics are wanted(), in their order in the file. Throws IoError for
-  /// a damaged part. The messages appended before the exception are used, and the rest of the part is
-  /// skipped.
+  /// Appends those messages of a part whose topic is wanted(), in the order of the file. Throws IoError for a
+  /// damaged part. The messages appended before the exception are used, and the rest of the part is skipped.
   virtual void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) = 0;
 
   /// Returns whether the topic is selected.
@@ -47,7 +46,7 @@ class ChunkedReader : public RecordingReader {
 
  private:
   struct LoadedPart {
-    std::size_t part = 0, next = 0;         // number of the part, and number of its next message
+    std::size_t part = 0, next = 0;         // index of the part, and index in `messages` of its next message
     std::vector<RecordedMessage> messages;  // sorted by time
     Buffers buffers;
   };
@@ -59,7 +58,7 @@ class ChunkedReader : public RecordingReader {
   std::vector<RecordedTopic> topics_;
   std::vector<Part> parts_;
   std::vector<bool> wanted_;
-  std::vector<std::size_t> order_;  // numbers of the parts, sorted by first time
+  std::vector<std::size_t> order_;  // indices of the parts, sorted by first_time_ns
   std::size_t next_part_ = 0;
   std::vector<std::unique_ptr<LoadedPart>> loaded_, spare_;
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kFileHeader = 100;  // bytes at the beginning of the first page
 constexpr int kTableLeaf = 0x0D;
-constexpr std::size_t kMaxColumns = 16;  // more than any table has; limits the work for a damaged row
+constexpr std::size_t kMaxColumns = 16;  // all tables have fewer; limits the work for a damaged row
 
 std::uint64_t big(const std::byte* at, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -23,7 +23,7 @@ std::uint64_t big(const std::byte* at, std::size_t bytes) {
   return value;
 }
 
-// Reads a part of a page in sequence. Throws IoError at the end of the part.
+// Reads a part of a page in sequence. Throws IoError if the rest of the part is too short.
 class PageBytes {
  public:
   PageBytes(const std::vector<std::byte>& page, std::uint64_t from, std::uint64_t to)
@@ -121,8 +121,8 @@ void Db3Pages::read_leaf(std::uint64_t page) {
 }
 
 // Recognises the rows of messages and topics by their column types, which no other table has. The first
-// column is the row's id (stored as NULL). Then messages have integer, integer, blob, and topics have three
-// texts.
+// column is the row's id, which SQLite stores as NULL. The other columns of a message are two integers and a
+// blob. The next three columns of a topic are texts.
 void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   PageBytes bytes(bytes_, cell, usable_);
   const std::uint64_t payload = bytes.varint();

@@ -24,8 +24,8 @@ class Db3Pages {
     std::int64_t id = 0, topic = 0, time = 0;
     std::uint64_t data = 0;       ///< Position of the data in the file.
     std::uint64_t local = 0;      ///< Bytes of the data on the leaf page.
-    std::uint64_t size = 0;       ///< Bytes of all data.
-    std::uint32_t next_page = 0;  ///< First overflow page, counted from 1.
+    std::uint64_t size = 0;       ///< Bytes of the data on all pages.
+    std::uint32_t next_page = 0;  ///< First overflow page, counted from 1; 0 if there is none.
   };
 
   /// Reads all leaf pages. Throws IoError if the file cannot be read.

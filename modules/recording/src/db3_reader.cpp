@@ -33,8 +33,9 @@ class DatabaseError : public IoError {
 
 class Database {
  public:
-  // Opens the file with its journal, which has the latest messages of a recording in progress. For the
-  // journal, SQLite must create files. If it cannot, as on a read-only disk, opens the database file alone.
+  // Opens the file with its journal, which has the latest messages of a recording in progress. To read the
+  // journal, SQLite must create files. If this is not possible, as on a read-only disk, opens the database
+  // file alone.
   explicit Database(const std::filesystem::path& file) {
     if (open(file, "mode=ro") && works()) return;
     if (!open(file, "mode=ro&immutable=1") || !works()) fail();
@@ -213,8 +214,8 @@ class Db3Reader final : public RecordingReader {
     return true;
   }
 
-  // rosbag2 can compress each message separately. A message in CDR never begins with the magic number of
-  // zstd.
+  // Decompresses a message that begins with zstd's magic number, because rosbag2 can compress each message
+  // separately. An uncompressed message in CDR never begins with this number.
   void unpack(RecordedMessage& message) {
     constexpr unsigned char zstd[] = {0x28, 0xB5, 0x2F, 0xFD};
     if (message.size < sizeof zstd || std::memcmp(message.data, zstd, sizeof zstd) != 0) return;
@@ -225,7 +226,7 @@ class Db3Reader final : public RecordingReader {
 
   std::unique_ptr<Database> database_;
   std::unique_ptr<Query> data_;      // declared after the database, which must outlive it
-  std::unique_ptr<Db3Pages> pages_;  // used instead of database and query if the file is damaged
+  std::unique_ptr<Db3Pages> pages_;  // set only if the file is damaged; used instead of database_ and data_
   std::vector<RecordedTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_;
   std::uint64_t messages_without_topic_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of recording formats. For each format it has the function that opens a file.
+// The table of recording formats. For each format it has the functions that detect and open a file.
 #pragma once
 
 #include <filesystem>

@@ -50,7 +50,8 @@ void note_chunk(const Record& record, std::uint64_t end, Summary& summary) {
   summary.index_bytes[chunk.offset] = chunk.index_bytes;
 }
 
-// Throws IoError for overlapping chunks, because each entry of a short summary could refer to the whole file.
+// Throws IoError for overlapping chunks. Otherwise each entry of a short summary could refer to the whole
+// file, which would then be read many times.
 void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   std::uint64_t end = 0;
   for (const auto& [offset, chunk] : chunks) {
@@ -59,8 +60,8 @@ void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   }
 }
 
-// Returns whether the index has all channels and their schemas. All channels are those that the summary's
-// channel, statistics and chunk index records refer to.
+// Returns whether the index has all channels and their schemas. These are the channels that occur in the
+// summary's channel, statistics and chunk index records.
 bool describes_channels(const Summary& summary, const Index& index) {
   const auto known = [&](std::uint16_t id) {
     const auto channel = index.channels.find(id);
@@ -77,7 +78,8 @@ bool describes_channels(const Summary& summary, const Index& index) {
          });
 }
 
-// Reads the summary. Returns nullopt if it has no chunks, or does not describe all channels.
+// Reads the summary. Returns nullopt if the summary has no channels, has no chunks, or does not describe all
+// channels.
 std::optional<Summary> read_summary_index(const InputFile& file, Index& index) {
   const std::vector<std::byte> bytes = read_summary(file);
   Summary summary;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The index of an MCAP file, which has the channels and the positions of the messages.
+// The index of an MCAP file, which has the channels and the positions of the file's parts with messages.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace pcl_bv::detail {
 namespace mcap {
 
-/// A part of the file with messages. It is a chunk, or successive messages outside of chunks.
+/// A part of the file that has messages: a chunk, or successive messages outside of chunks.
 struct Part {
   std::uint64_t offset = 0, bytes = 0;
   std::uint64_t first_time = 0, last_time = 0;
@@ -36,8 +36,9 @@ struct Index {
 };
 
 /// Returns the index of a file. Walks over the records of the file but skips the chunks that the summary
-/// describes. Chunks are read, too, if the summary is missing or damaged, or if it lacks chunks or a
-/// channel's schema. Throws IoError if the file does not begin with MCAP's magic number.
+/// describes. Other chunks are read. All chunks are read if the summary is missing, is damaged, or does not
+/// describe all channels and their schemas. Throws IoError if the file does not begin with MCAP's magic
+/// number.
 Index index_of(const InputFile& file);
 
 /// Returns the records of a part, which refer to `raw` or `unpacked`. Throws IoError for a damaged part.

@@ -70,7 +70,7 @@ class McapReader final : public ChunkedReader {
   InputFile file_;
   mcap::Index index_;
   std::map<std::uint16_t, std::size_t> topic_of_;  // index in the topics, by channel id
-  std::set<std::uint16_t> unknown_;                // channels of messages that have no channel record
+  std::set<std::uint16_t> unknown_;                // ids of channels that have messages but no channel record
 };
 
 }  // namespace

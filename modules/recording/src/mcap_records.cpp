@@ -7,7 +7,7 @@ namespace pcl_bv::detail {
 namespace mcap {
 namespace {
 
-// Visits the fields of a record in order. Reading and writing both use it.
+// The functions walk_...() visit the fields of a record in the order of the file. Put and Take use them.
 template <class Visit, class S>
 void walk_schema(S& m, Visit&& visit) {
   visit(m.id, m.name, m.encoding, m.data);

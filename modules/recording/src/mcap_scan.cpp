@@ -14,7 +14,7 @@ namespace pcl_bv::detail {
 namespace mcap {
 namespace {
 
-// Bytes after which a part of successive messages outside of chunks ends.
+// Successive messages outside of chunks are one part, which ends when it exceeds this number of bytes.
 constexpr std::uint64_t kLooseBytes = 1U << 20U;
 // Bytes that are enough for a chunk's fields before its records, if the compression's name has at most 47
 // bytes.
@@ -60,8 +60,8 @@ class Scan {
   }
 
  private:
-  // Returns the end of a chunk that the summary describes. The chunk's message indexes are included if they
-  // end before the next chunk.
+  // Returns the end of a chunk that the summary describes. The message indexes behind the chunk are skipped,
+  // too, if they end before the next chunk.
   std::uint64_t end_of_chunk(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
@@ -70,8 +70,8 @@ class Scan {
     return end <= limit && index <= limit - end ? end + index : end;
   }
 
-  // Returns the position of the next chunk at or after `from`, which is in the summary or is found by its
-  // consistent lengths. Returns the file's end if there is none. Adds a warning for the skipped bytes.
+  // Returns the position of the next chunk at or after `from`, or the file's end if there is none. The chunk
+  // is in the summary, or is_chunk() finds it. Adds a warning for the skipped bytes.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
     const auto next = summary_.chunks.lower_bound(from);
     const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
@@ -94,8 +94,8 @@ class Scan {
     return is_chunk(bytes.data(), bytes.size(), file_.size() - at);
   }
 
-  // Returns whether a chunk begins at `bytes`, which is the case if its lengths are consistent. Accepts
-  // unknown compressions, so that a warning can name them.
+  // Returns whether a chunk begins at `bytes`, judged by whether the lengths in the chunk's fields are
+  // consistent. Accepts unknown compressions, so that a warning can name them.
   static bool is_chunk(const std::byte* bytes, std::size_t size, std::uint64_t left) {
     try {
       Fields fields(bytes, size);
@@ -186,7 +186,7 @@ class Scan {
   UnindexedCounts found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;
-  bool loose_ = false;  // whether the last record was a message outside of chunks, in the last part
+  bool loose_ = false;  // whether the last record was a message outside of chunks; it is in the last part
 };
 
 }  // namespace

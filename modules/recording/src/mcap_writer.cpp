@@ -66,7 +66,7 @@ class McapWriter::State {
     open.schema = {schema_id, topic.type, "ros2msg", topic.definition};
     open.channel = {id, schema_id, topic.name, "cdr", topic.metadata};
     open.channel.metadata.try_emplace("offered_qos_profiles");
-    Buffer records;  // written outside of chunks, because a damaged chunk must not affect the others
+    Buffer records;  // written outside of chunks, so that other chunks need no record in a damaged chunk
     Writer writer(records);
     put(writer, open.schema);
     put(writer, open.channel);
@@ -191,7 +191,7 @@ class McapWriter::State {
         compressed_.size(), chunk_.size()};
     mcap::Statistics all = statistics_;
     put_message_indexes(writer, index, all);
-    chunk_.clear();  // before append(), so its messages are lost if writing fails
+    chunk_.clear();  // before append(), so that the next chunk begins empty even if writing fails
     append(out_);
     all.first_time = chunks_.empty() ? first_time_ : std::min(all.first_time, first_time_);
     all.last_time = std::max(all.last_time, last_time_);
@@ -211,7 +211,7 @@ class McapWriter::State {
     index.index_bytes = out_.size() - index.bytes;
   }
 
-  // Writes the summary, which is groups of records of one kind, then the position of each group.
+  // Writes the summary: one group of records for each kind of record, then the position of each group.
   void write_summary() {
     Buffer summary, offsets;
     Writer writer(summary), offset_writer(offsets);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kWindow = 1U << 20U;
 constexpr std::uint64_t kLookBehind = 1U << 16U;  // bytes before the position at_ that stay in the window
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; nanoseconds of more could overflow
+constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow in nanoseconds
 // Maximum bytes of a pcap packet, and of a pcapng block in a search for the next block.
 constexpr std::uint32_t kMaxPacket = 1U << 20U;
 // Maximum seconds between two packets. A larger jump is accepted only if the following packets confirm it.
@@ -90,8 +90,8 @@ const std::byte* PacketFile::next_bytes(std::size_t bytes) {
   return window_.data() + (at - window_at_);
 }
 
-// Copies bytes at any position without moving the window. A search would otherwise move the window for every
-// candidate.
+// Copies bytes at any position without moving the window, because a search would otherwise move the window
+// for every candidate. Returns false if the file is too short.
 bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const {
   if (at > file_.size() || bytes > file_.size() - at) return false;
   if (at >= window_at_ && at + bytes <= window_at_ + window_.size()) {
@@ -120,15 +120,15 @@ bool PacketFile::resynchronise() {
 }
 
 // Returns whether a packet can begin at at_. Headers have no magic number, so the lengths of successive
-// packets must be consistent. In pcap, their times must also be close. Two packets must be close to the last
-// accepted time, or three packets must be close to each other.
+// packets must be consistent. In pcap, their times must also be close. Either two packets are close to the
+// last accepted time, or three packets are close to each other.
 bool PacketFile::begins_packet() {
   if (next_bytes(blocks_ ? 12 : 16) == nullptr) return false;
   if (blocks_) return is_run(2, std::nullopt);
   return (last_seconds_ && is_run(2, last_seconds_)) || is_run(3, std::nullopt);
 }
 
-// Returns whether `packets` valid packets (or all packets to the file's end) follow each other from at_ on.
+// Returns whether `packets` valid packets follow each other from at_ on. At the file's end, fewer are enough.
 // `seconds` is the time of the packet before at_, if known.
 bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const {
   std::uint64_t at = at_;
@@ -140,7 +140,7 @@ bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const 
 }
 
 // Returns the end of the pcap packet at `at`, or 0 if there is none. `seconds` is the time of the previous
-// packet. The time of this packet must be close to it and replaces it.
+// packet, if known. The time of this packet must be close to `seconds` and is then stored in `seconds`.
 std::uint64_t PacketFile::end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const {
   std::byte head[16];
   if (!peek(at, sizeof head, head)) return 0;
@@ -203,8 +203,8 @@ bool PacketFile::next_block(Payload& payload) {
   return false;
 }
 
-// Returns the length of the pcapng block at at_. Returns 0 if it differs from the length at the block's end.
-// The lengths are compared before the block is read.
+// Returns the length of the pcapng block at at_, or 0 for a damaged block. The length is also stored at the
+// block's end. Both are compared before the block is read.
 std::uint32_t PacketFile::block_length() {
   const std::byte* const head = next_bytes(12);
   if (head == nullptr || (u32(head) == kSection && !begin_section(head))) return 0;
@@ -215,7 +215,8 @@ std::uint32_t PacketFile::block_length() {
   return length;
 }
 
-// Reads a section header, which defines the byte order of the section. Clears the list of interfaces.
+// Reads a section header, which defines the byte order of the section. Clears the list of interfaces. Returns
+// false if the byte order is invalid.
 bool PacketFile::begin_section(const std::byte* head) {
   std::uint32_t order;
   std::memcpy(&order, head + 8, 4);

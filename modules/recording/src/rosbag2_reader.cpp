@@ -36,8 +36,8 @@ void require_recording_file(const fs::path& file) {
     throw IoError("no .db3 or .mcap file");
 }
 
-// Reads several files one after another as one recording, because a recorder begins a file where the previous
-// file ends.
+// Reads several files one after another as one recording. This is the order of time, because a recorder
+// begins a file where the previous file ends.
 class JoinedReader final : public RecordingReader {
  public:
   /// `folder_warnings` are the warnings about the folder.

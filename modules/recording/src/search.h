@@ -14,7 +14,8 @@
 namespace pcl_bv::detail {
 
 /// Returns the first position in [from, end) for which matches(bytes, size, position) is true, or `end`.
-/// `size` is at least `lookahead`, except near the end of the file.
+/// `bytes` are the bytes at the position. Their number `size` is at least `lookahead`, except near the end of
+/// the file.
 template <class Matches>
 std::uint64_t find_in_file(const InputFile& file, std::uint64_t from, std::uint64_t end,
                            std::size_t lookahead, const Matches& matches) {

@@ -195,7 +195,7 @@ struct VelodyneReader::State {
   std::map<std::uint64_t, Address> addresses;
   std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;              // about packets; rewind() keeps them, as a second pass adds none
+  WarningList warnings;              // about packets; kept by rewind(), because a second pass finds the same
   std::uint64_t warnings_added = 0;  // number of warnings of `packets` that are in `warnings`
   std::optional<std::size_t> warnings_before_note;  // number of warnings before sensors_note
   std::string sensors_note;

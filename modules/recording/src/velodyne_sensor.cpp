@@ -11,13 +11,13 @@
 namespace pcl_bv::detail {
 
 // A sensor model. A block has 32 returns, one per beam in the order of `elevation`. A VLP-16 fires its 16
-// beams twice.
+// beams twice per block.
 struct VelodyneModel {
   std::string_view name;
   std::uint8_t product_id;  // the last byte of a packet
   std::size_t beams;
   double distance_unit;                                // metres
-  double block_ns, laser_ns;                           // time between blocks, and between lasers (or pairs)
+  double block_ns, laser_ns;                           // mean time between blocks, and between lasers
   std::array<double, kVelodyneLasers> elevation;       // of each beam, degrees
   std::array<double, kVelodyneLasers> azimuth_offset;  // of each beam, degrees
 };
@@ -79,7 +79,7 @@ const std::vector<SineCosine>& azimuth_table() {
 
 constexpr double kMaxPause = 0.3e9;            // nanoseconds; azimuths cannot be predicted over longer pauses
 constexpr double kMaxPredictionError = 6'000;  // hundredths of a degree, for packets of the same sensor
-constexpr unsigned kLatePackets = 8;           // packets (10 ms) that a sweep waits for late packets
+constexpr unsigned kLatePackets = 8;           // a complete sweep waits this number of packets for late ones
 
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
@@ -100,7 +100,7 @@ std::size_t step_of(const Payload& packet) {
   return std::to_integer<int>(packet.data[kVelodynePacket - 2]) == 0x39 ? 2 : 1;
 }
 
-// Returns the signed difference of two azimuths, -180 to 180 degrees.
+// Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
 double azimuth_difference(double from, double to) {
   return std::remainder(to - from, static_cast<double>(kFullCircle));
 }
@@ -157,9 +157,9 @@ bool VelodyneSensor::expects(const Payload& packet) const {
   return std::abs(rotation_since_last(packet) - speed_ * passed) <= kMaxPredictionError;
 }
 
-// Estimates the rotation speed. The first estimate is from the first packet alone. Each later pair of packets
-// updates it with a smoothing factor of 1/8, so that jitter of a single packet or another firing rate has
-// little effect.
+// Estimates the rotation speed. The first estimate is from the first packet alone. Each later packet and its
+// predecessor update the estimate with a smoothing factor of 1/8, so that jitter of a single packet or
+// another firing rate has little effect.
 void VelodyneSensor::update_speed(const Payload& packet, double rotation) {
   const std::size_t firings = kBlocks / step_of(packet) - 1;
   if (speed_ == 0) speed_ = rotation_within(packet) / (static_cast<double>(firings) * model_->block_ns);

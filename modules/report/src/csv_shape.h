@@ -19,24 +19,24 @@ struct CsvShape {
   std::optional<double> radius;
 };
 
-/// Returns the columns of a cylinder or capsule of this full height. The axis is flipped to point upwards,
-/// which does not change the shape. Then the rotation from z to the axis is well conditioned, and it needs no
-/// singular value decomposition as in Eigen's FromTwoVectors().
+/// Returns the columns of a cylinder or capsule. `height` is its full height. The axis is flipped to point
+/// upwards, which does not change the shape. Then the rotation from z to the axis is well conditioned. Its
+/// simple formula needs no singular value decomposition, unlike Eigen's FromTwoVectors().
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
   const Eigen::Vector3d up = (axis.z() < 0 ? Eigen::Vector3d(-axis) : axis).stableNormalized();
   return {Eigen::Vector3d(2 * radius, 2 * radius, height),
           Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized(), radius};
 }
 
-/// Returns the rotation to three orthogonal axes (columns). A left-handed system is made right-handed by
-/// flipping the third axis, which does not change the shape.
+/// Returns the rotation from the world's axes to three orthogonal axes (columns). If the axes are
+/// left-handed, the third axis is flipped, which does not change the shape.
 inline Eigen::Quaterniond rotation_of(Eigen::Matrix3d axes) {
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return Eigen::Quaterniond(axes);
 }
 
 /// Returns the columns of a shape. The shape's member functions select the columns, so further shapes with
-/// the same functions are supported. Shapes without these functions give their axis-aligned box.
+/// the same functions are supported. A shape without these functions gives the size of its axis-aligned box.
 template <typename Shape>
 CsvShape csv_shape(const Shape& shape) {
   if constexpr (requires { shape.half_extents(), shape.quaternion(); }) {

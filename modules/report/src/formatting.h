@@ -29,7 +29,7 @@ inline std::string shortest(double value) {
   return text;
 }
 
-/// Returns the method's name. For `best`, the shape that it chose is added, such as "best (obb)".
+/// Returns the method's name. The method `best` is followed by the shape that it chose, such as "best (obb)".
 inline std::string method_label(const VolumeEntry& entry) {
   if (entry.method != "best" || empty(entry.volume)) return entry.method;
   return entry.method + " (" + std::string(shape_name(entry.volume)) + ')';

@@ -18,8 +18,8 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the number of bytes of the valid UTF-8 character at the beginning of `text`. If there is none,
-/// returns 0 and sets `tried` to the number of bytes of the invalid sequence.
+/// Returns the number of bytes of the valid UTF-8 character at the beginning of `text`. If there is no valid
+/// character, returns 0 and sets `tried` to the number of bytes of the invalid sequence.
 inline std::size_t utf8_length(std::string_view text, std::size_t& tried) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = byte(0);
@@ -81,7 +81,8 @@ class JsonText {
   void value(bool yes) { literal(yes ? "true" : "false"); }
   void value(std::nullptr_t) { literal("null"); }
 
-  /// Appends a string. Each invalid UTF-8 sequence (the longest prefix of a character) is replaced by U+FFFD.
+  /// Appends a string. Each invalid UTF-8 sequence, which is the longest prefix of a character or a single
+  /// byte, is replaced by U+FFFD.
   void value(std::string_view text) {
     separate();
     text_ += '"';

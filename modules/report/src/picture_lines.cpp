@@ -11,8 +11,8 @@ namespace {
 
 using Path = std::vector<Eigen::Vector3d>;
 
-/// Returns the part of a path with sign * coordinate <= limit. Where an open path leaves this half-plane and
-/// returns, the points where it crosses the boundary are connected.
+/// Returns the part of a path in the half-plane sign * p[axis] <= limit. Where an open path leaves the
+/// half-plane and returns, the result connects the two points at which the path crosses the boundary.
 Path clip_path(const Path& path, bool closed, int axis, double sign, double limit) {
   Path clipped;
   for (std::size_t i = 0; i < path.size(); ++i) {

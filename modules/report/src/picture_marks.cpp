@@ -20,7 +20,8 @@ using Box = Eigen::AlignedBox2d;
 class Marks {
  public:
   Marks(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), bottom_(view.height - margin) {
-    // Cairo's built-in font is the same on all machines. To find any other font takes longer than a picture.
+    // Cairo's built-in font is the same on all machines. Finding any other font takes longer than drawing a
+    // picture.
     cairo_select_font_face(cairo, "@cairo:", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cairo, text_size);
   }
@@ -73,7 +74,8 @@ std::string readable(std::string text) {
   return text;
 }
 
-// Draws the axes in the colours of RViz and CloudCompare. Axes that point at the viewer are drawn last.
+// Draws the axes in the colours of RViz and CloudCompare. The axis that points most towards the viewer is
+// drawn last, so that it is on top.
 void Marks::draw_axes() {
   constexpr Colour colours[3] = {{0.95f, 0.35f, 0.35f}, {0.45f, 0.85f, 0.4f}, {0.42f, 0.6f, 1.0f}};
   const double axis_extent = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;

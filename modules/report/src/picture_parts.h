@@ -41,7 +41,7 @@ inline bool is_drawn(const Coordinates& p) {
   return is_valid(p) && (p.x != 0 || p.y != 0 || p.z != 0);
 }
 
-/// Returns the view whose frame is as documented at picture_png().
+/// Returns the view of the picture. picture_png() describes its frame.
 View fit_view(const Picture& picture);
 
 /// Returns width x height pixels 0xffRRGGBB, row by row. They show the background and the points that are not

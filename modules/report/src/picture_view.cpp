@@ -14,9 +14,9 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
-// Direction of the viewer in ViewFrom::iso. The elevation is the elevation of an isometric drawing. The
-// azimuth is not that of a diagonal. In most clouds, streets run along x or y. In a diagonal view they would
-// run diagonally through the picture, which is wider than high.
+// Direction of the viewer in ViewFrom::iso. The elevation is that of an isometric drawing. The azimuth is
+// not half-way between x and y as in an isometric drawing. In most clouds, streets run along x or y, and they
+// would then run diagonally through the picture and use its width badly.
 constexpr double elevation = 35 * degree;
 constexpr double azimuth = -114 * degree;
 constexpr double margin_part = 0.04;  // margin at each side, relative to the picture's size
@@ -26,8 +26,9 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Returns the interval from the lowest `low` to the highest `high` of all parts. The `outliers` lowest and
-/// highest values are ignored. Returns [infinity, -infinity] if there are no parts.
+/// Returns the interval from the lowest `low` to the highest `high` of all parts. The `outliers` lowest
+/// values of `low` and highest values of `high` are ignored. Returns [infinity, -infinity] if there are no
+/// parts.
 Interval robust_interval(std::vector<Interval>& parts, std::size_t outliers) {
   if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;
@@ -53,7 +54,7 @@ std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
   return points;
 }
 
-/// Returns the interval of the points along the axis. One of `extreme` points is ignored at each end.
+/// Returns the interval of the points along the axis. At each end, one in `extreme` points is ignored.
 Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
                           std::size_t extreme) {
   std::vector<Interval> parts;
@@ -63,8 +64,8 @@ Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eige
   return robust_interval(parts, parts.size() / extreme);
 }
 
-/// Returns the interval of the non-empty volumes along the axis. A sixteenth of them is ignored at each end,
-/// because a few distant objects would make all others small.
+/// Returns the interval of the non-empty volumes along the axis. At each end, one in 16 volumes is ignored.
+/// Otherwise a few distant volumes would make all other volumes small in the picture.
 Interval central_interval(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
   std::vector<Interval> parts;
   for (const auto& [volume, colour, label, method] : volumes) {

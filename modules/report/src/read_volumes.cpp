@@ -17,7 +17,7 @@ using Json = UntrustedJson;
   throw std::invalid_argument(what);
 }
 
-// Throws an error such as "radius: three numbers are wanted, not [1,2]".
+// Throws an error such as "center: three numbers are wanted, not [1,2]".
 [[noreturn]] void refuse(const char* key, const char* wanted, const Json& value) {
   refuse(std::string(key) + ": " + wanted + ", not " + abbreviated(value));
 }
@@ -144,7 +144,7 @@ void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
 }
 
 // Appends all volumes in a JSON value. Entries that may have been meant as volumes must be volumes or contain
-// some, because skipping a volume silently would be unsafe. These entries are
+// volumes, because skipping a volume silently would be unsafe. These entries are
 // - all entries of a list or object "volumes",
 // - all entries of a list that has a volume, and
 // - all objects next to a volume in an object.

@@ -39,7 +39,8 @@ std::string four_digits(double value) {
 }
 
 /// Returns the number of decimals for the whole table, 0 to 6. The largest size should have five digits, but
-/// every centre must have at most 11 characters. Returns -1 if no fixed notation fits.
+/// every centre must have at most 11 characters. Returns -1 if coordinates are too large or too small for
+/// fixed notation.
 int choose_decimals(const ClusterSource& clusters) {
   double size = 0, magnitude = 0;
   for (std::size_t i = 0; i < clusters.count; ++i) {

@@ -104,7 +104,8 @@ std::string method_names(const VolumeCells& cells) {
          "    </FieldData>\n";
 }
 
-/// Returns the text with escapes as in a quoted XML attribute.
+/// Returns the text as the value of a quoted XML attribute, with special characters escaped. Throws
+/// std::invalid_argument for control characters.
 std::string escape(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

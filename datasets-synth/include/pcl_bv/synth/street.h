@@ -79,18 +79,19 @@ struct StreetObject {
 /// and the azimuths run clockwise as seen from above, so the middle column points forward. Curb faces are
 /// labelled as ground.
 ///
-/// A ray without a return gives a point at (0, 0, 0). These are rays into the sky or out of range, 1.5 % of
-/// all rays at random, and one third of the rays that hit a car's cabin (glass).
+/// A ray without a return gives a point at (0, 0, 0). The rays without a return are the rays into the sky,
+/// the rays that hit nothing within street_max_range, 1.5 % of all other rays at random, and one third of the
+/// rays that hit a car's cabin (glass).
 ///
-/// One ground return in 700 is a false return below the ground, such as mirrors and puddles cause. Its labels
-/// `object` and `ground` are 0.
+/// One ground return in 700 is replaced by a false return below the ground. Mirrors and puddles cause such
+/// returns. The labels `object` and `ground` of a false return are 0.
 struct StreetFrame {
   SynthCloud cloud;
   std::vector<StreetObject> objects;  ///< The objects nearer than street_max_range, by ascending id.
 };
 
-/// Returns the number of points of a sweep with the options `points` and `beams`. It is the multiple of
-/// `beams` nearest to `points` (half-way cases round up), and at least `beams`.
+/// Returns the number of points of a sweep with the options `points` and `beams`. The result is the multiple
+/// of `beams` nearest to `points`, but at least `beams`. Half-way cases round up.
 std::size_t street_rays(std::size_t points, std::size_t beams = street_beams);
 
 /// Returns the sweep at time frame * street_frame_seconds. Frames are independent of one another. The same

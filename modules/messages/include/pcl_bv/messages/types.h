@@ -16,7 +16,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace msg {
 
-/// A non-owning view of a uint8[]. With it clouds are read and written without a copy.
+/// A non-owning view of a field of type uint8[]. It saves the copy of a cloud's points that a vector needs.
 struct Bytes {
   const std::byte* data = nullptr;
   std::size_t size = 0;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads and writes messages as bytes, in CDR as in ROS 2 (OMG DDSI-RTPS, "plain CDR" after an encapsulation
-// header of four bytes) or in ROS 1's encoding. Readers and writers visit the fields through each_field() of
-// types.h.
+// Reads and writes messages as bytes, in ROS 1's encoding or in ROS 2's encoding CDR. A message in CDR is an
+// encapsulation header of four bytes, then "plain CDR" (OMG DDSI-RTPS). Readers and writers visit the fields
+// through each_field() of types.h.
 #pragma once
 
 #include <algorithm>
@@ -117,8 +117,8 @@ class MessageReader {
     (read(fields), ...);
   }
 
-  /// Throws MessageError if bytes remain after the last field, because the message then has another type. CDR
-  /// messages may end with up to 7 bytes, because some middleware adds padding.
+  /// Throws MessageError if bytes remain after the last field, because the message then has another version
+  /// of its type. CDR messages may have up to 7 extra bytes, because some middleware adds padding.
   void finish() const {
     if (size_ - at_ >= (ros1 ? 1 : 8))
       throw MessageError(std::to_string(size_ - at_) +
@@ -160,7 +160,7 @@ class MessageReader {
   void read(std::string& text) {
     const std::uint32_t length = read_length();
     const auto* const characters = reinterpret_cast<const char*>(take(length));
-    // CDR strings end with a null, but some writers leave it out for an empty string.
+    // CDR strings end with a null, but some writers leave the null out for an empty string.
     text.assign(characters, ros1 || length == 0 ? length : length - 1);
   }
   void read(msg::Bytes& bytes) {

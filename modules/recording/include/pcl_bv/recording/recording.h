@@ -37,8 +37,8 @@ class WarningList {
   /// Adds a warning.
   void add(std::string line);
 
-  /// Adds the warnings of `other` except the first `added` ones. `prefix` is written before each warning.
-  /// Sets `added` to the number of all warnings of `other`.
+  /// Adds those warnings of `other` that earlier calls have not added, with `prefix` before each. `added` is
+  /// the number of warnings added until now. It must be 0 at the first call, and each call updates it.
   void append_new(const WarningList& other, std::uint64_t& added, const std::string& prefix = {});
 
   /// Returns the warnings, at most eleven lines.
@@ -60,20 +60,20 @@ class RecordingReader {
   /// topics are found by scanning the file.
   virtual const std::vector<RecordedTopic>& topics() const = 0;
 
-  /// Restricts next() to these topics (indices in topics()) and restarts it at the beginning of the
+  /// Restricts next() to these topics (indices in topics()) and restarts next() at the beginning of the
   /// recording. Initially all topics are selected. Throws std::out_of_range for an invalid index.
   virtual void select(const std::vector<std::size_t>& topics) = 0;
 
-  /// Reads the next message. Messages come in the order of log_time_ns. Messages with equal times come in the
-  /// order of the file. The files of a folder are read one after another. Returns false at the end. Damaged
-  /// parts are skipped with a warning (see warning_lines()). Throws IoError if the file can no longer be
-  /// read.
+  /// Reads the next message. Returns false at the end. The messages of a file come in the order of
+  /// log_time_ns. Messages with equal times come in the order of the file. The files of a folder are read one
+  /// after another. Parts that are damaged or can no longer be read are skipped with a warning (see
+  /// warning_lines()).
   virtual bool next(RecordedMessage& message) = 0;
 
-  /// Returns the warnings about damage found until now, without the file's name. They have at most eleven
-  /// lines.
+  /// Returns the warnings found until now, at most eleven lines. They do not name the recording. If the
+  /// recording is a folder, they name the file in the folder.
   const std::vector<std::string>& warning_lines() const { return warnings_.lines(); }
-  /// Returns the warnings of warning_lines() as a list that can be merged into another list.
+  /// Returns the same warnings as a list that WarningList::append_new() can add to another list.
   const WarningList& warnings() const { return warnings_; }
 
  protected:
@@ -89,15 +89,18 @@ class RecordingReader {
 };
 
 /// Opens a recording, which is an MCAP file, a ROS 1 bag, or a rosbag2 folder or file (.db3, .db3.zstd,
-/// .mcap.zstd). The format is detected as in is_recording(). Throws IoError, without the file's
-/// name, if the file cannot be read or its format is unknown.
+/// .mcap.zstd). The format is detected as in is_recording(). Throws IoError if the file cannot be read or its
+/// format is unknown. The message does not name the file.
 std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& file);
 
-/// Returns whether the path is a recording of a known format. The first bytes of a file decide, with two
-/// exceptions. Compressed files must also have the extension .zstd. A file that is not empty and has the
-/// extension .db3 is a recording, because its first page may be damaged. A folder is a recording if it has
-/// rosbag2's metadata.yaml, or if it has .db3 or .mcap files and no clouds. Returns false if the path cannot
-/// be read.
+/// Returns whether the path is a recording of a known format. Returns false if the path cannot be read.
+///
+/// The first bytes of a file decide, with two exceptions. A compressed file must also have the extension
+/// .zstd. A file with the extension .db3 is a recording whatever its first bytes are, because they may be
+/// damaged, but it must not be empty.
+///
+/// A folder is a recording if it has rosbag2's metadata.yaml. Without metadata.yaml, it is a recording if it
+/// has .db3 or .mcap files (compressed or not) and no clouds.
 bool is_recording(const std::filesystem::path& file);
 
 }  // namespace pcl_bv

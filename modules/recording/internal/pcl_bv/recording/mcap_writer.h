@@ -23,18 +23,18 @@ class McapWriter final : public RecordingWriter {
  public:
   struct Options {
     Compression compression = Compression::zstd;  ///< Compression of the chunks.
-    /// Uncompressed size in bytes at which a chunk ends. The message that reaches this size is in the chunk.
+    /// A chunk ends when its uncompressed size reaches this number of bytes. The last message is not split.
     std::size_t chunk_bytes = 1U << 20U;
   };
 
-  /// Opens or creates the file. Its old content is discarded only at the first message or attachment, or at
-  /// close(). Throws IoError if the file cannot be opened.
+  /// Opens or creates the file. The old content of the file is discarded only at the first message or
+  /// attachment, or at close(). Throws IoError if the file cannot be opened.
   explicit McapWriter(const std::filesystem::path& file);
   /// Like the other constructor, with options.
   McapWriter(const std::filesystem::path& file, const Options& options);
 
-  /// Calls close() if a message or attachment was written, and ignores errors of close(). Otherwise the file
-  /// keeps its old content. A file that this object created is then removed.
+  /// Calls close() if a message or attachment was written, and ignores errors of close(). If nothing was
+  /// written, an existing file keeps its old content, and a file that this object created is removed.
   ~McapWriter() override;
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;

@@ -16,8 +16,8 @@ struct WrittenTopic {
   std::string name;        ///< Name, such as "/bv/objects".
   std::string type;        ///< Type, such as "vision_msgs/msg/Detection3DArray".
   std::string definition;  ///< schema_of(type), for formats that store it.
-  /// Further properties by name. All formats store "offered_qos_profiles" (in rosbag2's YAML form). If it is
-  /// missing here, an empty text is stored.
+  /// Further properties by name. MCAP stores all of them. rosbag2 stores only "offered_qos_profiles", which
+  /// is a text in rosbag2's YAML form. If this property is missing, an empty text is stored for it.
   std::map<std::string, std::string> metadata;
 };
 
@@ -26,8 +26,8 @@ class RecordingWriter {
  public:
   virtual ~RecordingWriter() = default;
 
-  /// Adds a topic and returns its index for write(). Throws IoError. Throws std::length_error if there
-  /// are 65535 topics already.
+  /// Adds a topic and returns its index for write(). Throws IoError if the topic cannot be written. Throws
+  /// std::length_error if there are 65535 topics already.
   virtual std::size_t add_topic(const WrittenTopic& topic) = 0;
 
   /// Writes a message. Times are nanoseconds since 1970. Throws std::out_of_range for an unknown topic.
@@ -35,7 +35,7 @@ class RecordingWriter {
   virtual void write(std::size_t topic, std::int64_t log_time_ns, std::int64_t publish_time_ns,
                      const std::byte* data, std::size_t size) = 0;
 
-  /// Adds a file with this name and content to the recording. Throws IoError.
+  /// Adds a file with this name and content to the recording. Throws IoError if it cannot be written.
   virtual void attach(const std::string& name, const std::string& media_type, const std::string& content,
                       std::int64_t log_time_ns) = 0;
 

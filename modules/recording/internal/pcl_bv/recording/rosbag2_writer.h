@@ -18,7 +18,8 @@ namespace [[gnu::visibility("default")]] detail {
 class Rosbag2Writer final : public RecordingWriter {
  public:
   /// Creates the folder if it does not exist. An existing database and metadata.yaml in the folder are
-  /// replaced only at the first message or attachment, or at close(). Throws IoError.
+  /// replaced only at the first message or attachment, or at close(). Throws IoError if the folder cannot be
+  /// created or written.
   explicit Rosbag2Writer(const std::filesystem::path& folder);
 
   /// Calls close() if a message or attachment was written, and ignores errors of close(). Otherwise the

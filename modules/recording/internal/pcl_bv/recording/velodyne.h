@@ -27,7 +27,7 @@ struct VelodynePoint {
 struct VelodyneSweep {
   std::int64_t stamp_ns = 0;  ///< Capture time of the first packet, nanoseconds since 1970.
   std::vector<VelodynePoint> points;
-  std::size_t sensor = 0;  ///< Number of the sensor. Sensors are numbered by their first packets.
+  std::size_t sensor = 0;  ///< Number of the sensor, counted from 0 in the order of the first packets.
 };
 
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns.
@@ -36,22 +36,24 @@ RawCloud raw_cloud_of(const VelodyneSweep& sweep);
 /// Returns whether the first bytes of the file are those of a capture of packets (.pcap, .pcapng).
 bool is_capture(const std::filesystem::path& file);
 
-/// Reads the sweeps in the packets of a VLP-16, HDL-32E or VLP-32C, with single or dual returns (two
-/// identical returns give one point). A sweep is one revolution. The first and the last sweep may be
-/// incomplete. Late or repeated packets go to the revolution in which they were measured. Lost packets are
-/// tolerated.
+/// Reads the sweeps in the packets of a VLP-16, HDL-32E or VLP-32C. A sweep is one revolution. The first and
+/// the last sweep may be incomplete. Late or repeated packets go to the revolution in which they were
+/// measured. Lost packets are tolerated. Packets may have single or dual returns. Two identical dual returns
+/// give one point.
 ///
-/// Sensors are distinguished by address, port and model. Several sensors at one address are also
-/// distinguished by azimuths that do not continue one another. Each sensor has its own sweeps. The sweeps of
-/// all sensors come in the order in which they are completed. Azimuths are as in PCL's grabbers. There is one
-/// azimuth per block, and the second firing of a VLP-16 is interpolated between two blocks. Sources: the
-/// sensors' manuals (63-9243, 63-9113, 63-9325).
+/// Each sensor has its own sweeps. The sweeps of all sensors come in the order in which they are completed.
+/// Sensors are distinguished by source address, destination port and model. If several sensors have all three
+/// in common, their packets are distinguished by azimuth: the azimuth of each sensor advances steadily.
+///
+/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth. Only in a VLP-16, the
+/// azimuth of a block's second firing is interpolated between two blocks. Sources: the sensors' manuals
+/// (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
   /// Opens a capture. `sensor` (source address and destination port, such as "192.168.1.201:2368") restricts
   /// the reader to the packets of one sensor. Throws IoError if the file is not a capture or has no packet of
-  /// a supported sensor. Throws std::invalid_argument, naming the existing sensors, if none of them is
-  /// `sensor`.
+  /// a supported sensor. Throws std::invalid_argument if the capture has packets of other sensors but not of
+  /// `sensor`. The message names these other sensors.
   explicit VelodyneReader(const std::filesystem::path& file, const std::string& sensor = {});
   ~VelodyneReader();
   VelodyneReader(const VelodyneReader&) = delete;
@@ -65,7 +67,8 @@ class VelodyneReader {
   /// Reads the next sweep. Returns false at the end. Throws IoError if the file can no longer be read.
   bool next(VelodyneSweep& sweep);
 
-  /// Returns the warnings found until now, one line each. They are about damaged packets and several sensors.
+  /// Returns the warnings found until now, one line each. A warning is about damaged parts of the capture, or
+  /// tells that the capture has several sensors.
   std::vector<std::string> warning_lines() const;
 
  private:

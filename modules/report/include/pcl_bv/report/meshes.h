@@ -36,8 +36,8 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
 /// not finite, which does not occur in fitted volumes.
 std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 
-/// Returns the meshes as a VTK PolyData file (XML, ascii). Every number has the digits that read back
-/// exactly. Each cell (polygon, line or vertex) has these values:
+/// Returns the meshes as a VTK PolyData file (XML, ascii). Every number has the fewest digits that read back
+/// as exactly the same double. Each cell (polygon, line or vertex) has these values:
 /// - `cluster`: the id of the cluster;
 /// - `method`: the number of the method, counted from 0 in order of appearance;
 /// - `points`: the number of points of the cluster;
@@ -47,8 +47,8 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 /// The field data `methods` has the names of the methods. Throws as volumes_ply().
 std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked = false);
 
-/// Returns the valid points as a VTK PolyData file with one cell. The `label` of each point is labels[index
-/// of the point].
+/// Returns the valid points as a VTK PolyData file with one cell. The `label` of the point with index i is
+/// labels[i].
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);
 
 /// Writes volumes_ply() or volumes_vtp() to a file through write_file_atomically(). Throws IoError if the

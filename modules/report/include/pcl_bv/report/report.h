@@ -29,18 +29,20 @@ inline constexpr std::uint32_t kLabelNone = 4294967295;
 struct VolumeEntry {
   std::string method;  ///< Canonical name of the method, such as "dop26"; never an alias.
   AnyVolume volume;
-  std::optional<std::size_t> outside;  ///< Number of points outside by exact arithmetic, if verified.
-  std::string failed{};                ///< Reason if the fit failed (then `volume` is empty), else empty.
+  /// Number of points outside the volume, counted by verify(). Not set if the volume was not verified.
+  std::optional<std::size_t> outside;
+  std::string failed{};  ///< Reason why the fit failed and `volume` is empty. Empty if the fit succeeded.
 };
 
 /// A tracked object.
 struct TrackEntry {
   std::uint32_t id = 0;  ///< Unique. It is never reused for another object.
-  std::size_t age = 0;   ///< Number of frames since the first detection, including the first frame.
+  std::size_t age = 0;   ///< Number of frames from the first detection until now, both included.
   /// Velocity in units of the points per second. It is in the fixed frame if the sensor's pose is known.
   /// Otherwise it is relative to the sensor, in the sensor's frame.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  bool moving = false;  ///< Moving over ground if the sensor's motion is known, else relative to the sensor.
+  /// Whether the object moves over ground. If the sensor's motion is unknown: relative to the sensor.
+  bool moving = false;
   /// x, y, z of the centre, and the heading (yaw) in radians, in the frame of `velocity`. The yaw is the
   /// direction of motion over ground. Before the object has moved, the yaw is the direction of the longer
   /// side.
@@ -105,20 +107,21 @@ using TextSink = std::function<void(std::string& piece)>;
 
 /// Returns the report as one JSON object on one line, without a line end.
 ///
-/// Every number has the fewest digits that read back as exactly the same double. A volume that is read back
-/// therefore contains the same points. There is no null, NaN or -0. An empty volume has `"empty":true`. A
-/// volume whose fit failed has `"failed"` with the reason. Such volumes have no numbers. Throws
-/// std::domain_error if a number is not finite, which does not occur in fitted volumes.
+/// Every number of a volume has the fewest digits that read back as exactly the same double. A volume that is
+/// read back therefore contains the same points. There is no null, NaN or -0. An empty volume has
+/// `"empty":true` instead of the numbers of its shape. A volume whose fit failed has `"failed"` with the
+/// reason instead. Throws std::domain_error if a number is not finite, which does not occur in fitted
+/// volumes.
 std::string report_json(const Report& report);
 
 /// Writes the text of report_json() to `take` in pieces of about a megabyte, with the clusters of `clusters`
 /// instead of report.clusters.
 void write_report_json(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
-/// Returns the report as a table of at most 120 columns. The table is a line about the file, then a row for
-/// each volume with its centre, size and volume in the unit of the points. Upright boxes have length, width,
-/// height and the yaw (Obb::yaw()) in radians. Numbers are rounded for reading. Use JSON for exact values.
-/// Returns an empty text for a failed report.
+/// Returns the report as text: a line about the input, then a table of at most 120 columns. The table has a
+/// row for each volume with its centre, size and volume in the unit of the points. Upright boxes have length,
+/// width, height and the yaw (Obb::yaw()) in radians. The numbers are rounded; report_json() has the exact
+/// values. Returns an empty text for a failed report.
 std::string report_text(const Report& report);
 /// Writes the text of report_text() to `take` in pieces, with the clusters of `clusters` instead of
 /// report.clusters.
@@ -142,7 +145,7 @@ struct FrameReport {
 /// `track` is null for a cluster without a track.
 std::string frame_json(const FrameReport& report);
 
-/// Like the other overload, with the clusters of `clusters` instead of report.clusters.
+/// Like frame_json(report), with the clusters of `clusters` instead of report.clusters.
 std::string frame_json(const FrameReport& report, const ClusterSource& clusters);
 
 }  // namespace pcl_bv

@@ -24,28 +24,28 @@ namespace [[gnu::visibility("default")]] detail {
 inline constexpr std::string_view kCsvColumns =
     "cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume";
 
-/// Names of the columns of a track, which are TrackEntry::velocity and pose. Empty for a cluster without a
-/// track.
+/// Names of the columns of a track, which are TrackEntry::velocity and TrackEntry::pose. The columns are
+/// empty for a cluster without a track.
 inline constexpr std::string_view kCsvTrackColumns = "vx,vy,vz,x,y,z,yaw";
 
-/// Names of the last columns. They are the full length (along axis 0), width (along axis 1) and height (along
-/// axis 2) of an upright box, and Obb::yaw() in radians. They are empty for all other volumes. The length of
-/// a track's box is along its front, and the yaw is from -pi to pi. The length of other boxes is not below
-/// the width, and the yaw is from -pi/2 to pi/2.
+/// Names of the last columns: the full lengths of an upright box along its axes 0, 1 and 2, and Obb::yaw() in
+/// radians. The columns are empty for all other volumes. For a box without a track, axis 0 is along the
+/// longer horizontal side, and the yaw is from -pi/2 to pi/2. For the box of a track, axis 0 points to the
+/// front of the object, and the yaw is from -pi to pi.
 inline constexpr std::string_view kCsvUprightColumns = "length,width,height,yaw";
 
-/// Like kCsvUprightColumns, but for lines that also have kCsvTrackColumns. There, "yaw" is the yaw of the
-/// object.
+/// Like kCsvUprightColumns, but for lines that also have kCsvTrackColumns. In such lines, the column "yaw" is
+/// the yaw of the track, and "box_yaw" is the yaw of the box.
 inline constexpr std::string_view kCsvTrackedUprightColumns = "length,width,height,box_yaw";
 
 /// Returns a text as one CSV field (RFC 4180). A text with a comma, a quote or a line end is put in double
 /// quotes, and its quotes are doubled. Any other text is unchanged.
 std::string csv_field(std::string_view text);
 
-/// Appends a line for each volume of the cluster. A line has `first_columns` (fields joined by commas),
-/// kCsvColumns, kCsvTrackColumns if `tracked`, and kCsvUprightColumns. It ends in "\n". Numbers have the
-/// fewest digits that read back as exactly the same double. Throws std::domain_error if a number is not
-/// finite, which does not occur in fitted volumes.
+/// Appends a line for each volume of the cluster. A line has `first_columns` (fields joined by commas), then
+/// the columns of kCsvColumns, of kCsvTrackColumns if `tracked`, and of kCsvUprightColumns. A line ends in
+/// "\n". Numbers have the fewest digits that read back as exactly the same double. Throws std::domain_error
+/// if a number is not finite, which does not occur in fitted volumes.
 void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text,
                 bool tracked = false);
 

@@ -33,13 +33,14 @@ struct PartialFile {
   std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
-  std::string filter;                     ///< Description of the filters for points; only compared.
-  Counts counts;                          ///< Dropped points of this share (only `range` and `inside`).
+  std::string filter;                     ///< Description of the point filters, for the check of merge().
+  Counts counts;                          ///< Dropped points of this share; only `range` and `inside`.
   /// Points of this share as ranges [first, second) of point numbers, ascending, neither empty nor adjacent.
   std::vector<std::pair<std::size_t, std::size_t>> shares;
   Partial partial;  ///< The partial results. Dropped points are treated as invalid.
 
-  /// Adds the next input of the cloud by its name without folders and its number of points.
+  /// Adds the next input of the cloud to `inputs_hash`, `inputs` and `cloud_points`. `name` is the input's
+  /// name without folders.
   void add_input(std::string_view name, std::size_t points);
 
   /// Merges another share into this one. Merging is associative and commutative. Throws std::invalid_argument
@@ -51,7 +52,7 @@ struct PartialFile {
   bool is_whole() const;
 
   /// Returns a text about the points that are missing in this share, such as "points 100 to 200, 300 to 350
-  /// of 400".
+  /// of 400". The second number of a range is not included in the range.
   std::string missing() const;
 };
 

@@ -21,8 +21,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// A volume, and the colour and label with which it is drawn.
 struct PictureVolume {
   AnyVolume volume;
-  std::uint32_t colour = 0;  ///< Number of the colour, which is the id of the volume's cluster.
-  std::string label = {};    ///< Text above the volume in its colour. It is ASCII; other bytes become '?'.
+  std::uint32_t colour = 0;  ///< Number of the colour: id of the cluster or, without clusters, `method`.
+  std::string label = {};    ///< Text above the volume, in the same colour. Bytes outside ASCII become '?'.
   std::uint32_t method = 0;  ///< Index of the volume's method in Picture::methods.
 };
 
@@ -31,10 +31,10 @@ struct PictureVolume {
 /// degrees of `up`). The second horizontal axis is 90 degrees to the left of the first, seen from above. For
 /// example, in a camera's frame (y down) the second horizontal axis is z.
 enum class ViewFrom {
-  iso,    ///< Looks obliquely from above, over a corner of the scene.
+  iso,    ///< Looks down at 35 degrees, from the front left.
   top,    ///< Looks down. The first horizontal axis points right, the second up.
   front,  ///< Looks along the second horizontal axis. The first points right, `up` points up.
-  side    ///< Looks against the first horizontal axis. The second points right, `up` points up.
+  side    ///< Looks opposite to the first horizontal axis. The second points right, `up` points up.
 };
 
 /// The content of a picture.
@@ -54,19 +54,21 @@ struct Picture {
 /// Returns the picture as the content of a PNG file. Points of a cluster have the cluster's colour. All other
 /// points are grey. The same input gives the same bytes.
 ///
-/// The frame covers these parts of the scene, so that outliers do not shrink all others:
-/// - The volumes. If there are 16 or more, at most a sixteenth of them is ignored at each side.
-/// - The central 98 % of the points. If there are labels, only points of clusters are used. If there are
-///   volumes but no labels, no points are used.
+/// The frame covers these parts of the scene:
+/// - The volumes. If there are 16 or more, the outermost sixteenth is ignored at each side of the frame.
+/// - The points, except the outermost 1 % at each side. If there are labels, only points of clusters are
+///   used. If there are volumes but no labels, no points are used.
+///
+/// Outliers are ignored because they would make all other points and volumes small.
 ///
 /// A picture without points and volumes shows only the background.
 ///
 /// Pictures of at least 480 x 320 pixels have the axes (x red, y green, z blue) and a scale bar in the lower
 /// left corner. If several methods are drawn, the upper left corner lists their names. A line next to each
-/// name has the colour of the method if each method has its own colour, else its dashes (six kinds,
-/// repeated). Labels of volumes are written in the order of Picture::volumes, if the volume's centre is in
-/// the picture. A label that would overlap something written before is left out. `front` and `side` pictures
-/// are cropped to their content, but not below 480 x 320.
+/// name has the colour of the method if each method has its own colour. Otherwise the line has the dashes of
+/// the method (six kinds, repeated). The label of a volume is written if the volume's centre is in the
+/// picture. Labels are written in the order of Picture::volumes. A label that would overlap an earlier text
+/// or mark is left out. `front` and `side` pictures are cropped to their content, but not below 480 x 320.
 ///
 /// Throws std::invalid_argument if width or height is outside 16..16384, or if `up` is zero or not finite.
 std::string picture_png(const Picture& picture);
@@ -75,8 +77,8 @@ std::string picture_png(const Picture& picture);
 /// and areas that can be scaled and edited.
 std::string picture_svg(const Picture& picture);
 
-/// Writes picture_svg() if the name ends in .svg (in any case), else picture_png(). The file is written by
-/// write_file_atomically(). If that throws IoError, an existing file is unchanged.
+/// Writes picture_svg() if the name ends in .svg (in any case), else picture_png(). Writes the file through
+/// write_file_atomically(). Throws IoError if this fails. An existing file is then unchanged.
 void write_picture(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace detail
