@@ -45,8 +45,9 @@ class Tracker {
     /// The box probably contains several objects, because the expected centre of another track is inside it.
     /// That track has an id but no box in this frame.
     bool merged = false;
-    /// Earlier boxes of this track contained two objects. Set in one frame only, when another track that
-    /// split off from this track has had five detections since the split or since its last occlusion.
+    /// A split of this track is confirmed in this frame: earlier boxes of this track contained two objects. A
+    /// split begins when the centre of a new track's first box is inside the expected box of this track. It
+    /// is confirmed when the new track has had five detections since its start or its last occlusion.
     bool separated = false;
   };
 
