@@ -40,7 +40,7 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
 
 /// As WriteEarly, but also prints the messages of the job.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& messages, std::string& text)>;
-/// Processes the job. Returns its result_of() with its messages.
+/// Processes the job. Returns result_of() of the job's outcome, with the messages of the job.
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
               const WriteJobEarly& write = {});
 

@@ -23,8 +23,8 @@ class Poses {
   /// `frames` poses or if `frames` is nullopt.
   Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
 
-  /// Returns the pose of a frame, depending on the file by its number or by its stamp. Returns nullopt if the
-  /// file has no pose for it.
+  /// Returns the pose of the frame with this number (KITTI) or this stamp (TUM), depending on the format of
+  /// the file. Returns nullopt if the file has no such pose.
   std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
 
  private:
@@ -33,8 +33,8 @@ class Poses {
 };
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
-/// empty. `load` sets the cloud number `index` and its owner in the frame, and throws an exception if that is
-/// impossible. `times` are the stamps if options.own_stamps is set.
+/// empty. `load` puts cloud number `index` and the owner of its points into the frame, or throws an
+/// exception. `times` are the stamps if options.own_stamps is set.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
                                          std::function<void(std::size_t index, Frame&)> load,

@@ -36,8 +36,8 @@ class FramePipeline {
 
   /// Processes one frame and replaces `result`. If tracking is enabled, frames must come in the order of
   /// their stamps. A frame without a valid point gives no clusters, or one empty cluster if cluster.tolerance
-  /// is 0 and cluster.min_size is not set. `result.counts` holds the number of dropped points by reason. Two
-  /// threads must not call process() at the same time.
+  /// is 0 and cluster.min_size is 0 or not set. `result.counts` holds the number of dropped points by reason.
+  /// Two threads must not call process() at the same time.
   ///
   /// Throws std::length_error if index lists are needed for more than 2^31 - 1 points. Throws
   /// std::invalid_argument if ground removal or clustering is enabled and the points come from a PointSource.
