@@ -141,7 +141,7 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
     const double more =
         grown_size(static_cast<std::size_t>(i), high[i] - low[i], state.merged) - (high[i] - low[i]);
     const double sensor = -axes.col(i).dot(box.center());
-    // If the sensor is inside the box, the box grows on both sides.
+    // If the sensor is between the two faces, the box grows on both sides.
     const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;
     high[i] += above * more;
     low[i] -= (1 - above) * more;

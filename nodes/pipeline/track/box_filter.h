@@ -46,9 +46,9 @@ class BoxFilter {
   /// With `grow`, length and width approach the largest ones seen. In the first five detections, they grow
   /// without a limit, later by at most 0.15 m per frame. The limit is needed because a cluster that contains
   /// two objects in one frame is larger, too. The box is extended on the side away from the sensor. A merged
-  /// cluster changes neither the mean yaw nor the sizes. A separated cluster restarts the sizes. Every valid
-  /// point is inside the returned box (Obb::contains()). Boxes that are empty or not upright are returned
-  /// unchanged. O(points).
+  /// cluster changes neither the mean yaw nor the sizes. A separated cluster restarts the sizes. The third
+  /// axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that are empty
+  /// or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
 
  private:

@@ -46,9 +46,9 @@ struct Track {
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
   void expect(const Pose& sensor);
-  /// Returns the box in the sensor's frame that EgoMotion expects. A moving object is at its predicted
-  /// position, any other object at its previous position. With predicted positions of static objects, an
-  /// error of the sensor's velocity would pass into their velocities and stay there.
+  /// Returns the box, in the sensor's frame, that EgoMotion expects. A moving object is at its predicted
+  /// position, any other object at its previous position. If static objects were at their predicted
+  /// positions, an error of the estimated sensor velocity would pass into their velocities and stay there.
   Aabb static_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
   BoxDifference difference_to(const Aabb& box) const;
