@@ -53,7 +53,8 @@ class TrackedVolumes {
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
   std::vector<const Method*> methods_;  // methods whose boxes `filters_` filters
-  std::vector<BoxFilter> filters_;      // filter of method m of track slot s: s * methods_.size() + m
+  // Element s * methods_.size() + m is the filter for method m of the track in slot s.
+  std::vector<BoxFilter> filters_;
 };
 
 }  // namespace pcl_bv::detail

@@ -129,8 +129,9 @@ class Reader {
       ;
   }
 
-  // Returns when a frame is due. Stamps that go back add no time. The sum of the steps is limited, because a
-  // clock cannot count more than some centuries.
+  // Returns when a frame is due. Must be called once for each frame, because each call adds a step to the
+  // schedule. Stamps that go back add no time. The sum of the steps is limited, because a clock cannot count
+  // more than some centuries.
   Clock::time_point due(const Frame& frame) {
     step_ = 1 / options_.replay.rate_hz;
     if (options_.rate == Rate::recorded)

@@ -103,7 +103,7 @@ class OrderedResults {
   std::map<std::size_t, Result> waiting_;  ///< Results that wait for earlier ones.
   std::size_t next_ = 0, written_ = 0;
   bool stopped_ = false;
-  bool partly_written_ = false;  ///< The first part of report `written_` has been written.
+  bool partly_written_ = false;  ///< Whether the first part of report number `written_` has been written.
   Status status_ = Status::done;
   std::size_t failed_ = 0, points_ = 0;
   ReportWriter writer_;

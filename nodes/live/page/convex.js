@@ -50,8 +50,8 @@ function cut(corners, { n, d }, tolerance) {
   return clipped;
 }
 
-// Returns the centre and the circumradius of the parallelepiped of the first three linearly independent slabs
-// min <= direction.p <= max, or null if the directions do not span 3D space.
+// Returns the centre and the circumradius of a parallelepiped: the intersection of the first three linearly
+// independent slabs min <= direction.p <= max. Returns null if the directions do not span 3D space.
 export function boundOfSlabs(directions, min, max) {
   const chosen = [];
   for (let i = 0; i < directions.length && chosen.length < 3; ++i) {

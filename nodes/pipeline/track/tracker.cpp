@@ -52,8 +52,9 @@ struct Tracker::State {
   std::vector<Track> tracks;
   std::vector<std::size_t> free;
   std::vector<char> track_taken, box_taken;
-  std::vector<Aabb> expected;  // static_box() of the tracks that were not missed, for the ego motion
-  // For each measured box, expected_box() of its assigned track before correct(). Empty without a track.
+  std::vector<Aabb> expected;  // for `ego`: static_box() of the tracks detected in the last frame
+  // For each measured box: expected_box() of its assigned track before correct(); an empty box if it has no
+  // track.
   std::vector<Aabb> predicted;
   std::vector<AssignmentPair> pairs;
   BoxGrid grid;

@@ -59,8 +59,8 @@ class Tracker {
   /// Assigns a track to each box and replaces `assignments` by one entry per box. `boxes` are in the sensor's
   /// frame, metres, measured at `stamp_ns`. If the time does not advance, or advances by more than a second,
   /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. Takes
-  /// O(n log n) time, plus the time of the costs of all pairs of a track and a box near it (BoxGrid with
-  /// sides of three gates) and of the assignment.
+  /// O(n log n) time, plus the time of the assignment. Computes one cost for each pair of a track and a box
+  /// near it (BoxGrid with sides of three gates).
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
 

@@ -48,9 +48,9 @@ std::vector<SourceKind> recording_kinds();
 /// Returns whether the file has the extension of a recording or capture: .bag, .mcap, .db3, .pcap, .pcapng.
 bool has_recording_extension(const std::filesystem::path& file);
 
-/// Throws IoError if the file has the extension of a recording or capture (has_recording_extension())
-/// but does not begin with the bytes of one, or if such a file is missing or empty. Does nothing for other
-/// extensions.
+/// Checks a file with the extension of a recording or capture (has_recording_extension()). Throws IoError if
+/// the file is missing, is empty, or does not begin as a recording or capture. Does nothing for other
+/// extensions and for folders.
 void check_recording_content(const std::filesystem::path& file);
 
 }  // namespace pcl_bv::detail

@@ -95,7 +95,7 @@ struct FrameResult {
   /// Track of each cluster; nullopt until the track has its id. Empty without tracking.
   std::vector<std::optional<TrackEntry>> tracks;
 
-  /// Requested methods in order (the union over all classes).
+  /// The requested methods of all classes, in the order of PipelineConfig::methods().
   std::vector<const Method*> methods;
   std::vector<AnyVolume> volumes;  ///< For each cluster, one volume per entry of `methods`.
   /// For each volume: whether the cluster's class requests it (0 or 1). Volumes that are not requested are

@@ -55,7 +55,8 @@ struct GroundConfig {
   /// position is estimated as described at FrameResult::sensor.
   std::optional<Eigen::Vector3d> sensor;
   /// Height of the sensor above the ground, metres; with `plane`, height of the origin. Estimated if not
-  /// given.
+  /// given. With `zones`, the height is ignored if the sensor's position is estimated (case 5 of
+  /// FrameResult::sensor).
   std::optional<double> sensor_height;
   /// Largest height of ground points above the ground surface, metres. If not given, the default of the
   /// method (GroundPlaneOptions, GroundZonesOptions).
