@@ -27,7 +27,8 @@ class LoadedCloud {
   /// Returns the origin that was subtracted; nullopt if no origin was requested.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
-  /// Throws IoError if the cloud is not in memory and one of its files has been changed.
+  /// Throws IoError if a file of a tiled cloud, or the file of another cloud that is not in memory, has been
+  /// changed.
   void require_unchanged() const;
 
   /// Moves the cloud in memory to the caller. Must be the last access to the points.

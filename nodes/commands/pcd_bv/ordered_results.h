@@ -33,9 +33,9 @@ struct Result {
 /// returns true. Otherwise returns false and leaves `text` unchanged.
 using WriteEarly = std::function<bool(std::string& text)>;
 
-/// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the result
-/// is a report of this error, unless the beginning of the report is already written. Results of other inputs
-/// are not affected.
+/// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the status
+/// is Status::failed or worse. The text is then a report of this error, or empty if the beginning of the
+/// report has already been written. Results of other inputs are not affected.
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
 /// As WriteEarly, but also prints the messages of the job.

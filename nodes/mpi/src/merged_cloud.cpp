@@ -60,7 +60,7 @@ class Attempt {
   }
 
   Failure run();
-  Report report() const;  ///< Only on the first rank.
+  Report report() const;  ///< Must be called on the first rank only.
   std::size_t rounds() const { return rounds_; }
   /// CPU time of this rank without waiting for other ranks, seconds.
   double cpu_seconds() const { return cpu_seconds_; }

@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kVoteDecay = 0.9;          // decay of the votes for the front, per frame
-constexpr double kVoteLead = 2;             // lead in votes that makes another axis the front
-constexpr double kMovingDecay = 0.5;        // decay of the mean yaw per frame, if the object moves
-constexpr double kStaticDecay = 0.97;       // decay of the mean yaw per frame, if it is static
+constexpr double kVoteDecay = 0.9;          // per frame; decay of the votes for axis 0
+constexpr double kVoteLead = 2;             // lead in votes that makes another direction axis 0
+constexpr double kMovingDecay = 0.5;        // per frame; decay of the mean yaw of a moving object
+constexpr double kStaticDecay = 0.97;       // per frame; decay of the mean yaw of a static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Filters the boxes of a track. The front axis stays the same. On request, yaw and sizes are smoothed.
+// Filters the boxes of a track. The axes keep their order and directions from frame to frame. On request, yaw
+// and sizes are smoothed.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,9 +47,10 @@ class BoxFilter {
   /// With `grow`, length and width approach the largest ones seen. In the first five detections, they grow
   /// without a limit, later by at most 0.15 m per frame. The limit is needed because a cluster that contains
   /// two objects in one frame is larger, too. The box is extended on the side away from the sensor. A merged
-  /// cluster changes neither the mean yaw nor the sizes. A separated cluster restarts the sizes. The third
-  /// axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that are empty
-  /// or not upright are returned unchanged. O(points).
+  /// cluster changes neither the mean yaw nor the sizes. A separated cluster restarts the sizes.
+  ///
+  /// The third axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
+  /// are empty or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
 
  private:

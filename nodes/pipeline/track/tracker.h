@@ -22,8 +22,8 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// A track has a position and a velocity with their covariance (Kalman 1960). If sensor poses are given,
 /// position and velocity are in the fixed frame of these poses. Otherwise the tracker estimates the planar
-/// motion of the sensor (x, y, yaw) between frames from static boxes. If fewer than six boxes agree, it
-/// assumes that the sensor continues its last motion.
+/// motion of the sensor (x, y, yaw) between frames from static boxes. If too few boxes agree
+/// (EgoMotion::estimate()), the tracker assumes that the sensor continues its last motion.
 ///
 /// A box may belong to a track if the smallest displacement of its faces and its change of size are
 /// plausible. For a track whose position is well known, the displacement is at most about TrackConfig::gate.

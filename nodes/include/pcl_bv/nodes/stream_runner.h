@@ -35,10 +35,10 @@ QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
 struct RunnerConfig {
-  std::size_t queue = 1;  ///< Frames that may wait, at least 1.
+  std::size_t queue = 1;  ///< Maximum number of waiting frames; at least 1.
   QueuePolicy policy = QueuePolicy::automatic;
   double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: no limit.
-  double watchdog_s = 0;  ///< Report if no frame comes for this number of seconds. 0: never.
+  double watchdog_s = 0;  ///< Seconds without a frame after which `on_silence` is called. 0: never.
 };
 
 /// The complete configuration of a stream.
