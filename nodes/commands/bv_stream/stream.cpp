@@ -76,7 +76,7 @@ class Reader {
         print_warnings(source);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
-        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
+        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // advances the schedule
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
         runner_.report_unreadable({}, std::string("the source failed: ") + error.what());

@@ -26,8 +26,9 @@ struct FrameHeader {
 };
 
 /// Pose of the sensor. A point p in the sensor's frame is at pose * p in the fixed frame. Pose can be
-/// converted from and to Eigen::Isometry3d. Pose is unaligned, because the types of a library's interface
-/// must not depend on compiler options. The alignment of Eigen::Isometry3d depends on -mavx.
+/// converted from and to Eigen::Isometry3d. The alignment of Eigen::Isometry3d depends on the compiler option
+/// -mavx, but the types of a library's interface must not depend on compiler options. Therefore Pose is
+/// unaligned.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// A cloud of any point type with its header.

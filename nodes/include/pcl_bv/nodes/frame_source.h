@@ -83,7 +83,7 @@ struct ReplayOptions {
   /// the sensor.
   ///
   /// TUM files have lines `seconds x y z qx qy qz qw`. The pose of a frame is interpolated between the lines
-  /// before and after its stamp if these are at most 0.5 s apart. Otherwise the frame has no pose.
+  /// before and after its stamp if these two lines are at most 0.5 s apart. Otherwise the frame has no pose.
   std::filesystem::path poses{};
   std::string topic{};  ///< Topic of a recording. If empty: its only topic with clouds.
 };
