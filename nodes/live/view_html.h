@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud and its volumes as a self-contained HTML page.
+// Writes a cloud and its volumes as a self-contained HTML page.
 #pragma once
 
 #include <cstddef>

@@ -46,8 +46,9 @@ class PointFilter {
   /// Returns whether all finite points are kept.
   bool keeps_all() const;
 
-  /// Computes the verdict of each point in memory. For float32, the relative error of a distance is below
-  /// 2e-16, because the square of a float is exact in double and the sum of three squares is rounded twice.
+  /// Computes the verdict of each point. The points must be in memory. For float32, the relative error of a
+  /// distance is below 2e-16: the square of a float is exact in double, and only the two additions of the
+  /// three squares are rounded.
   void classify(const PointView& points, FilterScratch& scratch) const;
 
   /// Replaces `kept` by the numbers of the points that are kept, in the order of the view. Counts the dropped

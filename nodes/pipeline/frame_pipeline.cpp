@@ -93,8 +93,8 @@ struct FramePipeline::State {
   TrackedVolumes tracks;
 };
 
-// If a large cloud needs only the filter, it is filtered chunk by chunk whenever it is loaded. This holds for
-// clouds in memory and in files, so that both kinds give the same bits.
+// If a large cloud needs only the filter, the cloud is filtered chunk by chunk whenever its points are
+// loaded. Clouds in memory are treated like clouds in files, so that both kinds give the same bits.
 PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PointView& cloud = frame.points;
   result.passed_filter.clear();

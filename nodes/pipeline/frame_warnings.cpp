@@ -17,12 +17,12 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Smallest share of points beyond 100 m that gives a warning. A sensor on a motorway may have a tenth of its
-// points there without a problem.
+// Smallest share of points beyond 100 m that gives a warning. On a motorway, a tenth of the points may be
+// there without a problem.
 constexpr double kMinFarShare = 0.2;
 
-// Share of ground below which another up direction is searched. In streets, 30 % to 60 % of the points are
-// ground; in cluttered streets, 13 %.
+// With a smaller share of ground, another up direction is searched for. In streets, 30 % to 60 % of the
+// points are ground; in cluttered streets, 13 %.
 constexpr double kLittleGround = 0.15;
 
 struct Found {

@@ -9,7 +9,7 @@
 
 namespace pcl_bv::detail {
 
-/// Smallest number of points for which there are warnings about settings.
+/// Smallest number of points that can cause a warning about settings.
 inline constexpr std::size_t kFewPoints = 100;
 
 /// Returns the settings of split_ground() for one plane.

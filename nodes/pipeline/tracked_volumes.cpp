@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
 
-// Returns the axis-aligned box of a cluster for any requested volumes, because tracks must not depend on the
-// request.
+// Returns the axis-aligned box of a cluster, whichever volumes are requested, because tracks must not depend
+// on the requested volumes.
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
@@ -43,11 +43,12 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   }
 }
 
-// After a stamp that did not advance, the next difference of stamps is not trusted either.
+// After a stamp that did not advance, the next difference of stamps is not used either, if the recording
+// times advance.
 //
-// The sum of all steps must not overflow if a driver sometimes writes 0. Therefore steps are limited to two
-// seconds, and the start to half of the largest number. The limit of steps does not change tracks, because
-// the tracker treats all steps above one second in the same way.
+// The sum of all steps must not overflow if a driver sometimes writes 0. Therefore each step is limited to
+// two seconds, and the first time to half of the largest number. The limit of steps does not change tracks,
+// because the tracker treats all steps above one second in the same way.
 std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   const auto passed = [](std::int64_t from, std::int64_t to) {
     std::int64_t nanoseconds = 0;

@@ -13,8 +13,8 @@
 
 namespace pcl_bv::detail {
 
-/// The time of the tracks. It follows the stamps if they advance, otherwise the recording times. Some drivers
-/// write the same stamp into every message or set their clock back.
+/// The clock of the tracks. It follows the stamps if they advance, otherwise the recording times. Both cases
+/// occur, because some drivers write the same stamp into every message or set their clock back.
 class TrackClock {
  public:
   /// Returns the time of the next frame, nanoseconds. The time begins at the first stamp. It never decreases,
@@ -53,7 +53,8 @@ class TrackedVolumes {
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
   std::vector<const Method*> methods_;  // methods whose boxes `filters_` filters
-  std::vector<BoxFilter> filters_;      // filter of method m of track slot s: s * methods_.size() + m
+  // Element s * methods_.size() + m is the filter for method m of the track in slot s.
+  std::vector<BoxFilter> filters_;
 };
 
 }  // namespace pcl_bv::detail

@@ -95,8 +95,9 @@ class Middleware {
 
 /// Returns the module with this name. The first call for a name loads the module, which is never unloaded.
 ///
-/// - "dds": ROS 2 topics by Eclipse Cyclone DDS. docs/ros.md lists the environment variables that it uses.
-/// - "ws": WebSockets for the viewers of Foxglove and for our page (docs/live.md). It cannot receive
+/// - "dds": ROS 2 topics by Eclipse Cyclone DDS. docs/ros.md lists the environment variables that this module
+///   uses.
+/// - "ws": WebSockets for the viewers of Foxglove and for our page (docs/live.md). This module cannot receive
 ///   messages.
 ///
 /// The module is the file pcl_bv/pcl_bv_NAME.so in the library folder next to the program or next to this

@@ -14,7 +14,7 @@ class RemoteParameters {
  public:
   virtual ~RemoteParameters() = default;
 
-  /// Returns a JSON array with one object per setting; it never changes. Each object has "key", "kind"
+  /// Returns a JSON array with one object per setting. The array never changes. Each object has "key", "kind"
   /// (number, count, bool, choice or text), "unit" and "about". Some objects have more members:
   /// - "least" and "most": the allowed range; with "closed": false, "least" itself is not allowed;
   /// - "choices": the allowed values;

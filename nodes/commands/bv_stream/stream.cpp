@@ -76,7 +76,7 @@ class Reader {
         print_warnings(source);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
-        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // keeps the schedule
+        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // advances the schedule
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
         runner_.report_unreadable({}, std::string("the source failed: ") + error.what());
@@ -95,7 +95,8 @@ class Reader {
       report_problem(options_.source + ": " + warning);
   }
 
-  // Returns whether to continue. As it is called repeatedly, it also prints the periodic reports.
+  // Returns whether to continue reading. Also prints the periodic reports, because wanted() is called
+  // repeatedly.
   bool wanted() {
     if (options_.report_seconds > 0 && Seconds(Clock::now() - reported_).count() >= options_.report_seconds) {
       reported_ = Clock::now();
@@ -119,16 +120,18 @@ class Reader {
 
   bool paced() const { return options_.rate == Rate::fixed || options_.rate == Rate::recorded; }
 
-  // Waits until the frame is processed or the next one is due. If the next file were read meanwhile, reading
-  // would take a core and caches from the processing, as a live sensor does not.
+  // Waits until the frame is processed, but at most until the time `until` at which the next frame must be
+  // read. Reading the next file earlier would take a core and caches from the processing, unlike a live
+  // sensor.
   void leave_the_worker_alone(Clock::time_point until) {
     while (wanted() && Clock::now() < until &&
            !runner_.wait_idle(std::min(until, Clock::now() + kPollInterval)))
       ;
   }
 
-  // Returns when a frame is due. Stamps that go back add no time. The sum of the steps is limited, because a
-  // clock cannot count more than some centuries.
+  // Returns when a frame is due. Must be called once for each frame, because each call adds a step to the
+  // schedule. Stamps that go back add no time. The sum of the steps is limited, because a clock cannot count
+  // more than some centuries.
   Clock::time_point due(const Frame& frame) {
     step_ = 1 / options_.replay.rate_hz;
     if (options_.rate == Rate::recorded)
@@ -153,7 +156,7 @@ class Reader {
   double seconds_ = 0, step_ = 0;
 };
 
-// Prints the number of dropped frames and of frames without a pose. Errors have been printed before.
+// Prints the numbers of dropped frames and of frames without a pose. Each error has been printed before.
 void report_dropped_frames(const FrameTotals& frames, std::uint64_t without_pose) {
   const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
   const std::string all = " of " + std::to_string(frames.in) + " frames";
@@ -183,8 +186,8 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     last_note = frame.note;
     for (std::string& warning : warnings.take(frame, result))
       report_problem(named(frame, with_options(std::move(warning))));
-    // Warns when the range warning appears. Compares only its presence, because its numbers change from frame
-    // to frame.
+    // Report the range warning only if the frame before had none. The texts are not compared, because the
+    // numbers in them change from frame to frame.
     const std::string range = range_warning(result, range_from);
     if (!range.empty() && !out_of_range) report_problem(named(frame, range));
     out_of_range = !range.empty();
@@ -217,7 +220,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   config.policy = resolved_policy(config.policy, options.rate != Rate::max);
   FrameResult reserved;
   if (options.rate != Rate::max)
-    pipeline.reserve(points_of_a_sweep, reserved);  // useless at maximum rate: it would delay the first frame
+    pipeline.reserve(points_of_a_sweep, reserved);  // not at maximum rate: would delay the first frame
   StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config,
                       std::move(reserved));
   Reader reader(options, runner, sinks, interrupted);

@@ -88,7 +88,7 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   }
 }
 
-// Returns all files of a folder, with any names and in any order.
+// Returns the argument or, if it is a folder, all files in it that are not hidden, ordered by name.
 std::vector<Job> expand_partials(const std::string& argument) {
   if (!is_folder(argument)) return {{argument}};
   std::vector<Job> jobs;

@@ -22,7 +22,7 @@ class Tiles;
 /// One cloud to be processed.
 struct Job {
   std::string input;                   ///< A file, synth:NAME[:POINTS[:SEED]], or RECORDING#NUMBER.
-  std::optional<std::string> error{};  ///< Why nothing can be loaded: a folder without clouds.
+  std::optional<std::string> error{};  ///< Why nothing can be loaded, such as "no cloud in this recording".
   std::optional<std::filesystem::path> labels{}, mesh{}, image{}, view_html{};
   std::size_t bin_fields = 0;                   ///< Floats per point of .bin files, as in read_cloud().
   std::shared_ptr<RecordedClouds> recording{};  ///< Recording of cloud `number`; `input` is FILE#number.

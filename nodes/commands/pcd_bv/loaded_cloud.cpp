@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Generated clouds are always in memory.
-
 #include "loaded_cloud.h"
 
 #include "pcl_bv/points/point_source.h"

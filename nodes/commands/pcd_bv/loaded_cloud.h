@@ -13,9 +13,10 @@ namespace pcl_bv::detail {
 
 class LoadedCloud {
  public:
-  /// With `in_memory`, the threads of the execution read the cloud into memory. A tiled cloud is read into
-  /// memory only if it has at most kChunkPoints points. The origin, if requested, is subtracted from the
-  /// points of xyz(). Throws as load_cloud(), and TileError for a tiled cloud.
+  /// With `in_memory`, reads the cloud into memory. Generated and recorded clouds are always in memory. For a
+  /// tiled cloud, `in_memory` has no effect: such a cloud is in memory if it has at most kChunkPoints points.
+  /// The origin, if requested, is subtracted from the points of xyz(). Throws as load_cloud(), and TileError
+  /// for a tiled cloud.
   LoadedCloud(const Job& job, bool in_memory, const Execution& execution, const OriginOption& origin);
 
   /// Returns the cloud with fields, size and viewpoint. It has points only if the cloud is in memory.
@@ -26,7 +27,8 @@ class LoadedCloud {
   /// Returns the origin that was subtracted; nullopt if no origin was requested.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
-  /// Throws IoError if the cloud is not in memory and one of its files has been changed.
+  /// Throws IoError if a file of a tiled cloud, or the file of another cloud that is not in memory, has been
+  /// changed.
   void require_unchanged() const;
 
   /// Moves the cloud in memory to the caller. Must be the last access to the points.
@@ -41,7 +43,8 @@ class LoadedCloud {
   PointView xyz_;  // refers to the points in another member
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  std::vector<std::byte> points_before_shift_, points_;  // of tiles, and after the shift, if in memory
+  // Copies of a tiled cloud's points before the origin was subtracted, and of `xyz_`. Empty if not copied.
+  std::vector<std::byte> points_before_shift_, points_;
 };
 
 }  // namespace pcl_bv::detail

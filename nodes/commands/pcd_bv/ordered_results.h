@@ -33,14 +33,14 @@ struct Result {
 /// returns true. Otherwise returns false and leaves `text` unchanged.
 using WriteEarly = std::function<bool(std::string& text)>;
 
-/// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the result
-/// is a report of this error, unless the beginning of the report is already written. Results of other inputs
-/// are not affected.
+/// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the status
+/// is Status::failed or worse. The text is then a report of this error, or empty if the beginning of the
+/// report has already been written. Results of other inputs are not affected.
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
 /// As WriteEarly, but also prints the messages of the job.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& messages, std::string& text)>;
-/// Processes the job. Returns its result_of() with its messages.
+/// Processes the job. Returns result_of() of the job's outcome, with the messages of the job.
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
               const WriteJobEarly& write = {});
 
@@ -103,7 +103,7 @@ class OrderedResults {
   std::map<std::size_t, Result> waiting_;  ///< Results that wait for earlier ones.
   std::size_t next_ = 0, written_ = 0;
   bool stopped_ = false;
-  bool partly_written_ = false;  ///< The first part of report `written_` has been written.
+  bool partly_written_ = false;  ///< Whether the first part of report number `written_` has been written.
   Status status_ = Status::done;
   std::size_t failed_ = 0, points_ = 0;
   ReportWriter writer_;

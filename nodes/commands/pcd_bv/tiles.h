@@ -72,8 +72,8 @@ class Tiles final : public PointSource {
   void exclude(std::size_t tile, const std::string& reason);
 
   /// Returns share `number` of `shares` shares. The shares cover the cloud and have about the same number of
-  /// points. In a file that can be read by position, a share begins at a chunk. In another input, a share
-  /// begins only at the beginning of the input.
+  /// points. In a file that can be read by position, a share begins at the beginning of a chunk. In any other
+  /// input, a share can begin only at the beginning of the input.
   PointRange share(std::size_t number, std::size_t shares) const;
 
   /// Loads points. Throws TileError if an input cannot be read or has changed since it was first opened.

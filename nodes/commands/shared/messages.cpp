@@ -77,7 +77,7 @@ bool errors_go_to_a_terminal() {
 void show_status_line(std::string_view line) {
   const std::lock_guard lock(mutex);
   const std::string before = erasure();
-  // Some terminals begin a new line after the last column.
+  // The last column stays empty, because some terminals begin a new line after it.
   status_line = line.substr(0, terminal_width() - 1);
   write_error(before + status_line);
 }

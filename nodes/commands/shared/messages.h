@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages of all threads on standard error, which are whole lines and one status line.
+// Prints messages of all threads on standard error, as whole lines, and one status line.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ void name_command(std::string_view command);
 /// characters become question marks, so that a file name can neither break the line nor control a terminal.
 void print_message(std::string_view text);
 
-/// Prints a problem as print_message() does. While its thread has a DeferredMessages, stores the problem
-/// instead.
+/// Prints a problem as print_message() does. While the calling thread has a DeferredMessages object, stores
+/// the problem in that object instead.
 void report_problem(std::string_view problem);
 
 /// If `subfolders` is not 0, warns that the subfolders of a folder are not read.

@@ -32,7 +32,8 @@ auto parse_with(std::string_view option, const Text& text, Parse parse) {
   }
 }
 
-/// Parse a whole number, and the MIN:MAX of --range. Throw UsageError for any other text.
+/// Parse a whole number from `min` to `max`, and the text MIN:MAX of --range. Throw UsageError for any other
+/// text.
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
                                std::size_t max = std::numeric_limits<std::size_t>::max());
 std::pair<double, double> parse_range(std::string_view text);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A Cyclone DDS type whose samples are serialized CDR bytes, read and written without code generated from IDL
-// and without deserialization.
+// A Cyclone DDS type whose samples are serialized CDR bytes. It needs no code generated from IDL and no
+// deserialization.
 #pragma once
 
 #include <dds/dds.h>

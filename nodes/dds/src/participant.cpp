@@ -16,10 +16,10 @@ namespace pcl_bv::dds {
 using namespace detail;
 namespace {
 
-// The size of the socket buffer: with Linux's default of 212 kB, hundreds of clouds of some megabytes are
-// lost. The watermark of unacknowledged bytes in a writer: above it, the writer waits for its readers. A
-// stuck reader must not block the writer. With 256 MB, the writer stores the unacknowledged messages (five
-// per topic) and continues. With the default of 500 kB, it would wait.
+// The socket buffer has up to 8 MB. With Linux's default of 212 kB, hundreds of clouds of some megabytes are
+// lost. WhcHigh is the number of unacknowledged bytes above which a writer waits for its readers. A stuck
+// reader must not block the writer. With 256 MB, the writer stores the unacknowledged messages (five per
+// topic) and continues. With the default of 500 kB, the writer would wait.
 constexpr const char* kBufferConfig =
     "<Internal><SocketReceiveBufferSize "
     "max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
@@ -52,9 +52,11 @@ std::string peers_of(const std::string& text) {
   return peers;
 }
 
-// Returns Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. If peers
-// are given, discovery probes the ports of 32 participants of each peer, because the loopback interface
-// usually has no multicast.
+// Returns Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. The
+// peers are the addresses in ROS_STATIC_PEERS (not with the range SYSTEM_DEFAULT). If only the loopback
+// interface is used, 127.0.0.1 is a peer, too, because this interface usually has no multicast. Discovery
+// probes each peer at the ports of the participant indices 0 to 32. With the range OFF, there are no peers
+// and no multicast.
 std::string cyclone_config() {
   const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
@@ -114,7 +116,8 @@ void Participant::Log::note(void* log, const dds_log_data_t* data) {
   std::string_view text(data->message, data->size);
   while (text.ends_with('\n'))
     text.remove_suffix(1);
-  // Skip this message. It appears on nearly every machine, and discovery works without multicast on loopback.
+  // Skip this message, which appears on nearly every machine. Discovery on the loopback interface needs no
+  // multicast.
   if (text.find("\"lo\" is not multicast-capable") != std::string_view::npos) return;
   const std::lock_guard lock(self.mutex_);
   if (self.lines_.size() < 100) self.lines_.emplace_back(text);
@@ -152,7 +155,7 @@ Participant::Participant() {
 std::shared_ptr<Participant> Participant::shared() {
   static std::mutex mutex;
   static std::weak_ptr<Participant> existing;
-  const auto remove = [](const Participant* last) {  // not while another thread creates one
+  const auto remove = [](const Participant* last) {  // locked: another thread may be creating one
     const std::lock_guard lock(mutex);
     delete last;
   };

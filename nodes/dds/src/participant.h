@@ -14,7 +14,8 @@
 
 namespace pcl_bv::dds {
 
-/// Owns a DDS entity. Must be destroyed before the entities that it uses.
+/// Owns a DDS entity. A reader or writer must be destroyed before its topic, and every entity before its
+/// domain.
 class Entity {
  public:
   Entity() = default;

@@ -92,8 +92,7 @@ function packNormal(n) {
   return (byte(n[0]) | (byte(n[1]) << 8) | (byte(n[2]) << 16)) >>> 0;
 }
 
-// Packs red, green, blue and alpha (0..1) into a 32-bit word. Its bytes are in this
-// order, the lowest byte first.
+// Packs red, green, blue and alpha (0..1) into a 32-bit word. The lowest byte is red.
 export function packColour(rgb, alpha) {
   const byte = (part) => Math.round(255 * Math.min(1, Math.max(0, part)));
   return (byte(rgb[0]) | (byte(rgb[1]) << 8) | (byte(rgb[2]) << 16) | (byte(alpha) << 24)) >>> 0;

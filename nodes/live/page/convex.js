@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Computes the faces of the polytope of half-spaces n.p <= d. The face of a plane is a large square in this
-// plane, clipped by all other half-spaces. O(planes^2 * corners). 26 planes take about 0.1 ms. Points within
-// `tolerance` of a plane are treated as inside, so that flat polytopes (two coincident opposite planes) keep
-// both faces.
+// Computes the faces of the polytope of half-spaces n.p <= d. The face in a plane is computed from a large
+// square in this plane, which is clipped by all other half-spaces. O(planes^2 * corners). 26 planes take
+// about 0.1 ms. Points within `tolerance` of a plane are treated as inside, so that flat polytopes (two
+// coincident opposite planes) keep both faces.
 import { add, dot, norm, orthogonalTo, pointAlong, scale, sub } from "./vectors.js";
 
 // The clipping tolerance as a fraction of the radius.
@@ -50,8 +50,8 @@ function cut(corners, { n, d }, tolerance) {
   return clipped;
 }
 
-// Returns the centre and the circumradius of the parallelepiped of the first three linearly independent slabs
-// min <= direction.p <= max, or null if the directions do not span 3D space.
+// Returns the centre and the circumradius of a parallelepiped: the intersection of the first three linearly
+// independent slabs min <= direction.p <= max. Returns null if the directions do not span 3D space.
 export function boundOfSlabs(directions, min, max) {
   const chosen = [];
   for (let i = 0; i < directions.length && chosen.length < 3; ++i) {

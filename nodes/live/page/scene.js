@@ -24,7 +24,7 @@ export function speedOf(cluster) {
 }
 
 // Fills the batch with the volumes of a frame. Returns {cluster, colour, low, high, center, top} for each
-// cluster with a visible volume. `low`, `high` and `center` are the corners and the centre of the
+// cluster with a visible volume. `low` and `high` are the corners, and `center` is the centre, of the
 // axis-aligned box of the drawn lines. `top` is the point above the centre at the height of the highest line.
 export function buildVolumes(batch, report, view, origin, up) {
   batch.clear();

@@ -3,7 +3,7 @@
 
 // The panel of the pipeline's settings. The descriptions of the settings come from GET /settings, their
 // values from Foxglove's parameters. The server checks each value. When the server refuses a value, the
-// reason is shown beside the field, and the field shows the value in force.
+// reason is shown next to the field, and the field shows the value in force.
 import { byId, element } from "./elements.js";
 
 const UNSET = "null";

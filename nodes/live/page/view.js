@@ -74,7 +74,7 @@ export class View {
     else this.toggleHelp();
   }
 
-  // Enables the modes for which any frame so far has had data.
+  // Enables the modes for which some frame has had data.
   offer({ tracks, intensity }) {
     this.offered.track ||= tracks;
     this.offered.intensity ||= intensity;

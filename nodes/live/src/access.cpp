@@ -60,7 +60,7 @@ bool is_server_host(std::string_view header, const Address& server) {
 bool may_connect(std::string_view origin, std::string_view host_header) {
   if (origin.empty() || origin == "file://" || origin == "https://app.foxglove.dev") return true;
   const std::size_t scheme = origin.find("://");
-  if (scheme == std::string_view::npos) return false;  // "null", as of a sandboxed page
+  if (scheme == std::string_view::npos) return false;  // such as "null", the origin of a sandboxed page
   const std::string_view from = origin.substr(scheme + 3);
   return from == host_header || is_loopback_host(without_port(from));
 }

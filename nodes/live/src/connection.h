@@ -14,7 +14,7 @@ using namespace detail;
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  static constexpr int kMaxConnections = 64;  ///< Maximum number, without viewers.
+  static constexpr int kMaxConnections = 64;  ///< Maximum number of connections that are not viewers.
 
   Connection(boost::asio::ip::tcp::socket&& socket, Hub& hub, const Address& server, int& open);
   ~Connection();

@@ -20,7 +20,7 @@ namespace pcl_bv::live {
 using namespace detail;
 
 /// Returns the first name in a client's header Sec-WebSocket-Protocol that is foxglove.sdk.v1 or
-/// foxglove.websocket.v1, or nothing.
+/// foxglove.websocket.v1. Returns nullopt if there is none.
 std::optional<std::string> known_subprotocol(std::string_view offered);
 
 std::string server_info(const std::string& session);

@@ -37,9 +37,9 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   /// Queues a text that is never dropped. A client with kMaxQueuedAnswers unread texts is disconnected.
   void queue_text(const std::string& text);
 
-  /// Queues a message if the client has subscribed to its channel. If the queue would exceed
-  /// kMaxQueuedBytes, the messages in the queue are dropped first. The client is then not counted as a reader
-  /// until it reads again, so that no messages are produced for a client that hangs.
+  /// Queues a message if the client has subscribed to its channel. If the queue would exceed kMaxQueuedBytes,
+  /// the messages in the queue are dropped first, but not the texts. The client is then not counted as a
+  /// reader until it reads again. Otherwise messages would be produced for a client that hangs.
   void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
   void send_time(std::int64_t stamp_ns);
 

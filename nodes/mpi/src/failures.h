@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Failures of tiles. A failure is sent to all ranks before the next step, because they would otherwise wait
-// for the failed rank.
+// Failures of tiles. A failure is sent to all ranks before the next step. Otherwise the other ranks would
+// wait for the failed rank.
 #pragma once
 
 #include <cstddef>

@@ -47,8 +47,8 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-/// One attempt to fit the volumes to the tiles that are not left out. All ranks execute the same steps. A
-/// step that may fail returns the failure, which is the same on all ranks.
+/// One attempt to fit the volumes to the tiles that are not excluded. All ranks execute the same steps. A
+/// step that may fail returns the same failure on all ranks.
 class Attempt {
  public:
   Attempt(Ranks& ranks, const Tiles& tiles, const Options& options)
@@ -60,7 +60,7 @@ class Attempt {
   }
 
   Failure run();
-  Report report() const;  ///< Only on the first rank.
+  Report report() const;  ///< Must be called on the first rank only.
   std::size_t rounds() const { return rounds_; }
   /// CPU time of this rank without waiting for other ranks, seconds.
   double cpu_seconds() const { return cpu_seconds_; }
@@ -97,7 +97,9 @@ class Attempt {
   std::vector<const Method*> methods_;
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
-  PartialFile merged_;  // this rank's points; after merge(), all points (first rank; with --check, all)
+  // The partial result of this rank's points. After merge(), that of all points, but only on the first rank
+  // or, with --check, on all ranks.
+  PartialFile merged_;
   std::vector<Fitted<AnyVolume>> fitted_;
   std::vector<std::size_t> outside_;
   std::size_t rounds_ = 0;

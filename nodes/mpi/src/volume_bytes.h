@@ -11,8 +11,8 @@
 
 namespace pcl_bv::detail {
 
-/// Serializes a Sphere or an Obb with its exact bits. The methods that need all points and `sphere-exact`
-/// give these volumes. Throws std::invalid_argument for other volumes.
+/// Serializes a Sphere or an Obb with its exact bits. `sphere-exact` and the methods that need all points
+/// give only these two kinds of volumes. Throws std::invalid_argument for other volumes.
 std::string bytes_of(const Fitted<AnyVolume>& fitted);
 
 /// Inverse of bytes_of(), on a machine with the same memory layout.

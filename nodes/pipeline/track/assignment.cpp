@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Reserves more than needed, because the second pass over a sequence has more rows than the first and must
-// not allocate.
+// Reserves more than needed now. The second pass over a sequence must not allocate, but has more rows
+// (tracks) than the first.
 template <typename T>
 void refill(std::vector<T>& values, std::size_t count, T value) {
   if (values.capacity() < count) values.reserve(4 * count);

@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kVoteDecay = 0.9;          // decay of the votes for the front, per frame
-constexpr double kVoteLead = 2;             // lead in votes that makes another axis the front
-constexpr double kMovingDecay = 0.5;        // decay of the mean yaw per frame, if the object moves
-constexpr double kStaticDecay = 0.97;       // decay of the mean yaw per frame, if it is static
+constexpr double kVoteDecay = 0.9;          // per frame; decay of the votes for axis 0
+constexpr double kVoteLead = 2;             // lead in votes that makes another direction axis 0
+constexpr double kMovingDecay = 0.5;        // per frame; decay of the mean yaw of a moving object
+constexpr double kStaticDecay = 0.97;       // per frame; decay of the mean yaw of a static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 
@@ -141,7 +141,7 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
     const double more =
         grown_size(static_cast<std::size_t>(i), high[i] - low[i], state.merged) - (high[i] - low[i]);
     const double sensor = -axes.col(i).dot(box.center());
-    // If the sensor is inside the box, the box grows on both sides.
+    // If the sensor is between the two faces, the box grows on both sides.
     const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;
     high[i] += above * more;
     low[i] -= (1 - above) * more;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Filters the boxes of a track. The front axis stays the same. On request, yaw and sizes are smoothed.
+// Filters the boxes of a track. The axes keep their order and directions from frame to frame. On request, yaw
+// and sizes are smoothed.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,8 +34,9 @@ class BoxFilter {
   /// Returns the same box with its axes in the order and directions of the last box, compared in the fixed
   /// frame. Empty boxes are returned unchanged.
   ///
-  /// Axis 0 of a moving object turns to the direction of motion. Each frame votes for the axis nearest to the
-  /// velocity, and older votes decay. An axis with a lead of two votes becomes axis 0.
+  /// Axis 0 of a moving object turns to the direction of motion. Each frame votes for the axis direction (0,
+  /// 1, -0 or -1) nearest to the velocity, and older votes decay. A direction that leads axis 0 by more than
+  /// two votes becomes axis 0.
   Obb align_axes(const Obb& box, const BoxState& state);
 
   /// Returns a smoothed box around all points; `box` must come from align_axes().
@@ -42,10 +44,11 @@ class BoxFilter {
   /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
   /// so it does not matter which side of the object was measured as the longer one.
   ///
-  /// With `grow`, length and width approach the largest ones seen. After five detections they grow slowly,
-  /// because a cluster that contains two objects for one frame is also larger. The box is extended on the
-  /// side away from the sensor. A merged cluster changes neither the mean yaw nor the sizes. A separated
-  /// cluster restarts the sizes.
+  /// With `grow`, length and width approach the largest ones seen. In the first five detections, they grow
+  /// without a limit, later by at most 0.15 m per frame. The limit is needed because a cluster that contains
+  /// two objects in one frame is larger, too. The box is extended on the side away from the sensor. A merged
+  /// cluster changes neither the mean yaw nor the sizes. A separated cluster restarts the sizes.
+  ///
   /// The third axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
   /// are empty or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);

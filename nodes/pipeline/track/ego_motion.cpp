@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMaxShift = 4;      // metres per frame; 40 m/s at 10 Hz
 constexpr double kAgreement = 0.35;  // metres; centres of partial views jump by decimetres
-constexpr double kMaxSize = 6;       // metres; of longer boxes, such as walls, a varying part is visible
+constexpr double kMaxSize = 6;       // metres; longer boxes, such as walls, are only partly visible
 constexpr std::size_t kMinPairs = 6;
 constexpr double kBin = 0.5;
 constexpr int kBins = 17;  // 2 kMaxShift / kBin + 1
@@ -52,7 +52,8 @@ void EgoMotion::match(const std::vector<Aabb>& expected, const std::vector<Aabb>
   }
 }
 
-// Pairs nearest neighbours, then computes the rigid planar motion between them by least squares.
+// Pairs nearest neighbours, then computes the rigid planar motion that maps the expected boxes to their
+// neighbours, by least squares.
 std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
                               PlanarMotion& motion, double radius) {
   match(expected, seen, motion, radius);
@@ -76,7 +77,8 @@ std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vect
   return pairs_.size();
 }
 
-// Sets motion.shift to the shift that most pairs vote for, for the given motion.yaw.
+// Rotates the expected boxes by motion.yaw. Then sets motion.shift to the shift between boxes that occurs
+// most often.
 void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion) {
   const auto bin = [](int x, int y) {
     return std::size_t{kBins} * static_cast<std::size_t>(y) + static_cast<std::size_t>(x);

@@ -37,11 +37,11 @@ class EgoMotion {
   /// Finds the motion that maps the `expected` boxes to the measured boxes `seen`. All boxes are in the
   /// sensor's frame.
   ///
-  /// Starts from `guess` and alternates between nearest neighbours and least squares in ever smaller radii.
-  /// Only boxes shorter than 6 m are used and counted. If fewer than 40 % of the expected boxes find a
-  /// partner, the search also starts from the shifts that most pairs vote for, at five yaw angles. Returns
-  /// true and sets `motion` if at least six pairs and 30 % of the expected boxes agree to 0.35 m. Otherwise
-  /// returns false.
+  /// Starts from `guess` and alternates between pairing nearest neighbours, within ever smaller radii, and
+  /// least squares. Only expected boxes shorter than 6 m are used and counted. If fewer than 40 % of them get
+  /// a pair, the search is repeated for each of five yaw angles, starting from the shift that most pairs vote
+  /// for. Returns true and sets `motion` if it brings at least six expected boxes, and 30 % of them, to
+  /// within 0.35 m of a measured box. Otherwise returns false.
   bool estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& guess,
                 PlanarMotion& motion);
 

@@ -18,9 +18,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// static, one face of its box stays in place, or the box jumps back and forth.
 class MotionClassifier {
  public:
-  /// Adds a measurement, `seconds` after the last one. The parameters are the centre of the box in the fixed
-  /// frame, half its size along the sensor's axes, and the `rotation` from the sensor's axes to the fixed
-  /// frame. Metres.
+  /// Adds a measurement, `seconds` after the last one. `centre` is the centre of the box in the fixed frame.
+  /// `half` is half the size of the box along the sensor's axes. Lengths are in metres. `rotation` maps
+  /// vectors along the sensor's axes to the fixed frame.
   void add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& rotation,
            double seconds);
 

@@ -25,8 +25,9 @@ struct AxisFilter {
     velocity_variance += seconds * density;
   }
 
-  /// Updates the state by a measurement with this variance. The position variance uses the Joseph form, a sum
-  /// of squares, which rounding cannot make negative.
+  /// Updates the state by a measurement with this variance. `innovation` is the measured minus the predicted
+  /// position. The position variance is computed in the Joseph form, a sum of squares, which rounding cannot
+  /// make negative.
   void correct(double innovation, double variance) {
     const double all = position_variance + variance;
     const double position_gain = position_variance / all, velocity_gain = covariance / all,
@@ -43,8 +44,8 @@ struct AxisFilter {
         std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / position_variance + 1e-12);
   }
 
-  /// Initialises the state by the second of two measurements. Both have this variance and are `seconds`
-  /// apart. No prior is used.
+  /// Initialises the state by the second of two measurements. Both measurements have this variance, and they
+  /// are `seconds` apart. Uses no prior.
   void start(double innovation, double variance, double seconds) {
     position += innovation;
     velocity += innovation / seconds;

@@ -21,8 +21,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct BoxDifference {
   Eigen::Vector3d centre, size;
-  /// The smaller displacement of the two opposite faces; 0 if they move apart or towards each other. If a
-  /// part comes into or goes out of view, only one face moves, so the shift is 0.
+  /// The smaller displacement of the two opposite faces; 0 if the faces move apart or towards each other. If
+  /// a part of the object comes into or goes out of view, only one face moves, so the shift is 0.
   Eigen::Vector3d shift;
 };
 
@@ -46,9 +46,9 @@ struct Track {
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
   void expect(const Pose& sensor);
-  /// Returns the expected box in the sensor's frame. An object that is not known to move is assumed to be
-  /// static. Otherwise an error of the estimated sensor velocity would pass into the velocities of static
-  /// tracks and stay there.
+  /// Returns the box, in the sensor's frame, that EgoMotion expects. A moving object is at its predicted
+  /// position, any other object at its previous position. If static objects were at their predicted
+  /// positions, an error of the estimated sensor velocity would pass into their velocities and stay there.
   Aabb static_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
   BoxDifference difference_to(const Aabb& box) const;

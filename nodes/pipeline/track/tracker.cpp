@@ -18,7 +18,7 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double kGateCost = 16;                   // four standard deviations, squared
-constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
+constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that are counted as one missed frame
 constexpr std::size_t kSplitDetections = 5;        // detections of a track that prove a split
 
 bool contains_point(const Aabb& box, const Eigen::Vector3d& position) {
@@ -52,8 +52,9 @@ struct Tracker::State {
   std::vector<Track> tracks;
   std::vector<std::size_t> free;
   std::vector<char> track_taken, box_taken;
-  std::vector<Aabb> expected;  // static_box() of the tracks that were not missed, for the ego motion
-  // For each measured box, expected_box() of its assigned track before correct(). Empty without a track.
+  std::vector<Aabb> expected;  // for `ego`: static_box() of the tracks detected in the last frame
+  // For each measured box: expected_box() of its assigned track before correct(); an empty box if it has no
+  // track.
   std::vector<Aabb> predicted;
   std::vector<AssignmentPair> pairs;
   BoxGrid grid;
@@ -144,8 +145,9 @@ void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes
   }
 }
 
-// Counts missed frames. A track whose expected centre is inside the box of another track is probably part of
-// that box. It keeps its id, and continues when the objects separate.
+// Counts missed frames. A track whose expected centre is inside the box of another track is occluded: its
+// object is probably part of that box. Such a track is deleted later than others, so that it continues when
+// the objects separate.
 void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
@@ -221,8 +223,8 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.started = true;
   s.last_stamp_ns = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
-  // Reserves capacity for tracks that stay active while new ones start. The second pass over a sequence has
-  // more tracks than the first, and must not allocate.
+  // Reserves capacity for tracks that stay active while new ones start. The second pass over a sequence must
+  // not allocate, but has more tracks than the first.
   if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
   s.track_taken.reserve(s.tracks.capacity());
   s.free.reserve(s.tracks.capacity());

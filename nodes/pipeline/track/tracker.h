@@ -22,16 +22,16 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// A track has a position and a velocity with their covariance (Kalman 1960). If sensor poses are given,
 /// position and velocity are in the fixed frame of these poses. Otherwise the tracker estimates the planar
-/// motion of the sensor (x, y, yaw) between frames from static boxes. If fewer than six boxes agree, it
-/// assumes that the sensor continues its last motion.
+/// motion of the sensor (x, y, yaw) between frames from static boxes. If too few boxes agree
+/// (EgoMotion::estimate()), the tracker assumes that the sensor continues its last motion.
 ///
 /// A box may belong to a track if the smallest displacement of its faces and its change of size are
 /// plausible. For a track whose position is well known, the displacement is at most about TrackConfig::gate.
 /// All boxes are assigned jointly at minimum total cost (Kuhn 1955).
 ///
-/// A track gets its id at its detection number TrackConfig::birth. It is deleted after TrackConfig::death
-/// frames without a detection, and keeps its id if it is detected again before. A frame in which the track is
-/// occluded (its expected centre is inside the box of another object) is counted as a quarter of a frame.
+/// A track gets its id when it has TrackConfig::birth detections. It is deleted after TrackConfig::death
+/// frames in a row without a detection. A frame in which the track is occluded (its expected centre is inside
+/// the box of another object) is counted as a quarter of a frame.
 class Tracker {
  public:
   /// The track to which a box is assigned.
@@ -45,8 +45,9 @@ class Tracker {
     /// The box probably contains several objects, because the expected centre of another track is inside it.
     /// That track has an id but no box in this frame.
     bool merged = false;
-    /// Earlier boxes of this track contained two objects. Set in one frame only, when another track that
-    /// split off from this track has had five detections since the split or since its last occlusion.
+    /// A split of this track is confirmed in this frame: earlier boxes of this track contained two objects. A
+    /// split begins when the centre of a new track's first box is inside the expected box of this track. It
+    /// is confirmed when the new track has had five detections since its start or its last occlusion.
     bool separated = false;
   };
 
@@ -57,13 +58,13 @@ class Tracker {
 
   /// Assigns a track to each box and replaces `assignments` by one entry per box. `boxes` are in the sensor's
   /// frame, metres, measured at `stamp_ns`. If the time does not advance, or advances by more than a second,
-  /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. Computes
-  /// O(n log n) steps, and a cost for each pair of a track and a box near it (BoxGrid with sides of three
-  /// gates).
+  /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. Takes
+  /// O(n log n) time, plus the time of the assignment. Computes one cost for each pair of a track and a box
+  /// near it (BoxGrid with sides of three gates).
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
 
-  /// Returns the pose of the sensor at the last update, which was given or estimated.
+  /// Returns the pose of the sensor at the last update: the given pose or, without one, the estimated pose.
   const Pose& sensor() const;
 
   /// Deletes all tracks. The ids of deleted tracks are not reused.

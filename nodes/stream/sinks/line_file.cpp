@@ -35,8 +35,7 @@ LineFile::~LineFile() {
   if (!created_.empty()) ::unlink(created_.c_str());
 }
 
-// Empties a regular file. Other files, such as pipes, keep their content, because ftruncate() fails with
-// EINVAL.
+// Empties a regular file. For other files, such as pipes, ftruncate() fails with EINVAL, which is ignored.
 void LineFile::begin() {
   if (std::exchange(begun_, true) || descriptor_ == STDOUT_FILENO) return;
   if (::ftruncate(descriptor_, 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));

@@ -24,8 +24,8 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Appends `text` and `tail`, and overwrites the tail of the previous call of write(). Throws IoError, and
-  /// ClosedPipe if SIGPIPE is ignored.
+  /// Appends `text` and `tail`. If the previous call of write() had a tail, overwrites that tail. Throws
+  /// IoError, and ClosedPipe if SIGPIPE is ignored.
   void write(std::string text, std::string_view tail = {});
 
   /// Closes the file. Throws IoError if the system only now reports an error of writing.
@@ -36,7 +36,8 @@ class LineFile {
 
   int descriptor_;
   off_t tail_ = 0;
-  std::filesystem::path created_;  // file that this object created, until it is written; removed at the end
+  // The file, if this object created it and has not written it yet. The destructor then removes the file.
+  std::filesystem::path created_;
   bool begun_ = false;
 };
 

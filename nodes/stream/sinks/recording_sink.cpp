@@ -13,8 +13,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// The QoS that rosbag2 stores for a topic. It is reliable, with the last ten messages and none for late
-// subscribers.
+// The QoS that rosbag2 stores for a topic. It is reliable, has a history of the last 10 messages, and is
+// volatile: late subscribers get no old messages.
 constexpr const char* kQos =
     "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n  deadline:\n    sec: 9223372036\n    "
     "nsec: "

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each call of the function runs in its own detached thread, so that the source never has to wait for its
-// end.
+// Each call of the function runs in its own detached thread, so that the source never has to wait for the end
+// of a call.
 
 #include <future>
 #include <thread>

@@ -22,7 +22,7 @@ enum class TimeKind : std::uint8_t {
 inline constexpr TimeKind kTimeKinds[]{TimeKind::epoch, TimeKind::date, TimeKind::time_of_day,
                                        TimeKind::decimal};
 
-/// A time in a name. What its fraction means depends on the other names of the folder.
+/// A time in a name. The meaning of its fraction depends on the other names of the folder.
 struct ParsedTime {
   TimeKind kind = TimeKind::epoch;
   std::int64_t seconds = 0;
@@ -40,7 +40,7 @@ std::int64_t stamp_of(const ParsedTime& time);
 /// The stamps of all names of a folder, read in one format.
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
-  bool sort = false;                 ///< Whether to sort by time, because names are in another order.
+  bool sort = false;                 ///< Whether the files must be sorted by time, not by name.
   std::string warning{};             ///< Warning that the times do not ascend; usually empty.
 };
 

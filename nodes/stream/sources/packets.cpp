@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Frames of a sensor's packets, one frame for each revolution.
+// A source of frames from a sensor's packets, one frame for each revolution.
 
 #include <cmath>
 

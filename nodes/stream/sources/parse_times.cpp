@@ -63,8 +63,9 @@ std::int64_t whole(std::string_view digits) {
   return read_whole_text(digits, value) ? value : -1;
 }
 
-// Reads hours, minutes and seconds, and a fraction. The first three follow each other directly or are
-// separated by the same character. Returns the seconds of the day, or -1 if there is no time.
+// Reads hours, minutes, seconds and, if there is one, a fraction. With `apart`, hours, minutes and seconds
+// are separated by the same character (12-59-59), otherwise by nothing. Returns the seconds of the day, or -1
+// if there is no time.
 std::int64_t take_clock(NameReader& name, bool apart, ParsedTime& time) {
   const int hours = name.number(2, apart);
   const char between = name.here();

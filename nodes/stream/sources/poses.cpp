@@ -41,7 +41,7 @@ Pose pose_of(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translat
   return pose;
 }
 
-// Returns the pose, or nullopt if the numbers are no rotation within the precision of files.
+// Returns the pose, or nullopt if the first three columns are not a rotation to within 1e-3.
 std::optional<Pose> pose_of_rows(const Numbers& rows) {
   Eigen::Matrix<double, 3, 4> m;
   for (std::size_t i = 0; i < 12; ++i)
@@ -66,8 +66,8 @@ std::string text_of(const std::filesystem::path& file) {
   }
 }
 
-// Returns the transform from the sensor to the camera that has KITTI's poses, or nullopt without a usable
-// calib.txt.
+// Returns the transform from the sensor to the left camera, whose poses KITTI's files contain. Returns
+// nullopt if there is no calib.txt with a line "Tr:".
 std::optional<Pose> camera_from_calibration(const std::filesystem::path& poses) {
   const std::filesystem::path file = poses.parent_path() / "calib.txt";
   std::error_code unknown;
@@ -119,7 +119,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
 
 std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (poses_.empty()) return std::nullopt;
-  if (!by_stamp_) {  // a recording can have more clouds than in its index
+  if (!by_stamp_) {  // a recording can have more clouds than its index tells
     return number < poses_.size() ? std::optional(poses_[number].second) : std::nullopt;
   }
   const auto after =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Frames of the clouds in a recording.
+// A source of the clouds in a recording.
 
 #include <cmath>
 

@@ -35,8 +35,8 @@ std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   return list;
 }
 
-// Returns a list of topics with their types, such as "/points (livox_ros_driver2/msg/CustomMsg)". Users need
-// the type to convert the messages.
+// Returns a list of the topics with their types, such as "/points (livox_ros_driver2/msg/CustomMsg)". Users
+// need the type to convert the messages.
 std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
   std::string list;
   for (const RecordedTopic& topic : topics) {
@@ -97,8 +97,8 @@ void check_recording_content(const std::filesystem::path& file) {
       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
 }
 
-// Number of skipped clouds that are stored. If several threads load clouds in order, some clouds are loaded
-// late.
+// Number of skipped clouds that are stored. Several threads that together load the clouds in order ask for
+// some clouds late. These are then still stored.
 constexpr std::size_t kMaxSkipped = 16;
 
 struct RecordedClouds::State {
@@ -131,8 +131,8 @@ struct RecordedClouds::State {
     return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
   }
 
-  // Converts the cloud that take() has read. Counts the cloud, also if the conversion throws. Which clouds
-  // get a note does not depend on the order of loading.
+  // Converts the cloud that take() has read. Counts the cloud, also if the conversion throws. Stores the
+  // cloud's note if it differs from the note of the cloud converted before.
   RawCloud noted_cloud() {
     const std::size_t number = next++;
     RawCloud made = cloud();

@@ -20,9 +20,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// Returns the index of the topic with this name. If `name` is empty, returns that of the only topic with
 /// clouds (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding).
 ///
-/// Throws std::invalid_argument with a list of the topics with clouds if the named topic does not exist or
-/// has no clouds, or if no name is given and several topics have clouds. Throws IoError if no name is given
-/// and no topic has clouds.
+/// Throws std::invalid_argument if the named topic does not exist or has no clouds, or if `name` is empty and
+/// several topics have clouds. The message lists the topics that have clouds. Throws IoError if `name` is
+/// empty and no topic has clouds.
 std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name);
 
 /// Returns whether the file's first bytes are those of a recording (open_recording()) or of a capture of a
@@ -50,8 +50,8 @@ class RecordedClouds {
   /// Throws IoError if there is no cloud with this number, and MessageError if the message is not a cloud.
   RawCloud load(std::size_t number);
 
-  /// Returns the note of a loaded cloud. Returns an empty text if the cloud before it has the same note, as
-  /// most clouds of a driver do.
+  /// Returns the note of a loaded cloud. Returns an empty text if the cloud read before it had the same note,
+  /// as most clouds of a driver do.
   std::string new_note(std::size_t number) const;
 
   /// Returns a line for each damage of the file that has been found so far.
@@ -65,10 +65,11 @@ class RecordedClouds {
   std::unique_ptr<State> state_;
 };
 
-/// Returns the warnings after the first `taken` ones, and counts them in `taken`.
+/// Returns the warnings after the first `taken` ones, and adds their number to `taken`.
 std::vector<std::string> take_new(const std::vector<std::string>& warnings, std::size_t& taken);
 
-/// Returns a source of the sweeps in a capture of packets. Throws IoError with the name of the file.
+/// Returns a source of the sweeps in a capture of packets. Throws as VelodyneReader; the text of an IoError
+/// begins with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
 }  // namespace detail

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Frames that can be loaded again by their index.
+// A source of frames that can be loaded again by their index.
 
 #include <algorithm>
 #include <chrono>

@@ -23,8 +23,8 @@ class Poses {
   /// `frames` poses or if `frames` is nullopt.
   Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
 
-  /// Returns the pose of a frame, depending on the file by its number or by its stamp. Returns nullopt if the
-  /// file has no pose for it.
+  /// Returns the pose of the frame with this number (KITTI) or this stamp (TUM), depending on the format of
+  /// the file. Returns nullopt if the file has no such pose.
   std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
 
  private:
@@ -33,8 +33,8 @@ class Poses {
 };
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
-/// empty. `load` sets the cloud number `index` and its owner in the frame, and throws an exception if that is
-/// impossible. `times` are the stamps if options.own_stamps is set.
+/// empty. `load` puts cloud number `index` and the owner of its points into the frame, or throws an
+/// exception. `times` are the stamps if options.own_stamps is set.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
                                          std::function<void(std::size_t index, Frame&)> load,
@@ -48,9 +48,9 @@ std::vector<SourceKind> recording_kinds();
 /// Returns whether the file has the extension of a recording or capture: .bag, .mcap, .db3, .pcap, .pcapng.
 bool has_recording_extension(const std::filesystem::path& file);
 
-/// Throws IoError if the file has the extension of a recording or capture (has_recording_extension())
-/// but does not begin with the bytes of one, or if such a file is missing or empty. Does nothing for other
-/// extensions.
+/// Checks a file with the extension of a recording or capture (has_recording_extension()). Throws IoError if
+/// the file is missing, is empty, or does not begin as a recording or capture. Does nothing for other
+/// extensions and for folders.
 void check_recording_content(const std::filesystem::path& file);
 
 }  // namespace pcl_bv::detail

@@ -27,8 +27,7 @@ std::vector<std::int64_t> decimal_stamps(const Times& times) {
   return stamps;
 }
 
-// Reads fractions as whole milli-, micro- or nanoseconds. The longest fraction decides which of these units
-// it is.
+// Reads fractions as whole milli-, micro- or nanoseconds. The longest fraction decides the unit.
 std::vector<std::int64_t> unpadded_stamps(Times times) {
   std::size_t longest = 0;
   for (const ParsedTime& time : times)
@@ -39,8 +38,8 @@ std::vector<std::int64_t> unpadded_stamps(Times times) {
   return decimal_stamps(times);
 }
 
-// Returns the longest time step divided by the median step. It is small for sensors, because their steps are
-// even.
+// Returns the longest time step divided by the median step. The ratio is near 1 for sensors, because their
+// steps are even.
 double unevenness(std::vector<std::int64_t> stamps) {
   std::sort(stamps.begin(), stamps.end());
   std::vector<std::int64_t> steps;
@@ -50,9 +49,10 @@ double unevenness(std::vector<std::int64_t> stamps) {
   return static_cast<double>(steps.back()) / std::max(1.0, static_cast<double>(steps[steps.size() / 2]));
 }
 
-// Returns whether fractions are whole numbers without leading zeros. A fraction that begins with a zero is
-// padded, so the answer is no. A fraction that ends with a zero is not a decimal without trailing zeros, so
-// the answer is yes. Without such zeros, the reading with more even steps is chosen.
+// Returns whether fractions are whole numbers without leading zeros, not decimals. Returns false if all
+// fractions have the same length or if one has more than 9 digits. Returns false, too, if a fraction begins
+// with a zero, because such whole numbers do not. Returns true if a fraction ends with a zero, because
+// decimals of different lengths have no trailing zeros. Otherwise chooses the reading with more even steps.
 bool are_unpadded(const Times& times) {
   const auto any = [&](auto holds) { return std::any_of(times.begin(), times.end(), holds); };
   const std::size_t size = times.front().fraction.size();

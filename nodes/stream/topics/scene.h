@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results as scenes for recordings and viewers.
+// Converts results to scenes for recordings and viewers.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Returns a frame that shares the cloud; nothing is copied. PCL's stamp in microseconds becomes nanoseconds.
-/// Frame::sensor is the cloud's sensor_origin_ (VIEWPOINT of a .pcd file) unless that is 0. Throws
+/// Frame::sensor is stored_sensor_position() of the cloud's sensor_origin_ (VIEWPOINT of a .pcd file). Throws
 /// std::invalid_argument if `cloud` is null.
 template <typename PointT>
 Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {

@@ -26,9 +26,9 @@ struct FrameHeader {
 };
 
 /// Pose of the sensor. A point p in the sensor's frame is at pose * p in the fixed frame. Pose can be
-/// converted from and to Eigen::Isometry3d. It is unaligned because the alignment of Eigen::Isometry3d
-/// depends on the compiler option -mavx. The types of a library's interface must not depend on compiler
-/// options.
+/// converted from and to Eigen::Isometry3d. The alignment of Eigen::Isometry3d depends on the compiler option
+/// -mavx, but the types of a library's interface must not depend on compiler options. Therefore Pose is
+/// unaligned.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// A cloud of any point type with its header.
@@ -36,7 +36,7 @@ struct Frame {
   FrameHeader header;
   PointView points;
 
-  /// Keeps the memory of `points` alive. It may be null only if the points are used during a call and not
+  /// Keeps the memory of `points` alive. May be null only if the points are used during a call and not
   /// afterwards, as in FramePipeline::process(). StreamRunner::push() rejects points without an owner.
   std::shared_ptr<const void> owner;
 
@@ -49,8 +49,8 @@ struct Frame {
   /// the source has no intensities.
   std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Pose of the sensor in a fixed frame, if known.
-  /// Sensor position in the frame of the points, metres. Set if the source gives it, for example as VIEWPOINT
-  /// of a .pcd file.
+  /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
+  /// VIEWPOINT of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
   /// Time of recording or sending, nanoseconds of the clock of the recording or sending machine. 0: unknown.
   /// Tracking uses it if the stamps do not advance.

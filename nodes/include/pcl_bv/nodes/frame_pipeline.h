@@ -15,9 +15,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Processes frames of any point type: filter, ground removal, clustering, volume fitting and tracking.
 ///
-/// All stages work on lists of indices into the frame's cloud. The results do not depend on the instruction
-/// set or the number of threads. FramePipeline reuses its memory. A second pass over the same sequence
-/// allocates nothing with the methods aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw.
+/// The stages pass lists of indices into the frame's cloud to each other, not copies of points. Exception: a
+/// large cloud that is only filtered has no lists (FrameResult::filtered). The results do not depend on the
+/// instruction set or the number of threads. FramePipeline reuses its memory. A second pass over the same
+/// sequence allocates nothing with the methods aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw.
 class FramePipeline {
  public:
   /// Throws std::invalid_argument if PipelineConfig::validate() returns any lines; its message has all of
@@ -35,8 +36,8 @@ class FramePipeline {
 
   /// Processes one frame and replaces `result`. If tracking is enabled, frames must come in the order of
   /// their stamps. A frame without a valid point gives no clusters, or one empty cluster if cluster.tolerance
-  /// is 0. `result.counts` holds the number of dropped points by reason. Two threads must not call process()
-  /// at the same time.
+  /// is 0 and cluster.min_size is 0 or not set. `result.counts` holds the number of dropped points by reason.
+  /// Two threads must not call process() at the same time.
   ///
   /// Throws std::length_error if index lists are needed for more than 2^31 - 1 points. Throws
   /// std::invalid_argument if ground removal or clustering is enabled and the points come from a PointSource.
@@ -44,8 +45,8 @@ class FramePipeline {
   void process(const Frame& frame, FrameResult& result);
 
   /// Allocates the memory for frames of `points` points. Otherwise the first frame would take several times
-  /// as long as the next ones, because first-time allocation is slow. Processes a synthetic sweep twice, so
-  /// call reserve() before the sensor's first frame. Deletes all tracks. Only the capacity of `result` is
+  /// as long as the next ones, because first-time allocation is slow. Processes a synthetic sweep twice and
+  /// deletes all tracks, so call reserve() before the sensor's first frame. Only the capacity of `result` is
   /// meaningful afterwards.
   void reserve(std::size_t points, FrameResult& result);
 

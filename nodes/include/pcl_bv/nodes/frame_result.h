@@ -26,7 +26,7 @@ namespace detail {
 struct Picture;
 }
 
-/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. A histogram with logarithmic bins, each 1 %
+/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. The durations are counted in bins, each 1 %
 /// longer than the bin before. Never allocates.
 class LatencyHistogram {
  public:
@@ -37,8 +37,9 @@ class LatencyHistogram {
   std::uint64_t count() const { return count_; }
   double max() const { return max_; }  ///< Longest duration, milliseconds; 0 if empty.
 
-  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed. It is the
-  /// nearest rank, at most 1 % above the exact value. Returns 0 if the histogram is empty.
+  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed. It is
+  /// computed by the nearest-rank method and is at most 1 % above the exact value. Returns 0 if the histogram
+  /// is empty.
   double percentile(double share) const;
 
  private:
@@ -55,10 +56,11 @@ struct StageTimes {
 
 /// Source of the time step between a tracked frame and the frame before.
 enum class TrackTime : std::uint8_t {
-  /// The stamps, which advanced. Directly after a frame with `recorded`, Frame::recorded_ns is still used.
+  /// The step is the difference of the stamps, which advanced. Directly after a frame with `recorded`, the
+  /// step is that of Frame::recorded_ns once more, because the earlier stamp is not trusted.
   stamps,
-  recorded,  ///< Frame::recorded_ns, because the stamp did not advance.
-  none       ///< Neither of them advanced. Tracks are expected at their last positions.
+  recorded,  ///< The step is that of Frame::recorded_ns, because the stamp did not advance.
+  none  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.
 };
 
 /// Everything found in one frame. A reused object keeps its capacity. Indices are those of the frame's cloud.
@@ -78,9 +80,9 @@ struct FrameResult {
   /// 4. the origin, if the points lie around it;
   /// 5. the densest part of the cloud (find_sensor()).
   SensorPosition sensor;
-  /// Whether the points lie around the origin. filter.range_max and cluster.tolerance_per_metre are measured
-  /// from the origin. Always true if neither is set and the ground method is not zones. Also always true for
-  /// points that are not in memory.
+  /// Whether the points lie around the origin, from which filter.range_max and cluster.tolerance_per_metre
+  /// are measured. Always true if neither setting is used and the ground method is not zones. Also always
+  /// true for points that are not in memory.
   bool around_origin = true;
   /// The clusters, largest first. Without clustering, all remaining points are one cluster, which may have no
   /// index list. Therefore read the points of clusters by points_of().
@@ -93,7 +95,7 @@ struct FrameResult {
   /// Track of each cluster; nullopt until the track has its id. Empty without tracking.
   std::vector<std::optional<TrackEntry>> tracks;
 
-  /// Requested methods in order (the union over all classes).
+  /// The requested methods of all classes, in the order of PipelineConfig::methods().
   std::vector<const Method*> methods;
   std::vector<AnyVolume> volumes;  ///< For each cluster, one volume per entry of `methods`.
   /// For each volume: whether the cluster's class requests it (0 or 1). Volumes that are not requested are
@@ -113,7 +115,7 @@ struct FrameResult {
   }
 
   /// Return the points that passed the filter, and the points of a cluster. They may contain invalid points.
-  /// `cloud` is the points of the frame. The views refer to `cloud` and to the lists of this object.
+  /// `cloud` must be Frame::points of the frame. The views refer to `cloud` and to the lists of this object.
   PointView points_after_filter(const PointView& cloud) const;
   PointView points_of(std::size_t cluster, const PointView& cloud) const;
 };
@@ -140,7 +142,7 @@ std::string track_warning(const FrameResult& result);
 std::vector<ClusterEntry> cluster_entries(const FrameResult& result);
 
 /// Returns the entries of cluster_entries() one by one, so that a million entries are never in memory
-/// together. Refers to `result`.
+/// together. The returned object refers to `result`.
 ClusterSource cluster_source(const FrameResult& result);
 
 /// Returns the report of a frame with its clusters.
@@ -152,8 +154,8 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
 /// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, it shows the
 /// points that passed the filter in the colours of `labels` (from labels_of()) and the id of each cluster.
-/// Without clustering, it shows the points that passed the filter and are not ground. Refers to `frame`,
-/// `result` and `labels`.
+/// Without clustering, it shows the points that passed the filter and are not ground. The picture refers to
+/// `frame`, `result` and `labels`.
 detail::Picture picture_of(const Frame& frame, const FrameResult& result,
                            const std::vector<std::uint32_t>& labels);
 
@@ -169,8 +171,8 @@ class FrameWarnings {
   /// warning is returned once per configuration. `frame` is the frame of `result`; its points must be in
   /// memory if ground was removed.
   ///
-  /// O(1), except for the search for another up direction, which takes milliseconds. It happens at most once
-  /// for a frame without ground and once for a frame with little ground.
+  /// O(1), except for the search for another up direction, which takes milliseconds. Per configuration, there
+  /// is at most one search for a frame without ground and one for a frame with little ground.
   std::vector<std::string> take(const Frame& frame, const FrameResult& result);
 
  private:

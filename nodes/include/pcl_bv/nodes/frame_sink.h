@@ -51,7 +51,7 @@ class FrameSink {
   /// Offers settings that the readers of the results may see and change. Called before the first frame.
   virtual void offer_settings(const std::shared_ptr<detail::RemoteParameters>& /*settings*/) {}
 
-  /// Returns the warnings since the last call of take_warnings(), one line each. They affect no frame.
+  /// Returns the warnings since the last call of take_warnings(), one line each. Warnings are not failures.
   virtual std::vector<std::string> take_warnings() { return {}; }
 
   /// Ends the output; nothing is written afterwards. Throws IoError if not everything could be written.
@@ -67,7 +67,7 @@ struct SinkKind {
   /// Extension of the files if `target` is a folder with a file per frame; otherwise empty.
   std::string_view files;
   std::unique_ptr<FrameSink> (*open)(const SinkOptions&);
-  bool live = false;  ///< Whether it sends to listeners, so that the target is not a file.
+  bool live = false;  ///< Whether the sink sends to listeners. Its target is then not a file.
 };
 
 /// Returns the table of sinks: jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
@@ -90,10 +90,10 @@ SinkOptions parse_sink(const std::string& description);
 
 /// Opens a sink.
 ///
-/// A file or recording is created if it does not exist. The first frame or close() empties an existing one. A
-/// folder is created if it does not exist. After each frame, jsonl and csv files hold whole lines; if the
-/// disk is full, the last line may be cut. After each frame, frames.pvd (vtp) lists the frame. Files of
-/// single frames (vtp, image, labels) are named by FrameHeader::number.
+/// Files, recordings and folders are created if they do not exist. The first frame or close() empties an
+/// existing file or recording. After each frame, jsonl and csv files hold whole lines, and frames.pvd (vtp)
+/// lists the frame. If the disk is full, the last line may be cut. Files of single frames (vtp, image,
+/// labels) are named by FrameHeader::number.
 ///
 /// Throws IoError if the sink cannot be opened, and std::invalid_argument if `kind` is null.
 std::unique_ptr<FrameSink> make_sink(const SinkOptions& description);
@@ -111,9 +111,9 @@ class SinkGroup {
   /// sink's previous failure is not reported again. Throws std::invalid_argument if `report` is empty.
   explicit SinkGroup(std::function<void(const std::string&)> report);
 
-  /// If nothing was written and close() was not called, for example because another sink could not be opened,
-  /// each sink removes the files that it created. Then folders that were created for the sinks are removed if
-  /// they are empty.
+  /// If neither write(), write_lost() nor close() was called, for example because a sink could not be opened,
+  /// the sinks remove the files that they created. Empty folders that were created for the sinks are removed,
+  /// too.
   ~SinkGroup();
 
   /// Adds an open sink; `name` is its name in messages.
@@ -147,8 +147,8 @@ class SinkGroup {
 
   std::function<void(const std::string&)> report_;
   std::vector<std::unique_ptr<Member>> members_;
-  // Path of each sink whose path did not exist, and the outermost folder or file of this path that was
-  // missing.
+  // For each sink whose target did not exist: the path of the target, and the outermost folder or file of
+  // this path that did not exist.
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> created_;
   bool used_ = false;
   std::atomic<bool> failed_{false}, alive_{false};

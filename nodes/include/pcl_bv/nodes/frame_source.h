@@ -62,9 +62,10 @@ struct ReplayOptions {
   /// Use the frames' own stamps instead of `rate_hz`.
   ///
   /// For files, the stamp is the time in the name, read as by stamp_in_name(), but with one interpretation
-  /// for all files of a folder. An interpretation whose stamps ascend is preferred. It may read fractions as
-  /// whole milli-, micro- or nanoseconds without leading zeros. If there is none, take_warnings() returns a
-  /// warning. A name without a time gives a FrameError.
+  /// for all files of a folder. An interpretation whose stamps ascend is preferred. A fraction may be a whole
+  /// number of milli-, micro- or nanoseconds without leading zeros (12.5 may be 12.005 s). If no
+  /// interpretation gives ascending stamps, take_warnings() returns a warning. A name without a time gives a
+  /// FrameError.
   ///
   /// For messages, the stamp is that of the header or, if the header's stamp is 0, the time of recording.
   bool own_stamps = false;
@@ -74,15 +75,15 @@ struct ReplayOptions {
   std::string class_field{};
   std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the recording.
 
-  /// File of sensor poses. If empty, only frames whose source generates poses have one. Empty lines and lines
-  /// that begin with # are skipped.
+  /// File of sensor poses. If empty, frames have poses only if their source generates poses. Empty lines and
+  /// lines that begin with # are skipped.
   ///
   /// KITTI files have one line per frame with 12 numbers, the upper three rows of the pose matrix. If a
   /// calib.txt next to the file has a line `Tr:`, the poses are those of the left camera and are converted to
   /// the sensor.
   ///
-  /// TUM files have lines `seconds x y z qx qy qz qw`. Poses are interpolated between two lines that are at
-  /// most 0.5 s apart; other frames have no pose.
+  /// TUM files have lines `seconds x y z qx qy qz qw`. The pose of a frame is interpolated between the lines
+  /// before and after its stamp if these two lines are at most 0.5 s apart. Otherwise the frame has no pose.
   std::filesystem::path poses{};
   std::string topic{};  ///< Topic of a recording. If empty: its only topic with clouds.
 };

@@ -20,10 +20,11 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Volumes inside or outside of which points are dropped, such as a robot's own links or a region to crop to.
+/// Volumes that the filter uses to drop points: a robot's own links, for example, or a region to crop to.
 struct RegionConfig {
   std::filesystem::path file;  ///< File of volumes (read_volumes()), read if `volumes` is empty.
-  bool keep = false;           ///< Drop points outside all regions with `keep`, instead of points inside.
+  /// false: points inside are dropped. true: points outside all regions with `keep` are dropped.
+  bool keep = false;
   double padding = 0;          ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
@@ -54,7 +55,8 @@ struct GroundConfig {
   /// position is estimated as described at FrameResult::sensor.
   std::optional<Eigen::Vector3d> sensor;
   /// Height of the sensor above the ground, metres; with `plane`, height of the origin. Estimated if not
-  /// given.
+  /// given. With `zones`, the height is ignored if the sensor's position is estimated (case 5 of
+  /// FrameResult::sensor).
   std::optional<double> sensor_height;
   /// Largest height of ground points above the ground surface, metres. If not given, the default of the
   /// method (GroundPlaneOptions, GroundZonesOptions).
@@ -104,7 +106,7 @@ struct ClusterConfig {
 /// Settings of the tracking (Tracker).
 struct TrackConfig {
   bool enabled = false;
-  double gate = 2.0;      ///< Largest distance of an object from its expected position, metres, at most 100.
+  double gate = 2.0;      ///< Largest distance of an object from its expected position, metres; 100 or less.
   std::size_t birth = 3;  ///< Detections after which an object gets its id.
   std::size_t death = 5;  ///< Frames without a detection after which a track is deleted.
   bool smooth = false;    ///< Smooth the yaw of upright boxes over time. The boxes still contain all points.
@@ -144,7 +146,7 @@ struct PipelineConfig {
   Execution execution() const;
 };
 
-/// Returns a configuration that fits any cloud: no filter, no ground removal, all points in one object,
+/// Returns a configuration that suits any cloud: no filter, no ground removal, all points in one object,
 /// threads on all processors.
 PipelineConfig whole_cloud_config();
 

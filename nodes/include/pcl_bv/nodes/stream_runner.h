@@ -35,10 +35,10 @@ QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
 struct RunnerConfig {
-  std::size_t queue = 1;  ///< Frames that may wait, at least 1.
+  std::size_t queue = 1;  ///< Maximum number of waiting frames; at least 1.
   QueuePolicy policy = QueuePolicy::automatic;
   double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: no limit.
-  double watchdog_s = 0;  ///< Report if no frame comes for this number of seconds. 0: never.
+  double watchdog_s = 0;  ///< Seconds without a frame after which `on_silence` is called. 0: never.
 };
 
 /// The complete configuration of a stream.
@@ -114,8 +114,8 @@ std::string stats_json(const RunnerStats& stats);
 /// continues with the next one.
 class StreamRunner {
  public:
-  /// Functions that the runner calls in its own thread, in the order of FrameHeader::number. It also calls
-  /// them after stop() has been called, until the thread ends.
+  /// Functions that the runner calls in its own thread, in the order of FrameHeader::number. The runner also
+  /// calls them after stop() has been called, until the thread ends.
   struct Callbacks {
     /// Processes a frame, usually by FramePipeline::process() of a pipeline that outlives the runner.
     std::function<void(const Frame&, FrameResult&)> process;
@@ -147,10 +147,10 @@ class StreamRunner {
   /// Adds a frame to the queue. Returns false if `frame` itself is dropped instead; a stopped runner always
   /// drops it.
   ///
-  /// Waits only with QueuePolicy::block, until the queue has capacity or the runner is stopped. In a callback
-  /// push() never waits, because the thread would wait for itself. There, with QueuePolicy::block and a full
-  /// queue, it drops `frame`. Throws std::invalid_argument if the frame has points but no owner, because the
-  /// points might be freed before they are processed.
+  /// Waits only with QueuePolicy::block, until the queue has capacity or the runner is stopped. Called from a
+  /// callback, push() never waits, because the runner's thread would wait for itself. With QueuePolicy::block
+  /// and a full queue, push() then drops `frame`. Throws std::invalid_argument if the frame has points but no
+  /// owner, because the points might be freed before they are processed.
   bool push(Frame frame);
 
   /// Reports a frame that its source could not read. The frame gets the next FrameHeader::number and is
@@ -158,8 +158,8 @@ class StreamRunner {
   /// report_unreadable() waits while 1000 lost frames wait for `on_lost`.
   void report_unreadable(Frame frame, std::string reason);
 
-  /// Waits, at most until the time `until`, for the moment when no frame is queued or being processed.
-  /// Returns false if that time came first.
+  /// Waits until no frame is queued or being processed, but at most until the time `until`. Returns false if
+  /// that time came first.
   bool wait_idle(std::chrono::steady_clock::time_point until) const;
 
   enum class End {

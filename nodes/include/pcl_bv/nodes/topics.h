@@ -67,13 +67,13 @@ struct VolumeShape {
 /// Returns the shape of a volume. An empty volume gives `lines` without points.
 VolumeShape viewer_shape(const AnyVolume& volume);
 
-/// Returns the shapes of all volumes in the order of FrameResult::volumes. Missing volumes give `lines`
-/// without points. Call it once for all messages, because computing the edges of a k-DOP costs as much as
-/// fitting the k-DOP.
+/// Returns the shapes of all volumes in the order of FrameResult::volumes. Empty volumes and volumes that
+/// were not requested give `lines` without points. Call viewer_shapes() once per frame and use the result for
+/// all messages, because computing the edges of a k-DOP costs as much as fitting the k-DOP.
 std::vector<VolumeShape> viewer_shapes(const FrameResult& result);
 
-/// Returns the first volume of a cluster that is a box, otherwise the axis-aligned box of its first volume. A
-/// cluster without volumes gives `lines` without points.
+/// Returns the first volume of a cluster that is a box. If there is none, returns the axis-aligned box of the
+/// cluster's first volume. A cluster without volumes gives `lines` without points.
 VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
 /// Returns the colour of a cluster (red, green, blue, alpha), 0 to 1. A tracked object keeps its colour.
@@ -172,7 +172,7 @@ void read_cloud(Pointer pointer, const std::string& class_field, Frame& frame) {
 
 /// Fills a vision_msgs/Detection3DArray with a box for each cluster. The id of a detection is the id of the
 /// cluster's track, or empty until the track has an id. Each detection has one result with the class (empty
-/// without classes), score 1 and the pose of the box, with the variances of the track's position.
+/// without classes), score 1, the pose of the box and the variances of the track's position.
 template <class Array>
 void fill_detections(const Frame& frame, const FrameResult& result, Array& array) {
   topics::set_header(frame, array.header);
@@ -200,7 +200,8 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
   }
 }
 
-/// The markers or entities that viewers show. Used to delete those of objects that have ended.
+/// The set of markers or entities that viewers show. It is stored in order to delete the markers or entities
+/// of objects that have ended.
 class ShownObjects {
  public:
   /// Replaces the set of shown objects by `now`. Returns the shown objects that are not in `now`.
@@ -267,8 +268,8 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
     add(ended.first, ended.second).action = Marker::DELETE;
 }
 
-/// Lifetime of markers. It is three frame periods, so that a viewer that misses a frame still shows the
-/// objects.
+/// Lifetime of markers. It is three frame periods, at most 6 s, so that a viewer that misses a frame still
+/// shows the objects.
 class MarkerLifetime {
  public:
   /// Returns the lifetime for the next frame, nanoseconds; 300 ms for the first frame.
@@ -325,9 +326,10 @@ class StreamHealth {
   /// Records a processed frame. Returns whether a diagnostic message is due.
   bool record_frame(const Frame& frame, const FrameResult& result);
 
-  /// Fills a diagnostic_msgs/DiagnosticArray. Its values are the number of frames, the number of lost frames,
-  /// the number of objects in the last frame, and the duration of the slowest frame since the last message.
-  /// Its text says if frames were lost and contains the first warning under the current configuration.
+  /// Fills a diagnostic_msgs/DiagnosticArray. The values of the status are the number of frames, the number
+  /// of lost frames, the number of objects in the last frame, and the duration of the slowest frame since the
+  /// last message. The text of the status says whether frames were lost and contains the first warning under
+  /// the current configuration.
   template <class Array>
   void fill(const Frame& frame, Array& array) {
     using Status = typename std::decay<decltype(array.status.front())>::type;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <pcl/search/search.h>
-// User-defined point types do not link without the implementation, because PCL instantiates Search only for
+// Without this implementation, user-defined point types do not link, because PCL instantiates Search only for
 // its own point types.
 #include <pcl/search/impl/search.hpp>
 
@@ -33,14 +33,15 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Differences from pcl::search::KdTree:
 ///
 /// - Distances are compared in double. Only the returned values are rounded to float. PCL computes distances
-///   in float, with an error of up to 4e-7. The results may therefore differ for a point whose distance
-///   differs from the radius by less than this error, and in the order of two points whose distances differ
-///   by less than this error.
+///   in float, with a relative error of up to 4e-7. The two searches may therefore differ in whether they
+///   return a point at almost exactly the radius. They may also differ in the order of two points at almost
+///   the same distance.
 /// - Neighbours are also found in clouds whose squared distances are outside the range of float (coordinates
 ///   of 1e-23 or 1e20). A distance above this range is returned as infinity.
 /// - Equally near points are ordered by index. If the number of neighbours is limited, the points with the
 ///   smaller indices are returned. A sorted tree therefore also works with pcl::EuclideanClusterExtraction,
-///   which assumes that the first neighbour is the query point itself.
+///   which skips the first neighbour as the query point itself. Of several points at the same position, the
+///   skipped one is always in the cluster already.
 /// - The result is empty where PCL has an assertion: for a query point that is not finite, an index out of
 ///   range, a radius that is not above 0, a k below 1, or a search without a cloud.
 ///
