@@ -18,17 +18,16 @@ inline constexpr double kFlat = 0x1p-36;
 
 /// The dimensions that points span. p0 is the first point in lexicographic order of (x, y, z). p1 is the
 /// point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
-/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken.
+/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. d1, d2 and d3 are these
+/// three distances in local units.
 struct Span {
-  /// 0 if the distance of p1 is at most kFlat, otherwise 1 if that of p2 is, otherwise 2 if that of p3 is,
-  /// and otherwise 3.
-  int rank = 0;
+  int rank = 0;  ///< 0 if d1 <= kFlat, otherwise 1 if d2 <= kFlat, otherwise 2 if d3 <= kFlat, otherwise 3.
 
   /// Orthonormal axes. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the
   /// columns before it.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
-  /// The first `rank` of the three distances, in local units. The other elements are kFlat.
+  /// The first `rank` of the distances d1, d2, d3. The other elements are kFlat.
   Eigen::Vector3d distances = Eigen::Vector3d::Constant(kFlat);
 };
 

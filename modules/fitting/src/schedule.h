@@ -56,8 +56,8 @@ constexpr double nanoseconds(Work work, Isa isa) {
                               : cost.bits128;
 }
 
-/// Returns the policy for a pass over `count` points, planes or vertices, whichever nanoseconds() gives the
-/// time of. For supports, `count` is the number of points times the number of directions.
+/// Returns the policy for a pass that takes nanoseconds() `count` times. Usually `count` is the number of
+/// points. For supports it is the number of points times the number of directions.
 inline ParallelPolicy worthwhile(const Execution& execution, Work work, std::size_t count) {
   return worthwhile(execution.parallel, 1e-9 * nanoseconds(work, execution.isa) * static_cast<double>(count));
 }

@@ -43,7 +43,7 @@ struct Scalar {
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
   double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }
 
-  // Whether squared lengths in a cloud of this extent neither overflow nor underflow.
+  // Returns whether squared lengths in a cloud of this extent neither overflow nor underflow.
   bool squares(double extent) const {
     return is_float ? extent > 1e-15 && extent < 1e18 : extent > 1e-140 && extent < 1e140;
   }

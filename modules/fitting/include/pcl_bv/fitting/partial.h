@@ -49,8 +49,8 @@ class Partial {
   /// float and the other double coordinates.
   void merge(const Partial& other);
 
-  /// Returns whether the method can be fitted to parts. All methods can, except obb-lshape and all spheres
-  /// but sphere-exact, because points deep inside the cloud can change these volumes.
+  /// Returns whether the method can be fitted to parts. This is true for all methods except obb-lshape and
+  /// the spheres other than sphere-exact. Those volumes can depend on points deep inside the cloud.
   static bool can_fit(const Method& method);
 
   /// Fits the volume around all points. Status, rank and counts are those of all points. O(m log m) for m

@@ -26,11 +26,11 @@ enum class EstimationStatus : std::uint8_t {
 ///
 /// The exact definition is as follows. p0 is the first valid point in lexicographic order of (x, y, z). p1 is
 /// the point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
-/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. The rank is 0 if the
-/// distance of p1 is at most 2^-36 units, otherwise 1 if that of p2 is, otherwise 2 if that of p3 is, and
-/// otherwise 3. The unit is the longest side of the points' box, rounded down to a power of two, but at least
-/// 2^-1000. Consequently, points within 2^-41 units of a plane have rank 2 or less, and points of rank 2 are
-/// within 2^-36 units of a plane.
+/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. Let d1, d2 and d3 be the
+/// three distances, and e = 2^-36 units. The rank is 0 if d1 <= e, otherwise 1 if d2 <= e, otherwise 2 if
+/// d3 <= e, otherwise 3. The unit is the longest side of the points' box, rounded down to a power of two, but
+/// at least 2^-1000. Consequently, points within 2^-41 units of a plane have rank 2 or less, and points of
+/// rank 2 are within 2^-36 units of a plane.
 struct EstimationResult {
   EstimationStatus status = EstimationStatus::no_valid_points;
   int rank = 0;               ///< 0 to 3, as defined above.
