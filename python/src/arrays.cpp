@@ -159,7 +159,7 @@ struct Field {
   py::ssize_t offset;
 };
 
-/// Finds a field by its lower-case name or else by its upper-case name, as for files.
+/// Finds a field by its lower-case name, or else by its upper-case name, as the readers of files do.
 Field field_of(const py::dtype& record, const char* field, const char* name) {
   const py::object fields = record.attr("fields");
   const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));
