@@ -132,7 +132,8 @@ class Hull(Volume):
     @property
     def rank(self) -> int: ...
 
-# Returns a volume, or a list of volumes if `method` is a list. With labels, returns a dict of these by label.
+# Returns a volume, or a list of volumes if `method` is a list or "all". With labels, returns a dict that has
+# such a volume or list for each label.
 def fit(
     points: ArrayLike,
     method: Union[str, Sequence[str]],

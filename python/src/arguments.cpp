@@ -9,8 +9,8 @@ namespace pcl_bv::python {
 using namespace detail;
 namespace {
 
-// Clears Python's current error. Throws the error if it is no Exception, such as a KeyboardInterrupt, because
-// Ctrl-C may interrupt any Python code.
+// Clears Python's current error if it is an Exception. Otherwise throws the error: it is, for example, the
+// KeyboardInterrupt of Ctrl-C, which may interrupt any Python code.
 void clear_error() {
   if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_Exception) == 0)
     throw py::error_already_set();
@@ -23,9 +23,9 @@ void raise_value_error(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
-// Imports the module `warnings` first. If this module is not loaded, CPython prints the warning in C and
-// clears a KeyboardInterrupt that is raised meanwhile. On a busy machine, 24 of 60 interrupts just before the
-// first warning were lost.
+// Imports the module `warnings` first. Without this module, CPython prints the warning by C code, and this
+// code clears a KeyboardInterrupt that is raised meanwhile. On a busy machine, 24 of 60 interrupts just
+// before the first warning were lost.
 void warn(const std::string& text) {
   py::module_::import("warnings");
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();

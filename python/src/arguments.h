@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Converts arguments of Python calls to C++ values. An invalid argument raises a TypeError or a ValueError.
-// Its message gives the argument, the value and the allowed values. The errors of pybind11's own conversions
-// do not give them.
+// The message gives the argument, the value and the allowed values. The messages of pybind11's own
+// conversions do not give these facts.
 #pragma once
 
 #include "pcl_bv/parallel/execution.h"
@@ -35,7 +35,7 @@ std::filesystem::path path(py::handle value, const char* name);
 Eigen::Vector3d vector3(py::handle value, const char* name);
 
 /// Parses the name of an enumerator or of a direction, as in configuration files (read_text() of
-/// nodes/settings.h).
+/// pipeline/config/settings.h).
 template <typename T>
 T parse_text(py::handle value, const char* name) {
   T read;
@@ -47,26 +47,26 @@ T parse_text(py::handle value, const char* name) {
   return read;
 }
 
-/// Returns the up direction, given as "x", "-z", ... or as three numbers.
+/// Returns the up direction. `value` must be "x", "-z", ... or three numbers.
 Eigen::Vector3d up_argument(py::handle value);
 
 /// Returns the method with this name or alias.
 const Method* method_of(py::handle name);
 
-/// Returns the methods of a name or of a list of names. The name "all" means methods_of_all(). Sets `single`
-/// to whether `names` is the name of a single method.
+/// Returns the methods of a name or of a list of names. The name "all" stands for methods_of_all(). Sets
+/// `single` to true if `names` is the name of a single method, otherwise to false.
 std::vector<const Method*> methods_of(py::handle names, bool& single);
 
 /// Returns the policy for a number of threads. 1 means the calling thread, 0 means all processors.
 ParallelPolicy policy_of(py::handle threads);
 Execution execution_of(py::handle threads, py::handle isa);
 
-/// Returns the rigid motion of a 4 x 4 matrix. The last row must be 0 0 0 1, and the rotation must be
-/// orthonormal to 1e-6.
+/// Returns the rigid motion of a 4 x 4 matrix. The last row of the matrix must be 0 0 0 1, and the rotation
+/// must be orthonormal to 1e-6.
 Eigen::Isometry3d isometry(py::handle matrix, const char* name);
 
-/// Returns a text for an object in error messages: at most 60 characters of its repr(), or its type if repr()
-/// fails.
+/// Returns a text that describes an object in error messages: at most 60 characters of its repr(), or its
+/// type if repr() fails.
 std::string repr_text(py::handle value);
 
 }  // namespace pcl_bv::python

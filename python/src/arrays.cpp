@@ -13,8 +13,8 @@ bool is_real(const py::dtype& type) {
   return type.kind() == 'f' && (type.itemsize() == 4 || type.itemsize() == 8);
 }
 
-/// Returns whether the type has this machine's byte order. numpy's marks are '=' (this machine's), '|' (one
-/// byte), '<', '>'.
+/// Returns whether the type has this machine's byte order. numpy marks this order by '=', types of one byte
+/// by '|', and the other order by '<' or '>'.
 bool is_native(const py::dtype& type) {
   return type.byteorder() == '=' || type.byteorder() == '|';
 }
@@ -82,8 +82,8 @@ py::array without_mask(const py::array& array, const char* name) {
   return array.attr("filled")(std::nan(""));
 }
 
-/// Converts whole numbers of a list to float64, because a list has no type that the user has chosen, unlike
-/// an array. Refuses numbers above 2^53 in magnitude.
+/// Converts whole numbers of a list to float64. The integers of an array are a type that the user has chosen,
+/// but those of a list are not. Refuses numbers above 2^53 in magnitude.
 py::array from_list(const py::array& array, py::handle object, const char* name) {
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u') return array;
@@ -159,7 +159,7 @@ struct Field {
   py::ssize_t offset;
 };
 
-/// Finds a field by its lower-case name or else by its upper-case name, as for files.
+/// Finds a field by its lower-case name, or else by its upper-case name, as the readers of files do.
 Field field_of(const py::dtype& record, const char* field, const char* name) {
   const py::object fields = record.attr("fields");
   const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));

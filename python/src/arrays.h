@@ -28,8 +28,8 @@ struct PointArray {
 /// - any other object that numpy.asarray() converts to one of these arrays. Whole numbers of lists become
 ///   float64 and are allowed up to 2^53. An empty list has no points.
 ///
-/// The points are not copied if x, y, z are adjacent and the rows do not overlap, with any positive distance
-/// between rows. Copies are made of
+/// The points are not copied if x, y, z are adjacent and the rows do not overlap. There may be gaps between
+/// rows. Copies are made of
 ///
 /// - arrays in Fortran order and arrays with backward or overlapping rows;
 /// - arrays in which x, y, z are not adjacent;

@@ -55,7 +55,7 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
     RawCloud cloud = clouds.load(number);
     warnings = clouds.warnings();
     return cloud;
-  } catch (const IoError& error) {  // add the warnings, because damage may be the reason
+  } catch (const IoError& error) {  // add the warnings, because the damage that they report may be the reason
     std::string text = error.what();
     for (const std::string& warning : clouds.warnings())
       text.append("; ").append(warning);

@@ -43,8 +43,9 @@ py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   throw py::key_error(std::string(method->name) + " is not a method of this pipeline");
 }
 
-/// Returns the indices of the cluster's points. The pipeline makes no index list if all valid points that
-/// passed the filter are one cluster. In this case, computes the indices from the labels.
+/// Returns the indices of the cluster's points. They are usually those of the pipeline's index list. The
+/// pipeline makes no index list if all valid points that passed the filter are one cluster. In this case,
+/// computes the indices from the labels.
 py::object indices_of(const ClusterObject& cluster) {
   const FrameResult& result = cluster.owner_result->result;
   if (!result.clusters.indices.empty() || result.clusters.list_size(cluster.id) == 0)

@@ -86,7 +86,7 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// Issues the warnings of FrameWarnings about a frame for which only this ground has been computed. Removes
+/// Issues the warnings that FrameWarnings gives for a frame with this ground and no other results. Removes
 /// "ground." from the names of settings, so that the warnings have the names of the arguments of ground().
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();

@@ -63,7 +63,7 @@ py::object ray(Self self, py::handle origin, py::handle direction) {
   return py::make_tuple(found->enter, found->exit);
 }
 
-/// Returns the vertices, and a list with the vertex indices of each face.
+/// Returns the vertices, and a list that has the vertex indices of each face.
 py::tuple mesh_of(Self self) {
   Mesh found;
   {

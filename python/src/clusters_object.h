@@ -16,10 +16,10 @@ struct ClustersObject {
   Clusters found;
   std::size_t points = 0;
   std::vector<std::int64_t> class_of{};  ///< Class of each cluster; empty without classes.
-  std::vector<std::int32_t> labels{};    ///< Label of each point; -1: none. Empty after unpickling.
+  std::vector<std::int32_t> labels{};    ///< Label of each point, or -1. Empty after unpickling.
 
-  /// Returns the labels. The first call after unpickling computes them. Unpickling does not compute them,
-  /// because a pickle of a few bytes may claim 2^31 points. Needs the GIL.
+  /// Returns the labels. The first call after unpickling computes the labels. Unpickling itself does not,
+  /// because a pickle of a few bytes may claim to have 2^31 points. Needs the GIL.
   const std::vector<std::int32_t>& computed_labels() {
     if (labels.size() != points) label_points();
     return labels;

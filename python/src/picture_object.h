@@ -20,7 +20,7 @@ PictureSize picture_size(py::handle view, py::handle width, py::handle height);
 /// A picture and the owners of the points, labels and volumes that it shows.
 struct PictureObject {
   std::shared_ptr<const ResultObject> result{};  ///< The result that the picture shows, or null.
-  PointArray points{};                           ///< The points, if there is no result.
+  PointArray points{};                           ///< The points. Empty if `result` is not null.
   std::vector<std::uint32_t> labels{};
   Picture picture{};  ///< Has references to the other members.
 
@@ -28,7 +28,7 @@ struct PictureObject {
   std::string svg() const;
 };
 
-/// Returns the page of the live view with this result, as HTML.
+/// Returns the HTML page of the live view, with this result.
 std::string page_of_result(const ResultObject& result, std::size_t max_points);
 
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size);

@@ -59,8 +59,8 @@ std::optional<TrackEntry> track(py::handle state) {
   return entry;
 }
 
-/// Returns a list with an object for each requested volume, including the result of its fit, and None for the
-/// others.
+/// Returns a list with one element for each element of result.volumes. A requested volume becomes an object
+/// with the volume and the result of its fit, a volume that was not requested becomes None.
 py::list volumes(const FrameResult& result) {
   py::list list(result.volumes.size());
   for (std::size_t i = 0; i < result.volumes.size(); ++i) {
@@ -107,8 +107,8 @@ void take_volumes(const py::list& state, FrameResult& result) {
   }
 }
 
-/// Returns the indices of the points that passed the filter. If the pipeline has made no index list, the
-/// points of cluster 0 are these points.
+/// Returns the indices of the points that passed the filter. If the pipeline has made no index list, these
+/// are the points of cluster 0.
 std::vector<std::int32_t> kept(const ResultObject& self) {
   if (!self.result.filtered) return self.result.passed_filter;
   const std::vector<std::uint32_t> labels = labels_of(self.frame(), self.result);

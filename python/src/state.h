@@ -9,7 +9,7 @@
 namespace pcl_bv::python {
 using namespace detail;
 
-/// Returns make(), which constructs an object from a state. Turns any error except MemoryError and
+/// Returns make(), which must construct an object from a state. Turns any error except MemoryError and
 /// KeyboardInterrupt into a ValueError such as "Sphere: invalid pickled state".
 template <typename Make>
 auto restore_from_state(const std::string& name, const Make& make) {
@@ -39,7 +39,8 @@ inline py::tuple tuple_of_state(py::handle state, std::size_t count) {
   return parts;
 }
 
-/// Returns a number of points. Accepts only a Python int, not an array with one element.
+/// Reads the element of a state that is the number of points. It must be a Python int. An array with one
+/// element is not accepted.
 inline std::size_t points_of_state(py::handle part) {
   if (PyLong_Check(part.ptr()) == 0) throw py::value_error("the number of points is not an integer");
   return whole_number(part, "points", {0, std::numeric_limits<std::int32_t>::max()});

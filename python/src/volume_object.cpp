@@ -12,7 +12,8 @@ namespace pcl_bv::python {
 using namespace detail;
 namespace {
 
-/// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
+/// Returns a view of a copy of the text. The copy is never freed, because EstimationResult::reason does not
+/// own its text.
 std::string_view interned_text(const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string>* const texts = new std::set<std::string>;

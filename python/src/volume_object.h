@@ -29,7 +29,7 @@ py::object to_python(AnyVolume&& volume, const Method* method = nullptr, const E
 /// Returns the volume of an argument. Raises a TypeError if the argument is not a volume.
 const VolumeObject& volume_of(py::handle value, const char* name);
 
-/// A volume and its label. The label is the key of the volume in a dict, or 0 without a dict.
+/// A volume and its label. If the argument is a dict, the label is the key of the volume, otherwise 0.
 struct LabelledVolume {
   std::int64_t number;
   const VolumeObject* volume;
@@ -52,7 +52,7 @@ py::tuple arguments_of(const Capsule& capsule);
 py::tuple arguments_of(const Ellipsoid& ellipsoid);
 py::tuple arguments_of(const Hull& hull);
 
-/// Convert the result of a fit to and from the state that pickle stores.
+/// These functions convert the result of a fit to and from the state that pickle stores.
 py::tuple fit_state(const VolumeObject& volume);
 void set_fit_state(py::handle state, VolumeObject& volume);
 

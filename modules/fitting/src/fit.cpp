@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kManyPoints = 200'000;
 
-// Returns how long the call takes. The time must be measured because it depends on the method. For 300
+// Returns the time of the call in seconds. It must be measured, because it depends on the method. For 300
 // points, a box takes 0.2 us and a capsule about a thousand times as long.
 template <typename Call>
 double seconds(const Call& call) {
@@ -154,7 +154,7 @@ void for_each_view(const std::vector<PointView>& views,
   const auto larger = [&](std::size_t a, std::size_t b) {
     return std::make_pair(views[b].count, a) < std::make_pair(views[a].count, b);
   };
-  // Clusters are usually in descending order of size. Then nothing is sorted or allocated.
+  // Clusters are usually in descending order of size. In this case nothing is sorted or allocated.
   std::vector<std::size_t> order;
   const auto by_count = [](const PointView& a, const PointView& b) { return a.count > b.count; };
   if (!std::is_sorted(views.begin(), views.end(), by_count)) {
@@ -169,7 +169,8 @@ void for_each_view(const std::vector<PointView>& views,
     fit(nth(small), execution);
   if (small == views.size()) return;
   // The time of one view of middle size predicts the time of the others. Only the number of threads depends
-  // on this prediction. The largest view would predict better, but all other threads wait while it is fitted.
+  // on this prediction. The largest view would predict better, but its fit takes longer, and the other
+  // threads wait meanwhile.
   const Execution serial{Serial{}, execution.isa};
   const std::size_t probe =
       thread_count(execution.parallel) == 1 ? small : small + (views.size() - small) / 2;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Local coordinates for numerical work. They are relative to a point of the cloud, and the extent is about 1.
+// Local coordinates for numerical work. They are relative to a point of the cloud, and scaled such that the
+// extent of the cloud is about 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,15 +25,15 @@ inline Eigen::Vector3d vector(const Coordinates& p) {
 /// Returns the largest extent along a coordinate axis, in the unit of the points; 0 if all points are equal.
 double widest_side(const Supports& supports);
 
-/// Returns the power of two that scales a positive extent into [1, 2). For extents of 2^-1000 and below it is
-/// 2^1000. For extent 0 it is 1.
+/// Returns the power of two that scales a positive extent into [1, 2), limited to 2^-1000 .. 2^1000. For
+/// extent 0, returns 1.
 double unit_scale(double extent);
 
-/// Converts to and from local coordinates. They are relative to one of the cloud's points. Their unit is a
-/// power of two near the cloud's extent.
+/// Converts to and from local coordinates. Local coordinates are relative to one of the cloud's points, and
+/// their unit is a power of two near the cloud's extent.
 class LocalFrame {
  public:
-  /// The supports must have points and be of a cloud with at least one valid point.
+  /// The supports must have points. The cloud must have at least one valid point.
   explicit LocalFrame(const Supports& supports);
 
   /// The widest_side() of the cloud.
@@ -54,8 +55,8 @@ class LocalFrame {
   /// Returns the number of local units per unit of the points, a power of two.
   double scale() const { return scale_; }
 
-  /// Returns a centre for the distance kernels. With this centre the kernels measure in the unit of the
-  /// points for float clouds, and in local units for double clouds.
+  /// Returns a centre for the distance kernels. For float clouds, the kernels with this centre measure in the
+  /// unit of the points. For double clouds, they measure in local units.
   DistanceCenter center(const Eigen::Vector3d& global) const {
     return {global.x(), global.y(), global.z(), kernel_scale_};
   }

@@ -16,7 +16,8 @@ namespace pcl_bv::detail {
 /// Calls merge(map(chunk)) for each chunk of the points. The calls of map() run in parallel, each under a
 /// FloatEnvironment. The calls of merge() are in the order of the chunks. At most `max_pending` results exist
 /// at a time, so memory is bounded for clouds of any size. A cloud of one chunk is processed without
-/// allocation and in the caller's FloatEnvironment, because a sweep has many such clouds.
+/// allocation and in the caller's FloatEnvironment. This saves time, because the clusters of a sweep are
+/// thousands of such clouds.
 template <typename Partial, std::size_t max_pending = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);

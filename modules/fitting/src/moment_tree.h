@@ -11,13 +11,13 @@
 
 namespace pcl_bv::detail {
 
-/// Converts the moments to larger units. `exponent` must not be above the present exponent. Values that
-/// underflow are negligible compared with the sums in the new units.
+/// Converts the moments to larger units. `exponent` is the new Moments::exponent, which must not be above the
+/// present one. Values that underflow are negligible compared with the sums in the new units.
 void coarsen(int exponent, Moments& moments);
 
 /// Returns the moments of the points of `first` and `second`, about the origin of `first`. The exponent is
-/// the smaller of the two exponents. It is reduced further if products of the distance between the origins
-/// could overflow.
+/// the smaller of the two exponents. If products of the distance between the origins could overflow, the
+/// exponent is reduced further.
 Moments merged(const Moments& first, const Moments& second);
 
 /// The moments of 2^k successive blocks. The number of the first block is a multiple of 2^k.
@@ -51,7 +51,7 @@ class MomentTree {
   const MomentNode* end() const { return begin() + nodes_.size(); }
 
  private:
-  SmallVector<MomentNode, 6> nodes_;  // the 32 blocks of a chunk: at most 5 nodes, and one being appended
+  SmallVector<MomentNode, 6> nodes_;  // The 32 blocks of a chunk need at most 6: 5 nodes and an appended one.
 };
 
 /// Returns the moments of the blocks of a chunk. Its first block gets the number `first_block`.

@@ -22,13 +22,13 @@ namespace {
 
 // Returns a limit for V, six times the volume of a tetrahedron. If V is above the limit, the tetrahedron
 // clearly spans a solid: every slab around it is thicker than V / (3 extent^2), because 3 extent^2 is the
-// largest possible product of the lengths of two edges. This is more than 2^-32 of the extent. A cloud of
-// rank 2 is in a slab of 2^-35 of the extent.
+// largest possible product of the lengths of two edges. This thickness is more than 2^-32 of the extent. A
+// cloud of rank 2 is in a slab with a thickness of 2^-35 of the extent.
 double clear_volume(double extent) {
   return 0x1p-30 * extent * extent * extent;
 }
 
-// Returns whether four points, evenly spaced in the view, clearly span a solid. They do so for nearly all
+// Returns whether four points, evenly spaced in the view, clearly span a solid. This is true for nearly all
 // clouds. The check takes 20 ns. Fitting the box of 300 points takes 220 ns.
 bool four_points_span_solid(const PointView& points, double extent) {
   const std::size_t step = points.count / 4;
@@ -39,9 +39,9 @@ bool four_points_span_solid(const PointView& points, double extent) {
   return std::abs(dot3(normal, vector(c) - vector(p))) > clear_volume(extent);
 }
 
-// A simplex that grows point by point. A point is added, and increases the rank, if it is farther than a
-// limit from the point, line or plane of the points before. No strip thinner than 2^-19 of the extent
-// contains the triangle of the first three points.
+// A simplex that grows point by point. A point is added, and increases the rank, if its distance from the
+// point, line or plane of the earlier points is above a limit. The limits ensure that no strip thinner than
+// 2^-19 of the extent contains the triangle of the first three points.
 class Simplex {
  public:
   explicit Simplex(double extent)
@@ -166,7 +166,7 @@ int point_rank(const PointView& points, const Supports& supports, const FitExecu
     sides += supports.used > 0 && supports.along[axis].low < supports.along[axis].high ? 1 : 0;
   if (sides == 0) return 0;
   const double extent = widest_side(supports);
-  // The product of three smaller extents could underflow.
+  // For smaller extents, products of three lengths could underflow.
   if (extent > 0x1p-300 && clearly_spans(points, extent, sides)) return sides;
   return span_of(points, unit_scale(extent), execution).rank;
 }

@@ -12,21 +12,22 @@
 
 namespace pcl_bv::detail {
 
-/// Limit of the thickness below which points are flat. The unit is the extent rounded down to a power of two.
-/// In this unit the rounding of doubles moves points by about 2^-52, which is 2^-16 of the limit.
+/// Points are flat if their thickness is at most this limit. The unit is the extent rounded down to a power
+/// of two. In this unit the rounding of doubles moves points by about 2^-52, which is 2^-16 of the limit.
 inline constexpr double kFlat = 0x1p-36;
 
 /// The dimensions that points span. p0 is the first point in lexicographic order of (x, y, z). p1 is the
 /// point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
-/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken.
+/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. d1, d2 and d3 are these
+/// three distances in local units.
 struct Span {
-  int rank = 0;  ///< Number of these three distances before the first that is not above kFlat.
+  int rank = 0;  ///< 0 if d1 <= kFlat, otherwise 1 if d2 <= kFlat, otherwise 2 if d3 <= kFlat, otherwise 3.
 
   /// Orthonormal axes. The first `rank` columns point towards p1, p2 and p3, each perpendicular to the
   /// columns before it.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
-  /// The three distances in local units. A distance that is not above kFlat is replaced by kFlat.
+  /// The first `rank` of the distances d1, d2, d3. The other elements are kFlat.
   Eigen::Vector3d distances = Eigen::Vector3d::Constant(kFlat);
 };
 
@@ -36,9 +37,10 @@ struct Span {
 Span span_of(const PointView& points, double scale, const FitExecution& execution);
 
 /// Returns the rank that span_of() defines, or 0 without a valid point. `supports` must be of the same
-/// points. If four points clearly span a solid, the rank is 3. For nearly all clouds, the first four points
-/// inspected do. O(n) if a cloud is flat to 2^-30 of its extent, unless its plane is perpendicular to a
-/// coordinate axis. Needs a FloatEnvironment.
+/// points. Inspects only a few points of nearly all clouds: if four points clearly span a solid, the rank is
+/// 3. Takes O(n) if a cloud is flat to 2^-30 of its extent. If the points' box has sides of exactly 0, a few
+/// points are enough again, provided that they clearly span the dimensions of the other sides. Needs a
+/// FloatEnvironment.
 int point_rank(const PointView& points, const Supports& supports, const FitExecution& execution);
 
 }  // namespace pcl_bv::detail

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Detects that a source's points changed between the passes of a fit. Each pass compares its points with the
-// results of the first pass. Without this check, changed points could leave a list empty that must have
-// elements, or could be outside the range that the first pass found.
+// results of the first pass. Without this check, changed points could be outside the range that the first
+// pass found, or could leave a list empty that must have elements.
 #pragma once
 
 #include <stdexcept>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Decides how many threads are worth their start. Starting threads costs microseconds, on an idle pool tens
-// of microseconds.
+// Decides how many threads a pass uses. Starting threads costs microseconds, on an idle pool tens of
+// microseconds, so a small pass is fastest in one thread.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ constexpr double nanoseconds(Work work, Isa isa) {
                             {0.9, 0.17, 0.08, 0.05},
                             {1.2, 0.4, 0.25, 0.15},
                             {20, 3, 3, 3},
-                            {5, 5, 5, 5},  // 1 if all points are inside, 50 if none is
+                            {5, 5, 5, 5},  // 1 if all points are inside the first polygon, 50 if none is
                             {3, 3, 3, 3},
                             {50, 50, 50, 50},
                             {5e3, 5e3, 5e3, 5e3},
@@ -56,7 +56,8 @@ constexpr double nanoseconds(Work work, Isa isa) {
                               : cost.bits128;
 }
 
-/// Returns the policy for a pass over `count` items. An item is what nanoseconds() gives the time for.
+/// Returns the policy for a pass that takes nanoseconds() `count` times. Usually `count` is the number of
+/// points. For supports it is the number of points times the number of directions.
 inline ParallelPolicy worthwhile(const Execution& execution, Work work, std::size_t count) {
   return worthwhile(execution.parallel, 1e-9 * nanoseconds(work, execution.isa) * static_cast<double>(count));
 }

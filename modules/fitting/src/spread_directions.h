@@ -16,8 +16,8 @@ namespace pcl_bv::detail {
 /// is within 15 degrees of one of the 49 or of its opposite.
 std::vector<Direction> spread_directions();
 
-/// Returns the points with the minimum or the maximum projection along one of the directions, in the order of
-/// `points`.
+/// Returns the points that have the minimum or the maximum projection along at least one of the directions,
+/// in the order of `points`.
 std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vector3d>& directions,
                                                   const std::vector<Eigen::Vector3d>& points);
 

@@ -21,7 +21,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Results of one chunk. `Found` is the result of a search for supports, only a box, or nothing.
+// Results of one chunk. `Found` is the type of the supports: ChunkSupports, AxisExtents for a box only, or an
+// empty class if the supports are known already.
 template <typename Found>
 struct Part {
   Found supports;
@@ -89,7 +90,7 @@ Summary summarize(const PointView& points, const FitExecution& execution) {
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
-  // The factor 2 is there because the moments take about as much time as the supports.
+  // The factor is 2, because the moments take about as much time as the supports.
   const Moments moments = pass<ChunkSupports>(
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
@@ -114,8 +115,8 @@ Summary summarize_bounds(const PointView& points, const FitExecution& execution)
     return summary;
   }
   summary.supports = empty_bounds(points);
-  // The count is that of the supports of a 26-DOP, because the moments take about as much time. The time of
-  // the box is negligible.
+  // The count is that of the supports of a 26-DOP, because the moments take about as much time as these
+  // supports. The time of the box is negligible.
   const Moments moments = pass<AxisExtents>(
       points, execution, kMaxDirections * points.count,
       [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },

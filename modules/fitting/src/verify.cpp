@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact predicates in rational arithmetic. Before that, a double computation with a rigorous error bound
-// accepts nearly all points that are inside.
+// Exact predicates. First, double arithmetic with a rigorous error bound accepts nearly all points that are
+// inside. Then rational arithmetic decides the other points.
 
 #include "pcl_bv/fitting/fit.h"
 
@@ -36,7 +36,7 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
 }
 
 // Converts an exact excess to the distance excess / scale. The result is 0 only if the excess is not
-// positive, which means that the point is inside by exact arithmetic.
+// positive, which means that the point is inside.
 double excess_distance(const Rational& excess, double scale) {
   if (excess <= 0) return 0.0;
   return std::max(static_cast<double>(excess) / scale, std::numeric_limits<double>::denorm_min());
@@ -201,7 +201,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
 
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  constexpr std::size_t chunk_points = 4096;  // small, because a point that needs rationals takes 1 us
+  constexpr std::size_t chunk_points = 4096;  // small, because a point can take 1 us in rational arithmetic
   const auto check = [&](std::size_t chunk) {
     const std::size_t begin = chunk * chunk_points;
     const LoadedPoints part(points, begin, std::min(chunk_points, points.count - begin));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A box around a hull, which shrinks while it is rotated about one of its axes after another.
+// A box around a hull, and rotations of the box about its axes that make the box smaller.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,8 +25,8 @@ struct BoxFrame {
 Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Matrix3d& axes);
 
 /// Rotates the frame about one axis after another, each time to the smallest box with this axis. Ends after
-/// `times` rotations. Ends earlier if no rotation reduces the area perpendicular to its axis by more than the
-/// fraction `smaller`.
+/// `times` rotations, or when no rotation about any of the three axes reduces the area perpendicular to that
+/// axis by more than the fraction `smaller`.
 void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
                   Silhouette::Projection& projection);
 

@@ -83,10 +83,10 @@ std::optional<Coordinates> first_valid(const PointView& points) {
 }
 
 // Measures the box of few points. Projects all points in double arithmetic, which for 300 points takes a
-// third of the time of measure_many(). The margin for the rounding of n . q is 8 2^-53 of |q|_1, twice the
-// possible error (volumes/src/obb.cpp). |q|_1 is at most the sum of the sides of the points' box. The
-// smallest normal number covers products that underflow. Coordinate axes need no margin, because the supports
-// along them are exact.
+// third of the time of measure_many(). For an axis n and a point q relative to the first point, the margin
+// for the rounding of n . q is 8 2^-53 of |q|_1. This is twice the possible error (volumes/src/obb.cpp).
+// |q|_1 is at most the sum of the sides of the points' box. The smallest normal number covers products that
+// underflow. Axes that are coordinate axes need no margin, because the supports along them are exact.
 Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                 UsableIsa isa) {
   const LoadedPoints loaded(points, 0, points.count);

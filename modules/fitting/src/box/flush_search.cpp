@@ -31,7 +31,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The normals of two adjacent sides at both ends of a range of t, and the arcs that the normals are on.
+// The normals of two adjacent sides at both ends of a range of t, and the arc of each normal.
 struct NormalRange {
   std::array<Vector3d, 2> first, second;
   const GaussArcs::Arc *one, *other;
@@ -134,8 +134,8 @@ const BoxFrame& FlushSearch::run() {
   return best_;
 }
 
-// Searches the ranges of t in which n2 is on the arc of the other edge. In these ranges f and g, the dot
-// products of n1 with the two ends of this arc, have different signs.
+// Searches the ranges of t in which n2 is on the arc of the other edge. Let f and g be the dot products of n1
+// with the two ends of this arc. In these ranges f and g have different signs.
 void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
                               const double* to_row) {
   const Linear f = {from_row[other.from], to_row[other.from]}, g = {from_row[other.to], to_row[other.to]};
@@ -158,7 +158,8 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
     const auto first = [&](double t) -> Vector3d { return arc[0] + t * (arc[1] - arc[0]); };
     NormalRange range{{first(begin), first(end)}, {second(begin), second(end)}, &one, &other};
     // If n1 is parallel to the other edge, n2 can be anywhere on the arc. The boxes with n2 inside the arc
-    // need no search. They are rotations about n1, and the smallest of these has n2 at an end of the arc.
+    // need no search: these boxes are rotations about n1, and the smallest of them has n2 at an end of the
+    // arc.
     const double lengths[2] = {range.second[0].squaredNorm(), range.second[1].squaredNorm()};
     if (std::max(lengths[0], lengths[1]) < 1e-24) continue;
     for (std::size_t k = 0; k < 2; ++k)
@@ -187,7 +188,7 @@ bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   return false;
 }
 
-// First tries vertices that are found without a climb, because that is faster.
+// First tries vertices for which SupportGraph::climb() is not needed, because that is faster.
 void FlushSearch::search(const NormalRange& range) {
   const Vector3d n1 = range.first[0] + range.first[1], n2 = range.second[0] + range.second[1],
                  n3 = cross3(n1, n2);
@@ -218,8 +219,8 @@ bool FlushSearch::is_proven(const NormalRange& range, const Widths& widths) cons
   return true;
 }
 
-// Returns the t at which the volume over the vertices of `end` overtakes the volume over the vertices of
-// `begin`; 0.5 if there is no such t.
+// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal, if the volume over
+// `begin` is larger before it and smaller after it. Returns 0.5 if there is no such t.
 double FlushSearch::change(const NormalRange& range, const Measured& begin, const Measured& end) const {
   if (begin.supports == end.supports) return 0.5;
   Quartic lead = numerator(range, begin.widths);
@@ -264,8 +265,8 @@ Measured FlushSearch::over(const Eigen::Matrix3d& axes, const SupportVertices& s
   return found;
 }
 
-// Measures the box at t. A climb may end early among vertices that are collinear or coplanar up to rounding.
-// Therefore a volume below the limit is measured again over all vertices.
+// Measures the box at t. SupportGraph::climb() may end early among vertices that are collinear or coplanar up
+// to rounding. Therefore a volume below the limit is measured again over all vertices.
 Measured FlushSearch::measure(const NormalRange& range, double t) {
   const Vector3d second = range.second_at(t);
   Eigen::Matrix3d axes;

@@ -11,7 +11,7 @@ namespace pcl_bv::detail {
 
 /// Returns the box of minimum volume around a hull, to a relative tolerance of 1e-10. If the hull is thinner
 /// than 1e-4 of its size, the tolerance is 1e-14 times size / thickness. `known` is any box around the hull.
-/// The nearer its volume is to the minimum, the sooner pairs of edges are discarded. O'Rourke 1985.
+/// The smaller `known` is, the faster the search discards pairs of edges. O'Rourke 1985.
 BoxFrame smallest_box(const BoxFrame& known, const Silhouette& shape);
 
 }  // namespace pcl_bv::detail

@@ -69,7 +69,8 @@ void GaussArcs::add_cut(std::int32_t from, std::int32_t to, const Eigen::Vector3
 }
 
 // Computes the lower bounds of the widths. For one fixed opposite vertex, the width along the unit normals of
-// an arc is a cosine. Where the cosine is positive it is concave, so its minimum is at an end of the arc.
+// an arc is a cosine function of the angle. Where this function is positive, it is concave, so its minimum is
+// at an end of the arc.
 void GaussArcs::measure(const std::vector<Eigen::Vector3d>& vertices, SupportGraph& graph) {
   std::vector<std::int32_t> farthest;
   farthest.reserve(nodes.size());

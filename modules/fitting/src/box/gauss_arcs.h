@@ -16,7 +16,7 @@ namespace pcl_bv::detail {
 
 /// The arcs of all edges of a hull, and lower bounds of its width.
 struct GaussArcs {
-  /// An arc, or a part of an arc of more than 60 degrees.
+  /// The arc of an edge. An arc of more than 60 degrees is divided into several elements.
   struct Arc {
     std::int32_t from, to;  ///< Indices into `nodes` of the normals at the two ends.
     std::int32_t vertex;    ///< A vertex of the edge that the arc belongs to.
@@ -24,12 +24,12 @@ struct GaussArcs {
     double width;           ///< Lower bound of the hull's width along any normal of the arc.
   };
 
-  /// The unit normals of the facets, then those at which arcs are divided.
+  /// The unit normals of the facets, then the unit normals at which arcs are divided.
   std::vector<Eigen::Vector3d> nodes;
   std::vector<Arc> arcs;
 
-  /// Lower bound of the hull's width along any direction. It follows from the arcs, because a polytope is
-  /// thinnest between two edges, or between a facet and a vertex.
+  /// Lower bound of the hull's width along any direction. It is the minimum over the arcs, because the
+  /// direction in which a polytope is thinnest is perpendicular to a facet or to two edges.
   double width = 0;
 
   GaussArcs(const Silhouette& shape, SupportGraph& graph);

@@ -16,8 +16,8 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the box along the axes around all valid points. There must be at least one valid point. The box
-/// encloses the points by exact arithmetic, and is tight to a few units in the last place of the extents and
+/// Returns the box along the axes around all valid points. There must be at least one valid point. In exact
+/// arithmetic, the box encloses the points. It is tight to a few units in the last place of the extents and
 /// of the centre. The columns of `axes` must be orthonormal to 1e-12. `supports` may be along any set. Needs
 /// a FloatEnvironment.
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
@@ -32,8 +32,8 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);
 /// A few points in local coordinates.
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 
-/// Returns the support points of all directions. If the cloud has no more points than these, returns all
-/// valid points.
+/// Returns the support points of all directions, two for each direction. If the cloud has at most this number
+/// of points, returns all valid points instead.
 FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 /// Returns the axes with the smallest half surface among the coordinate axes and the axes of DiTO's triangles
@@ -41,14 +41,14 @@ FewPoints support_or_all_points(const PointView& points, const Supports& support
 /// points. `few` must be the result of support_or_all_points().
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame);
 
-/// Returns the axes of the smallest box around the hull. If the hull has more than 128 vertices, it is the
-/// smallest box that a search finds. `summary` must be of the same points.
+/// Returns the axes of the smallest box around the points. If the hull has more than 128 vertices, the axes
+/// are those of the smallest box that a search finds. `summary` must be of the same points.
 Eigen::Matrix3d minimal_axes(const PointView& points, const Summary& summary, const LocalFrame& frame,
                              const FitExecution& execution);
 
-/// Returns axes, the first of which is `up`, a unit vector. For the axes of yaw_axes() the area seen from
-/// above is the minimum. For the axes of lshape_axes() the points are closest to the sides. `supports` must
-/// be along dop26, with points.
+/// Return axes, the first of which is `up`, a unit vector. The axes of yaw_axes() give the box with the
+/// minimum area seen from above. The axes of lshape_axes() give the box with the sides closest to the points.
+/// `supports` must be along dop26, with points.
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                          const Eigen::Vector3d& up, const FitExecution& execution);
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// DiTO, the ditetrahedron of Larsson, Kallberg 2011. Two tetrahedra on a common large triangle of extremal
-// points have seven triangles. The normal of each triangle is tried as an axis with each edge of this
-// triangle as another axis.
+// DiTO, the ditetrahedron of Larsson, Kallberg 2011. Two tetrahedra with a common large triangle of extremal
+// points have seven triangles. For each triangle, three frames are tried. Each frame has one axis along the
+// triangle's normal and one axis along an edge.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Points thinner than this limit are flat. Local coordinates have an extent from 1 to 2.
+// Points thinner than this limit are treated as flat. The unit is that of local coordinates, in which the
+// extent is from 1 to 2.
 constexpr double kThin = 1e-10;
 
 // The coordinates of a few points as lanes of floats, so that all points are projected at the same time.
@@ -73,7 +74,7 @@ struct Best {
   float half_area;
 };
 
-// Each direction has a pair of support points. Finds the pair that is farthest apart.
+// Each direction has a pair of support points. Finds the pair whose points are farthest apart.
 void farthest_pair(const Supports& supports, const LocalFrame& frame, Eigen::Vector3d& p,
                    Eigen::Vector3d& q) {
   double greatest = -1;

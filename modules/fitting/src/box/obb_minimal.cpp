@@ -5,8 +5,8 @@
 // other hulls, a search starts from many frames. It rotates each frame about one of its axes after another
 // while the volume decreases. For each axis, rotating calipers give the smallest rectangle around the outline
 // along the axis (Barequet, Har-Peled 2001; Chang et al. 2011). The worse half of the frames is dropped
-// repeatedly (Karnin, Koren, Somekh 2013). The result is usually within a few thousandths of the minimum,
-// occasionally within a few hundredths.
+// repeatedly (Karnin, Koren, Somekh 2013). The volume that this search finds is usually within a few
+// thousandths of the minimum, occasionally within a few hundredths.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -44,7 +44,7 @@ std::vector<Eigen::Matrix3d> random_rotations(std::size_t count) {
   return frames;
 }
 
-// Adds frames with the normals of the largest facets.
+// Adds frames with an axis along the normal of a facet, for the largest facets.
 void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
   constexpr std::size_t kFacets = 20;
   constexpr double kNoNormal = 1e-20;  // squared length, below which a normal is only a rounding error
@@ -72,8 +72,8 @@ struct Effort {
 };
 constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 
-// The first three starts are the axes of DiTO, those of PCA and the coordinate axes. The result must not be
-// larger than their boxes.
+// The first three starts are the axes of DiTO, the axes of PCA and the coordinate axes. The resulting box
+// must not be larger than the boxes along these axes.
 constexpr std::size_t kGuaranteedStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const Summary& summary,

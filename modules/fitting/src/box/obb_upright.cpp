@@ -18,8 +18,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Returns the unit vector at t. From t = 0 to t = 1 it rotates by 90 degrees. It is not computed by a sine,
-// because libraries round the sine differently.
+// Returns the unit vector at t. From t = 0 to t = 1 the vector rotates by 90 degrees. It is computed without
+// a sine, because libraries round the sine differently.
 Eigen::Vector2d direction(double t) {
   const double x = 1 - t, length = std::sqrt(x * x + t * t);
   return {x / length, t / length};
@@ -31,8 +31,8 @@ constexpr std::size_t kFinePoints = 4096;
 constexpr int kStarts = 3;
 constexpr int kHalvings = 7;  // The last steps are of 0.02 to 0.05 degrees.
 
-// Distances from a side below this fraction of the rectangle's diagonal are treated as equal. For a car the
-// limit is 12 cm.
+// Distances of points from a side are treated as equal if they are below this fraction of the rectangle's
+// diagonal. For a car this limit is 12 cm.
 constexpr double kNear = 1.0 / 40;
 
 // An evenly spaced sample of the cloud seen from above. Floats are precise enough, because the sample is only
@@ -54,8 +54,8 @@ struct Sample {
   std::vector<float> x, y;
 };
 
-// Measures how close the points are to the sides, by the sum of 1 / max(d, near)^2 with d the distance of a
-// point from the nearest side.
+// Measures how close the points are to the sides of a rectangle. The closeness is the sum of
+// 1 / max(d, near)^2 over the points, where d is the distance of a point from the nearest side.
 class Closeness {
  public:
   Closeness(const Outline& outline, double diagonal)

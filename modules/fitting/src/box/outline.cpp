@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A SIMD filter drops the points inside the polygon of the 26 extremal points (Akl, Toussaint 1978). These
-// are usually most points. to_convex_chain() processes the others.
+// A SIMD filter drops the points inside the polygon of the 26 extremal points (Akl, Toussaint 1978), usually
+// most of all points. to_convex_chain() finds the corners among the other points.
 
 #include "box/outline.h"
 
@@ -22,7 +22,8 @@ namespace {
 // Returns the vertical half-spaces through the polygon's edges. Points within a margin of a half-space's
 // plane are treated as outside. The margin covers underflow and rounding errors of up to 128 rounding units
 // of the extent (2^-17 for floats, 2^-46 for doubles). If rounding drops an outside point nevertheless, the
-// box may be larger than the minimum, but it still encloses this point.
+// box may be larger than the minimum. It still encloses this point, because its extents are measured on all
+// points.
 HalfSpaces outline_half_spaces(const PointView& points, const FewPoints& few, const LocalFrame& frame,
                                const Ground& ground) {
   SmallVector<Eigen::Vector2d, 32> corners;

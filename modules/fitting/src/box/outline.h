@@ -32,8 +32,9 @@ struct Ground {
 /// would cost more than the outline of a small cluster. A sweep can have thousands of small clusters.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
-/// Returns the convex outline of the points seen from above, in local coordinates, up to rounding. It has one
-/// corner or more. `supports` must be along dop26, with points. The bits are the same for every execution.
+/// Returns the convex outline of the points seen from above, in local coordinates. It has rounding errors,
+/// and at least one corner. `supports` must be along dop26, with points. The bits are the same for every
+/// execution.
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const FitExecution& execution);
 

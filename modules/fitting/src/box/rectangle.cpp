@@ -49,8 +49,8 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
     };
     begin[run] = std::partition(points, begin[run + 1], [&](const auto& p) { return !beyond(p); });
   }
-  // The four corners are stored before begin[0], so the output never overtakes the runs that are still to be
-  // read.
+  // The loop below writes the result to the front of `points` while it reads the runs. The points before
+  // begin[0] include the four corners, so the result never overwrites a point that is still to be read.
   std::size_t kept = 0;
   const auto add = [&](const Eigen::Vector2d& next, std::size_t first) {
     while (kept >= first + 2 && !turns_left(points[kept - 2], points[kept - 1], next))
@@ -84,7 +84,7 @@ Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count) 
     const double length = std::sqrt(dot(edge, edge));
     const Eigen::Vector2d u = edge / length, v(-u.y(), u.x());
     // Moves a caliper to the next corner while its projection along `direction` grows, at most once around
-    // the polygon. `direction` need not be a unit vector. So the processor need not wait for the square root
+    // the polygon. `direction` is not normalised, so that the processor need not wait for the square root
     // above.
     const auto advance = [&](std::size_t& at, const Eigen::Vector2d& direction) {
       for (std::size_t steps = 0; steps < count; ++steps) {

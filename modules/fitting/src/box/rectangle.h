@@ -10,10 +10,10 @@
 
 namespace pcl_bv::detail {
 
-/// Moves the corners of the convex hull to the front, counter-clockwise, and returns their number. It is 1
-/// for equal points and 2 for points on a line. The result has rounding errors. It may be used to choose
-/// axes, not to enclose points. planar_hull() is exact, but slower because it allocates. O(n log n). Andrew
-/// 1979.
+/// Moves the corners of the convex hull to the front of `points`, counter-clockwise, and returns the number
+/// of corners. Equal points have 1 corner, points on a line 2. The result has rounding errors, so it may be
+/// used to choose axes, but not to enclose points. planar_hull() is exact, but slower because it allocates.
+/// O(n log n). Andrew 1979.
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count);
 
 /// A rectangle in the plane, without its position.

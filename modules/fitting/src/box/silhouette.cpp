@@ -38,7 +38,7 @@ std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
 
 // Returns whether b is to the right of the line from a to c by more than rounding errors, for a hull with an
 // extent from 1 to 2. If facets or edges are parallel to the view, several corners are in a line or at the
-// same position. Such corners are dropped, because the calipers would stop at them.
+// same position. Such corners are dropped, because rotating calipers would stop at them too early.
 bool sticks_out(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   constexpr double kRounding = 1e-13;
   const Eigen::Vector2d along = c - a, to = b - a;
@@ -112,7 +112,7 @@ const std::vector<Eigen::Vector2d>& Silhouette::project(const Eigen::Vector3d& u
                                                         Projection& projection) const {
   find_rim(u.cross(v), projection);
   if (follow_rim(u, v, projection)) return projection.corners;
-  // Rounding can flip the orientation of thin facets, which makes more than one closed chain of edges. Then
+  // Rounding can flip the orientation of thin facets. Then the rim is not a single closed chain of edges, and
   // the corners are found among all vertices.
   projection.corners.clear();
   for (const Eigen::Vector3d& p : vertices_)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The outline of a convex hull along any direction.
+// The outline of a convex hull seen along any direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,12 +30,12 @@ class Silhouette {
     std::vector<Eigen::Vector2d> corners;  ///< Corners of the silhouette, which project() returns.
   };
 
-  /// The vertices and triangles must be as those of a LocalHull of rank 3.
+  /// The vertices and triangles must be those of a LocalHull of rank 3, in local coordinates.
   Silhouette(std::vector<Eigen::Vector3d> vertices, const std::vector<Triangle>& triangles);
 
   struct Edge {
     std::int32_t from, to;
-    std::int32_t left, right;  ///< Facets on both sides, seen from outside.
+    std::int32_t left, right;  ///< Facets to the left and right of from -> to, seen from outside.
   };
 
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
@@ -48,8 +48,9 @@ class Silhouette {
   }
 
   /// Returns projection.corners, the corners of the silhouette along u x v, counter-clockwise, in the
-  /// coordinates (u, v). The polygon is convex up to rounding. Its edges are the edges between a facet that
-  /// faces the viewer and a facet that does not, so nothing needs to be sorted. O(vertices).
+  /// coordinates (u, v). The polygon is convex up to rounding. The edges of the silhouette are those edges of
+  /// the hull that are between a facet that faces the viewer and a facet that does not. Therefore no corners
+  /// need to be sorted. O(vertices).
   const std::vector<Eigen::Vector2d>& project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                                               Projection& projection) const;
 

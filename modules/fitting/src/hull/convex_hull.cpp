@@ -22,8 +22,8 @@ bool in_line(const std::vector<Coordinates>& points, std::size_t a, std::size_t 
   return true;
 }
 
-// Appends the first point with the largest measure. If good() is false for that point, appends the first
-// point for which it is true. Returns false if there is no such point.
+// Appends the first point with the largest measure. If good() is false for this point, appends the first
+// point for which good() is true. Returns false if good() is false for all points.
 template <typename Measure, typename Good>
 bool find(const std::vector<Coordinates>& points, const Measure& measure, const Good& good,
           std::vector<std::size_t>& corners) {
@@ -42,8 +42,8 @@ bool find(const std::vector<Coordinates>& points, const Measure& measure, const 
   return true;
 }
 
-// Returns the positions of points that span as many dimensions as all points do. These are four points unless
-// all points are in a plane.
+// Returns the positions of a few points that span as many dimensions as all points together. These are four
+// points unless all points are in a plane.
 std::vector<std::size_t> spanning(const std::vector<Coordinates>& points) {
   std::vector<std::size_t> corners{0};
   const Eigen::Vector3d a = vector(points[0]);
@@ -83,8 +83,8 @@ std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
   return extreme;
 }
 
-// Returns the extreme points of points in a plane, on a line or at one position. Drops one coordinate such
-// that the points still span as many dimensions. This does not change which points are extreme.
+// Returns the extreme points of points in a plane, on a line or at one position. Drops a coordinate without
+// which the points span as many dimensions as with it. This does not change which points are extreme.
 std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points,
                                           const std::vector<std::size_t>& corners) {
   if (corners.size() < 2) return corners;
@@ -129,8 +129,8 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   std::vector<std::size_t> distinct = faces;
   std::sort(distinct.begin(), distinct.end());
   const bool cut = std::adjacent_find(distinct.begin(), distinct.end()) != distinct.end();
-  // The division of faces into triangles depends on all points that were added. To make it unique, the hull
-  // of the vertices alone is computed.
+  // The division of a face into triangles depends on all points that Quickhull added. To make the division
+  // unique, the hull of the vertices alone is computed.
   if (cut && hull.vertices.size() < points.size()) {
     std::vector<Coordinates> extreme;
     for (const std::size_t i : hull.vertices)

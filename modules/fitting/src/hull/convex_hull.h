@@ -20,7 +20,7 @@ using Triangle = std::array<std::int32_t, 3>;
 /// Result of convex_hull().
 struct ConvexHull {
   /// Positions of the extreme points in the input, ascending. An extreme point is not in the convex hull of
-  /// all other points. Of equal points the first counts.
+  /// all other points. Of several equal points, only the first can be a vertex.
   std::vector<std::size_t> vertices;
 
   /// The closed surface, as indices into `vertices`. Each triangle begins with its smallest index, and the
@@ -30,9 +30,8 @@ struct ConvexHull {
 };
 
 /// Computes the convex hull of points in exact arithmetic. The coordinates must be at most 1e100 in
-/// magnitude. Points inside do not change the hull. No point gives an empty hull. Points on a line give the
-/// two ends, points in a plane the corners of a polygon. O(n log n) for usual points, O(n^2) at worst. Needs
-/// a FloatEnvironment.
+/// magnitude. Without points, the hull is empty. Points on a line give the two ends, points in a plane the
+/// corners of a polygon. O(n log n) for usual points, O(n^2) at worst. Needs a FloatEnvironment.
 ///
 /// Barber, Dobkin, Huhdanpaa 1996 (Quickhull), with the predicates of Shewchuk 1997.
 ConvexHull convex_hull(const std::vector<Coordinates>& points);

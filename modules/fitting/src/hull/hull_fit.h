@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The common part of the fits that measure the convex hull.
+// The common part of the fits that are computed from the convex hull.
 #pragma once
 
 #include "hull/local_hull.h"

@@ -38,12 +38,12 @@ struct Scalar {
 
   bool is_float;
   double unit() const { return is_float ? 0x1p-24 : kUnitRoundoff; }
-  double underflow_bound() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // products underflow by less
+  double underflow_bound() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // above errors by underflow
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
   double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }
 
-  // Whether squared lengths in a cloud of this extent neither overflow nor underflow.
+  // Returns whether squared lengths in a cloud of this extent neither overflow nor underflow.
   bool squares(double extent) const {
     return is_float ? extent > 1e-15 && extent < 1e18 : extent > 1e-140 && extent < 1e140;
   }
@@ -57,12 +57,13 @@ Coordinates middle(const Corners& corners, const LocalFrame& frame, const Scalar
   return {scalar.nearest(c.x()), scalar.nearest(c.y()), scalar.nearest(c.z())};
 }
 
-// Returns the half-space of a triangle. Its limit is lowered by an error bound for all rounding. Let U =
-// 2^-53, u the rounding unit of the scalar type, and D the largest extent of the cloud. Local coordinates,
-// which are at most 2, have errors of at most 4 U. The edges have errors of 12 U, the components of their
-// cross product m errors of 112 U, and the rounded unit normal n an error of 112 U / |m| + 2 u. For a point p
-// of the cloud, this error changes n . (p - a) by at most 3 D times as much. The kernel's rounding of n . (p
-// - c) adds 16 u D, and that of n . (a - c) adds 24 U D. The total is less than D (512 U / |m| + 64 u).
+// Returns the half-space of a triangle with the corner a. Its limit is lowered by an error bound for all
+// rounding. Let U = 2^-53, u the rounding unit of the scalar type, D the largest extent of the cloud, and c
+// the centre. Local coordinates, which are at most 2, have errors of at most 4 U. The edges have errors of
+// 12 U. The components of their cross product m have errors of 112 U, and the rounded unit normal n has an
+// error of 112 U / |m| + 2 u. For a point p of the cloud, the error of n changes n . (p - a) by at most 3 D
+// times this error. The kernel's rounding of n . (p - c) adds 16 u D, and the rounding of n . (a - c) adds
+// 24 U D. The total is less than D (512 U / |m| + 64 u).
 HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinates& center, double extent,
                      const Scalar& scalar) {
   const auto at = [&](std::size_t i) { return corners.local[static_cast<std::size_t>(t[i])]; };
@@ -94,8 +95,8 @@ HalfSpaces inner_polytope(const PointView& points, const Supports& supports, con
     ball = std::min(ball, h.limit);
     result.planes[result.count++] = h;
   }
-  // For a point p in the ball, n . (p - c) is below each limit by 2^-9 of the limit. This margin also covers
-  // the rounding of the kernels.
+  // For each half-space and each point p in the ball, n . (p - c) is smaller than the limit by at least 2^-9
+  // of the limit. This margin covers the rounding of the kernels.
   if (scalar.squares(frame.extent())) result.squared_ball = scalar.down(ball * ball * (1 - 0x1p-8));
   return result;
 }

@@ -21,9 +21,9 @@ namespace {
 constexpr std::size_t kFewPoints = 500;
 
 // If a chunk of a source has more candidates than this, only its extreme points are stored. If all chunks
-// together have more than 8 times this number, only the extreme points of all chunks are stored. This is not
-// done for points in memory, because their candidates take only a few times the memory of the points.
-// Furthermore, it would compute the hull twice on a smooth surface, where all points are extreme.
+// together have more than 8 times this number, only the extreme points of all chunks are stored. For points
+// in memory, all candidates are stored, because these take only a few times the memory of the points.
+// Furthermore, on a smooth surface all points are extreme, so this would compute the hull twice for nothing.
 constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
@@ -70,7 +70,7 @@ void keep_vertices(const std::vector<std::size_t>& positions, LocalHull& hull) {
 }
 
 // Finds the corners of a flat hull. Projects the points by dropping the coordinate in which the normal of the
-// plane is largest, because this needs no rounding.
+// plane has its largest component. Such a projection has no rounding errors.
 void find_polygon(LocalHull& hull) {
   Eigen::Index dropped = 0;
   hull.axes.col(2).cwiseAbs().maxCoeff(&dropped);

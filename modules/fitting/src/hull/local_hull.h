@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The convex hull that other fits use instead of all points, in local coordinates of about 1.
+// The convex hull in local coordinates, which other fits use instead of all points.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,9 +38,10 @@ struct LocalHull : Span {
   /// As ConvexHull::triangles. Empty unless the rank is 3.
   std::vector<Triangle> triangles;
 
-  /// The extreme points by exact arithmetic, in ascending order of their positions in the view. Every valid
-  /// point of the cloud is in their convex hull. Therefore a convex set that contains the candidates contains
-  /// the cloud, and a convex function has its maximum over the cloud at a candidate.
+  /// The extreme points of the cloud, computed in exact arithmetic, in ascending order of their positions in
+  /// the view. Every valid point of the cloud is in the convex hull of the candidates. Therefore a convex set
+  /// that contains the candidates contains the cloud, and a convex function has its maximum over the cloud at
+  /// a candidate.
   std::vector<HullPoint> candidates;
 
   /// Returns the vertices in local coordinates.
@@ -52,7 +53,7 @@ struct LocalHull : Span {
   }
 
   /// Returns the coordinates of a point along the axes, each divided by the entry of `distances` for that
-  /// axis. These coordinates are about 1, and no cloud is thin in them.
+  /// axis. In these coordinates, the extent of the cloud along each axis that the cloud spans is about 1.
   Eigen::Vector3d spread(const Eigen::Vector3d& local) const {
     const Eigen::Vector3d q = local - candidates.front().local;
     return Eigen::Vector3d(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q))

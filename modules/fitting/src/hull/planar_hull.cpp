@@ -16,7 +16,7 @@ namespace pcl_bv::detail {
 namespace {
 
 // Returns the orientation in double arithmetic, or 0 if rounding could have changed its sign. Each product
-// has three roundings, and the difference has one. A relative margin of 8 2^-53 is enough for these.
+// has three roundings, and the difference has one. A relative margin of 8 2^-53 covers all roundings.
 int rounded_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());
@@ -44,9 +44,9 @@ std::vector<Eigen::Vector2d> octagon(const std::vector<Eigen::Vector2d>& points)
 }
 
 // Returns the positions of all points except those that are certainly to the left of all edges of an octagon
-// of points (Akl, Toussaint 1978). The omitted points are inside the hull for any choice of corners, also a
-// choice changed by rounding, because a point outside the hull cannot be to the left of all edges of a closed
-// polygon of points.
+// of points (Akl, Toussaint 1978). A point outside the hull cannot be to the left of all edges of a closed
+// polygon of points. Therefore the omitted points are inside the hull, even if rounding changed the choice of
+// the octagon's corners.
 std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& points) {
   const std::vector<Eigen::Vector2d> corners = octagon(points);
   std::vector<std::size_t> positions;
@@ -60,8 +60,8 @@ std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& poi
 }
 
 // Appends a point to the chain that begins at position `first` of `chain`. Before that, removes the last
-// corners of this chain while it would not turn left at them. The corners before `first` belong to the other
-// chain, which is complete.
+// corner of this chain as long as the chain would not turn left at this corner. The corners before `first`
+// belong to the lower chain, which is complete.
 void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, std::size_t first,
                   std::vector<std::size_t>& chain) {
   while (chain.size() >= first + 2 &&
@@ -78,9 +78,9 @@ int compare(double a, double b) {
 
 int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   if (const int certain = rounded_orientation(a, b, c)) return certain;
-  // Points of lattices are often collinear, and their differences are doubles. Then each product is the sum
-  // of its rounded value and a rounding error that is also a double. The rounded values are compared first,
-  // and the errors if the rounded values are equal.
+  // Points of lattices are often collinear, and their differences are doubles without rounding. In this case
+  // each product is the sum of its rounded value and a rounding error that is also a double. The rounded
+  // values are compared first. If these are equal, the errors are compared.
   const double bx = b.x() - a.x(), by = b.y() - a.y(), cx = c.x() - a.x(), cy = c.y() - a.y();
   const double left = bx * cy, right = by * cx;
   const bool doubles = is_exact_difference(b.x(), a.x(), bx) && is_exact_difference(b.y(), a.y(), by) &&

@@ -82,8 +82,8 @@ void Quickhull::assign_points(const std::vector<std::int32_t>& points, std::size
   }
 }
 
-// Returns the point farthest above the facet. Of equally far points it returns the first, because of equal
-// points the first must become a vertex.
+// Returns the point farthest above the facet. Of equally far points it returns the first, because only the
+// first of several equal points may become a vertex.
 std::int32_t Quickhull::farthest(const Facet& facet) const {
   const Eigen::Vector3d a = vector(at(facet.corners[0]));
   const Eigen::Vector3d normal = (vector(at(facet.corners[1])) - a).cross(vector(at(facet.corners[2])) - a);

@@ -15,8 +15,8 @@
 namespace pcl_bv::detail {
 
 /// Begins with a tetrahedron and adds the points outside, the farthest first (Barber, Dobkin, Huhdanpaa
-/// 1996). A point sees a facet if it is strictly above the plane of the facet. From this definition follow
-/// three facts. The facets that a point sees are connected. A facet whose plane contains the point remains. A
+/// 1996). A point sees a facet if it is strictly above the plane of the facet. Three facts follow from this
+/// definition. The facets that a point sees are connected. A facet whose plane contains the point remains. A
 /// point that sees none of the new facets is inside. With exact predicates, the proof of the authors holds
 /// unchanged.
 class Quickhull {
@@ -28,7 +28,7 @@ class Quickhull {
   /// Returns the facets. The corners are positions in `points`.
   std::vector<Triangle> triangles() const;
 
-  /// Returns the number of the face of each triangle, in the order of triangles(). Triangles in one plane
+  /// Returns for each triangle, in the order of triangles(), the number of its face. Triangles in one plane
   /// have the same number.
   std::vector<std::size_t> faces() const;
 
@@ -37,7 +37,7 @@ class Quickhull {
     Triangle corners;
     Triangle neighbours;              // the facets at the edges from corner k to corner k + 1
     std::vector<std::int32_t> above;  // points that see the facet and are still to be added
-    std::int32_t visited = -1;        // the last point found not to see the facet
+    std::int32_t visited = -1;        // the last point that was tested and does not see the facet
     bool removed = false;
   };
 

@@ -73,8 +73,8 @@ int by_integers(const Coordinates& a, const Coordinates& b, const Coordinates& c
     for (std::size_t k = 0; k < 3; ++k)
       bits.add((*q)[k]);
   }
-  // The integers have at most 160 bits. The volume, a sum of products of three differences, then has less
-  // than 490 bits.
+  // If this condition is true, the integers have at most 160 bits. The volume is a sum of products of three
+  // differences, so it has less than 490 bits.
   if (bits.highest - bits.lowest < 160) return by_integers<boost::multiprecision::int512_t>(a, b, c, p, bits);
   return by_integers<boost::multiprecision::cpp_int>(a, b, c, p, bits);
 }

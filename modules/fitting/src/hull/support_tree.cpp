@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Branch and bound in rounded local coordinates. Points within the error bound of the maximum are compared
-// exactly.
+// Branch and bound in rounded local coordinates. Points whose projection is within the error bound of the
+// maximum are compared exactly.
 
 #include "hull/support_tree.h"
 
@@ -23,8 +23,8 @@ constexpr std::size_t kLeafPoints = 8;
 constexpr std::size_t kFewQueries = 64;
 
 // Error bound of a projection. Local coordinates are at most 2, with an error of at most 4 2^-53. The
-// products with a normal and their sum add less than 20 times this error. The sides of a box add as much
-// again.
+// products with a normal and their sum add less than 20 times this error. The sides of a box add at most the
+// same again.
 constexpr double kErrorBound = 0x1p-44;
 
 }  // namespace
@@ -45,8 +45,8 @@ double SupportTree::Node::projection_bound(const Eigen::Vector3d& normal) const 
 // Returns the axes of the box of some points. The first two axes span the plane of three points: the first
 // point, the point farthest from it, and the point farthest from the line through these two. In this plane
 // the sides are those of the smallest rectangle. If a side were along that line instead, the box of a square
-// patch would be too wide by a third. Then, for a flat helix of 100 000 points, each facet on top would visit
-// half the nodes, which takes 15 s.
+// patch would be too wide by a third. For a flat helix of 100 000 points, the query of each facet on top
+// would then visit half of the nodes, which takes 15 s in total.
 Eigen::Matrix3d SupportTree::sides(std::uint32_t begin, std::uint32_t end) const {
   const auto from_start = [&](std::uint32_t i) -> Eigen::Vector3d {
     return point(i).local - point(begin).local;
@@ -129,8 +129,8 @@ double SupportTree::greatest(const Eigen::Vector3d& normal, double known, std::u
   return greatest(normal, known, prefer_second ? first : node.second);
 }
 
-// Raises `projection` to the exact projection, rounded up, of each point below node n with a rounded
-// projection of at least `least`.
+// Considers the points below node n with a rounded projection of at least `least`. If the largest exact
+// projection of these points, rounded up, is above `projection`, sets `projection` to it.
 void SupportTree::max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t n,
                                     double& projection) const {
   const Node& node = nodes_[n];

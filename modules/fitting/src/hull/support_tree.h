@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The exact maximum projection of a set of points along any direction, without inspecting most of them.
+// The exact maximum projection of a set of points along any direction. Most points are not inspected.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@ namespace pcl_bv::detail {
 /// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
 class SupportTree {
  public:
-  /// Stores a reference to the points. `queries` is the expected number of queries. If it is small, the tree
-  /// has only one node, because a deeper tree would take more time than it saves. O(m log m).
+  /// Stores a reference to the points. `queries` is the expected number of queries. For few queries, the tree
+  /// has only one node, because a deeper tree would take more time than it saves. O(m log m) for m points.
   SupportTree(const std::vector<HullPoint>& points, std::size_t queries);
 
   /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of
@@ -29,9 +29,10 @@ class SupportTree {
     Eigen::Matrix3d axes;
     Eigen::Vector3d center, half;  // centre and half extents of the box, in local coordinates
     std::uint32_t begin, end;      // range of the node's points in order_
-    std::uint32_t second;          // position of the second child, 0 for a leaf; the first child is next
+    std::uint32_t second;          // position of the second child, 0 for a leaf; the first follows its parent
 
-    double projection_bound(const Eigen::Vector3d& normal) const;  // upper bound for its points
+    // Returns an upper bound of the projections of the node's points.
+    double projection_bound(const Eigen::Vector3d& normal) const;
   };
 
   Eigen::Matrix3d sides(std::uint32_t begin, std::uint32_t end) const;

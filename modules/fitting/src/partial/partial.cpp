@@ -20,8 +20,8 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Sets counts, support points and extreme points of a state for more than kMaxStored points. Does not set
-// moments. number(i) is the number of the i-th point in the whole cloud.
+// Sets counts, support points and extreme points of a state for more than kMaxStored points. Does not set the
+// moments. number(i) must return the number in the whole cloud of the point with the index i.
 template <typename Number>
 void add_extremes(const PointView& points, const Execution& execution, const Number& number,
                   PartialState& state) {
@@ -146,8 +146,8 @@ PartialState merged(const PartialState& one, const PartialState& other) {
   return both;
 }
 
-// Returns the points that represent the cloud, which are the extreme points and the support points. A support
-// point may be any point of a flat side, so it is not always an extreme point.
+// Returns the points that represent the cloud: the extreme points and the support points. A support point is
+// not always an extreme point, because it may be any point of a flat side.
 NumberedPoints representative_points(const PartialState& state) {
   NumberedPoints points = state.extreme;
   for (const SupportPoint& p : state.support_points) {

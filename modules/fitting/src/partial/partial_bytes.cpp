@@ -151,7 +151,7 @@ NumberedPoints read_points(Reader& in) {
   return points;
 }
 
-// The largest number of blocks for which every point has a number.
+// The largest number of blocks such that the number of every point fits in a std::size_t.
 constexpr std::size_t kMostBlocks = std::numeric_limits<std::size_t>::max() / kBlockPoints;
 
 MomentTree read_tree(Reader& in) {

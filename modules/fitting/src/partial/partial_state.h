@@ -21,8 +21,8 @@ namespace pcl_bv::detail {
 struct PartialState {
   ScalarType scalar = ScalarType::float32;
 
-  /// All points, if there are at most Partial::kMaxStored. Otherwise the points of the incomplete blocks, of
-  /// which this Partial does not hold all points.
+  /// All points, if there are at most Partial::kMaxStored. Otherwise the points of the incomplete blocks. A
+  /// block is incomplete if the Partial does not have all of its points.
   NumberedPoints loose;
 
   // The members below are set only if there are more than Partial::kMaxStored points.

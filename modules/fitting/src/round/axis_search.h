@@ -12,12 +12,13 @@
 
 namespace pcl_bv::detail {
 
-/// Points in local coordinates, projected onto an axis and onto the plane perpendicular to it.
+/// Points in local coordinates, projected onto an axis through the origin and onto the plane through the
+/// origin that is perpendicular to the axis.
 struct Profile {
   /// Projects the points, and replaces the results of the previous call of project(). O(points).
   void project(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
 
-  Eigen::Vector3d foot;       ///< Centre of the points' smallest circle, in the plane through the origin.
+  Eigen::Vector3d foot;       ///< Centre of the smallest circle around the points in the plane.
   double squared_radius = 0;  ///< Squared radius of that circle.
   double low = 0, high = 0;   ///< Minimum and maximum projection on the axis.
   std::vector<double> projections;  ///< Projection of each point on the axis.
@@ -37,9 +38,9 @@ struct Profile {
 std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull);
 
 /// Returns a unit vector for which size() is small. size() must return the same for opposite vectors. The
-/// search tries 49 directions over the hemisphere and the axes of the hull, and improves the best of them by
-/// smaller and smaller steps. To give the same bits everywhere, it uses no random numbers, and of libm only
-/// the square root.
+/// search tries the axes of the hull and 49 directions over the hemisphere. It improves the best of these by
+/// smaller and smaller steps. The bits are the same on every machine, because the search uses no random
+/// numbers, and of libm only the square root.
 Eigen::Vector3d search_axis(const LocalHull& hull, const std::function<double(const Eigen::Vector3d&)>& size);
 
 }  // namespace pcl_bv::detail

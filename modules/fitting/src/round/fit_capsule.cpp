@@ -21,7 +21,8 @@ struct Candidate {
 };
 
 // Returns the shortest capsule of this radius. The centre of each cap is as far inward as the points allow.
-// At the distance of a point from the axis, a cap extends by `cap_length` beyond its centre.
+// `cap_length` is the length by which a cap extends beyond its centre, measured at the point's distance from
+// the axis.
 Candidate shortest(const Profile& profile, double squared_radius) {
   double low = profile.projections.front(), high = low;
   bool first = true;
@@ -51,9 +52,9 @@ Candidate widened(const Profile& profile) {
   return best;
 }
 
-// Returns the capsule with these ends around all points. Let q = p - a, e = b - a and U = 2^-53. The error of
-// the computed distance from the segment is less than 20 U (|q|_1 + |e|_1). This includes the errors of the
-// foot, the differences and the lengths.
+// Returns the capsule around all points whose segment has the ends a and b. Let q = p - a, e = b - a and
+// U = 2^-53. The error of the computed distance from the segment is less than 20 U (|q|_1 + |e|_1). This
+// includes the errors of the foot, the differences and the lengths.
 Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
   const Eigen::Vector3d e = (b - a) * frame.scale();

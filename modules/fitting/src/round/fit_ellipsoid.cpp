@@ -25,8 +25,8 @@ constexpr int kMostIterations = 300;
 constexpr double kThinRadius = 0x1p-30;
 
 // Finds the smallest ellipsoid of the vertices in the first `rank` coordinates of LocalHull::spread(). The
-// smallest ellipsoid is the same in all affine coordinates, but the solver's matrices would be inaccurate for
-// points thinner than 1e-8.
+// smallest ellipsoid is the same in all affine coordinates. In local coordinates the solver's matrices would
+// be inaccurate for points thinner than 1e-8.
 WeightedEllipsoid solve(const LocalHull& hull) {
   std::vector<Eigen::Vector3d> points;
   for (const HullPoint& v : hull.vertices)
@@ -57,9 +57,9 @@ Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3
   return body;
 }
 
-// Fills in the certificate. `ratio` compares volumes, areas or lengths for rank 3, 2 or 1. The margin of the
-// bound covers rounding errors. These moved the points in spread() coordinates by 2^-48 divided by the
-// smallest entry of hull.distances.
+// Fills in the certificate. `ratio` compares volumes for rank 3, areas for rank 2, and lengths for rank 1.
+// The margin of the bound covers rounding errors. These errors move the points in spread() coordinates by
+// 2^-48 divided by the smallest entry of hull.distances.
 void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllipsoid& weighted,
              const Axes& body, EllipsoidCertificate& certificate) {
   const SymmetricEigen spread = symmetric_eigen(weighted.covariance);
@@ -88,8 +88,8 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
     if (hull.rank == 0) {
       certificate.support = {hull.vertices[0].index};
       certificate.weights = {1};
-      // If the extent is below 1e-300, even distinct points have rank 0. A ball with a radius of twice the
-      // extent contains them.
+      // If the extent is below about 1e-312, even distinct points have rank 0. A ball with a radius of twice
+      // the extent contains these points.
       const Eigen::Vector3d radii = Eigen::Vector3d::Constant(2 * frame.extent());
       ellipsoid = Ellipsoid(vector(hull.vertices[0].point), Eigen::Matrix3d::Identity(), radii);
       return;

@@ -10,9 +10,9 @@
 
 namespace pcl_bv::detail {
 
-/// Weights of points, and the ellipsoid that they define. With S their weighted covariance and d the number
-/// of dimensions, no ellipsoid around these points has a volume below that of the unit ball times
-/// sqrt(d^d det S).
+/// Weights of points, and the ellipsoid that they define. Let S be the weighted covariance of the points and
+/// d the number of dimensions. No ellipsoid around these points has a volume below sqrt(d^d det S) times the
+/// volume of the unit ball.
 struct WeightedEllipsoid {
   std::vector<double> weights;  ///< One weight per point, not negative, with sum 1.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -20,10 +20,10 @@ struct WeightedEllipsoid {
   int iterations = 0;
 };
 
-/// Computes the smallest ellipsoid of points. Only their first `dimensions` coordinates are used. In these
-/// the points must span all dimensions, and the coordinates should be about 1. In the end, all points satisfy
-/// (p - center)' S^-1 (p - center) <= dimensions + (dimensions + 1) tolerance, unless the solver stops before
-/// because of `most_iterations`. O(points) for each iteration. Usually 20 to 100 iterations are enough.
+/// Computes the smallest ellipsoid of points. Uses only the first `dimensions` coordinates, which should be
+/// about 1. The points must span all of these dimensions. In the end, all points satisfy
+/// (p - center)' S^-1 (p - center) <= dimensions + (dimensions + 1) tolerance, unless `most_iterations` stops
+/// the solver before. O(points) for each iteration. Usually 20 to 100 iterations are enough.
 ///
 /// Exchanges weight between pairs of points (Boehning 1986). First the point farthest outside exchanges
 /// weight with all points that have weight. Then these points exchange weight with one another, as in Harman,

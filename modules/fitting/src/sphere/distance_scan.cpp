@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kBlocksPerChunk = 32;
 
-// With at most this number of blocks the float filter is off, because each block probably has a point on the
-// sphere, which floats cannot reject.
+// For clouds of at most this number of blocks, the float filter is off: in a small cloud each block probably
+// has a point on the sphere, and floats cannot reject such a point.
 constexpr std::size_t kFewBlocks = 4;
 
 // Margins for the rounding of distances and of their sums, which are at most a few dozen roundings.
@@ -110,8 +110,8 @@ double DistanceScan::greatest(const DistanceCenter& center, double at_least) con
 }
 
 // The farthest point in each octant among all points that the threads have scanned so far. Points nearer than
-// the nearest of these eight can be skipped. Which candidates compete depends on timing, but the final points
-// do not.
+// the nearest of these eight points can be skipped. The calls of compete() depend on timing, but the final
+// eight points do not.
 class DistanceScan::SharedOctants {
  public:
   SharedOctants() {
@@ -197,9 +197,9 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
   }
 }
 
-// Lists the points that can be at least `distance` from a centre near `center`. Near means at most an eighth
-// of the distance between `center` and the centre of the full scan. Returns false if these points are too
-// many or there are no bounds.
+// Lists the points that can be at least `distance` away from a centre near `center`. Near means that the
+// distance from `center` is at most an eighth of the distance between `center` and scan_center_. Returns
+// false if these are too many points, or if there are no bounds.
 bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   if (bounds_ == nullptr) return false;
   const double moved = distance_up(center, scan_center_);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compares the distances of a cloud's points with a radius, in parallel. Finds which points are outside, how
-// far they are, and which points need not be inspected again.
+// Compares the distances of a cloud's points from a centre with a radius, in parallel. Finds the points
+// outside, their distances, and the points that need not be inspected again.
 #pragma once
 
 #include <array>
@@ -52,8 +52,8 @@ class DistanceScan {
   }
 
   /// Answers a query as FarthestQuery does. Fastest if the centre hardly moves between calls. A scan of all
-  /// points also stores upper bounds of distances, one bound per several points. If only a few points can
-  /// have a distance above the limit, later calls inspect only these.
+  /// points also stores upper bounds of distances, each for a group of points. If only few points can have a
+  /// distance above the limit, later calls inspect only these points.
   bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
 
  private:
@@ -75,7 +75,7 @@ class DistanceScan {
   FloatFilter filter_;
   std::size_t blocks_;
 
-  std::unique_ptr<float[]> bounds_;  // bounds of distances from scan_center_, of the latest full scan
+  std::unique_ptr<float[]> bounds_;  // upper bounds of distances from scan_center_, of the latest scan_all()
   DistanceCenter scan_center_;
   bool scanned_ = false;
 

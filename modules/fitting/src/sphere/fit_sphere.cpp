@@ -36,7 +36,8 @@ struct FirstBall {
   double squared_radius;  // in the unit of the kernels, squared
 };
 
-// Returns the ball over the two extremal points of the axis whose extremal points are farthest apart.
+// Each axis has two extremal points. Takes the axis whose extremal points are farthest apart, and returns the
+// ball with the segment between these two points as a diameter.
 FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   FirstBall ball{Eigen::Vector3d::Zero(), -1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -61,8 +62,8 @@ std::vector<Direction> epos98_directions() {
   return directions;
 }
 
-// Returns the first ball of EPOS. If there are no more points than support points, it is the ball of all
-// points (Larsson 2008).
+// Returns the first ball of EPOS, which is the smallest ball of the support points. If the cloud has at most
+// as many points as there are support points, returns the smallest ball of all points (Larsson 2008).
 FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports& supports,
                     const LocalFrame& frame, const FitExecution& execution) {
   const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(supports.set);

@@ -14,8 +14,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A sphere that only grows. After each step it contains, by exact arithmetic, the sphere before the step.
-// Therefore points that are inside remain inside.
+// A sphere that only grows. In exact arithmetic, the sphere after each step contains the sphere before the
+// step. Therefore points that are inside remain inside.
 class GrowingSphere {
  public:
   GrowingSphere(const LocalFrame& frame, const Eigen::Vector3d& center, double squared_radius)
@@ -27,7 +27,7 @@ class GrowingSphere {
   double squared_radius() const { return radius_ * radius_ * (1 - 0x1p-50); }
 
   // Grows to the sphere through p and the far side of the old sphere, with a margin for rounding. A point
-  // that is inside by exact arithmetic never changes the sphere, so callers may pass or omit such points.
+  // that is inside in exact arithmetic never changes the sphere, so callers may pass or omit such points.
   void grow(const Coordinates& p) {
     const double d = std::sqrt(squared_distance(p, center()));
     if (!(d > radius_ * kInside)) return;
@@ -39,7 +39,7 @@ class GrowingSphere {
     radius_ = std::max({grown, (moved + radius_) * kOutward, distance});
   }
 
-  // Adds the margin for points that are outside by no more than kInside.
+  // Returns the sphere with a margin for the points that grow() treats as inside because of kInside.
   Sphere finish() const { return {center_, frame_.radius(radius_ * kOutward)}; }
 
  private:
@@ -72,8 +72,8 @@ void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& spher
   }
 }
 
-// Grows over the points outside in ascending order of their indices, also if the view's index list is not
-// ascending.
+// Grows over the points outside in ascending order of their indices. The view's index list may have any
+// order.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
   std::vector<std::size_t> outside;

@@ -10,8 +10,8 @@
 
 namespace pcl_bv::detail {
 
-/// Grows the sphere with this centre and squared radius until it contains every valid point by exact
-/// arithmetic. `squared_radius` is in the unit of the distance kernels (LocalFrame::center()).
+/// Grows the sphere with this centre and squared radius until it contains every valid point in exact
+/// arithmetic. `squared_radius` is in the squared unit of the distance kernels (LocalFrame::center()).
 Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eigen::Vector3d& center,
                    double squared_radius, SphereGrowth growth);
 

@@ -15,8 +15,8 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-// Squared distances that differ by smaller factors are treated as equal. kTie is for distances from two
-// computed centres of the same ball.
+// Squared distances that differ by smaller factors than these are treated as equal. kRounding is for
+// distances from one centre. kTie is for distances from two computed centres of the same ball.
 constexpr double kRounding = 1 + 0x1p-50;
 constexpr double kTie = 1 + 0x1p-46;
 
@@ -49,7 +49,7 @@ bool solve(std::array<Vector, 3> rows, Vector right, Vector& x) {
   return true;
 }
 
-// Returns the weights with which the sum of three spokes is x; NaN if the spokes are dependent.
+// Returns the weights w with sum w_i spokes[i] = x; NaN if the spokes are linearly dependent.
 Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
   std::array<Vector, 3> rows;
   for (int axis = 0; axis < 3; ++axis)
@@ -70,10 +70,11 @@ class Step {
     }
   }
 
-  // Returns the members of the support that remain, as bits. Sets the centre, relative to the new point.
+  // Returns the members of the support that remain: bit i stands for support[i]. Sets the centre, relative to
+  // the new point.
   unsigned solve(Vector& center) {
-    // Smaller supports are tried first. If the ball of a support contains all points, it is the smallest
-    // ball.
+    // Smaller supports are tried first. If the ball of a support contains all points, this ball is the
+    // smallest, and larger supports need not be tried.
     if (!try_pairs() && !try_triples()) try_quadruples();
     center = center_;
     return members_;
@@ -82,8 +83,8 @@ class Step {
  private:
   // Compares the ball that has this centre and passes through the new point (the origin) with the best ball
   // so far. Returns whether no point is outside the ball. Several supports of cospherical points have the
-  // same ball. Of equal balls the one with the largest minimum weight is taken, because a support with a
-  // negative weight does not require its ball.
+  // same ball. Of these supports the one with the largest minimum weight is taken, because the ball is the
+  // smallest ball of a support only if no weight is negative.
   template <typename LeastWeight>
   bool offer(unsigned members, const Vector& center, LeastWeight&& least_weight) {
     const double squared_radius = dot3(center, center);
@@ -124,7 +125,7 @@ class Step {
   }
 
   // Tries all quadruples until a ball contains all points and has no negative weight. The weights must be
-  // checked because a sphere through four points may contain the fifth without being the smallest.
+  // checked, because a sphere through four points can contain the fifth point and still not be the smallest.
   void try_quadruples() {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {

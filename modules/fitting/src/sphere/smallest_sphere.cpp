@@ -36,7 +36,7 @@ void certify(const SmallBall& ball, const SeedPoints& candidates, const LocalFra
       frame.length_down(std::sqrt(std::max(0.0, ball.squared_lower_bound)) * (1 - 0x1p-48));
 }
 
-// Adds the points found outside. Returns false if all of them were candidates already.
+// Adds the points in `found` to the candidates. Returns false if all of them were candidates already.
 bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   bool added = false;
   for (const FarPoint& far : found) {

@@ -17,8 +17,8 @@
 
 namespace pcl_bv::detail {
 
-/// Throws std::invalid_argument if the execution has supports of other points. Every fit calls it, also a fit
-/// that does not use the supports.
+/// Throws std::invalid_argument if the execution has supports of other points. Every fit calls this function,
+/// even a fit that does not use the supports.
 void require_matching_supports(const PointView& points, const FitExecution& execution);
 
 /// Returns whether the points are a few points that represent a whole cloud (Supports::moments).
@@ -26,8 +26,8 @@ inline bool represents_cloud(const FitExecution& execution) {
   return execution.supports != nullptr && execution.supports->moments != nullptr;
 }
 
-/// Throws std::invalid_argument if the points only represent a whole cloud. Called by fits whose volume
-/// depends on all points. `fit` is the name of the fit in the message.
+/// Throws std::invalid_argument if represents_cloud(). Fits whose volume depends on all points call this
+/// function. `fit` is the name of the fit in the message.
 void require_all_points(const FitExecution& execution, const char* fit);
 
 /// Throws the std::invalid_argument of require_all_points().
@@ -40,8 +40,8 @@ class SupportSearch {
   SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points);
 
   /// Finds the support points of a chunk. Several threads may call find() at the same time. They share the
-  /// projections found so far, and skip points that cannot exceed these. Which points a call finds depends on
-  /// timing, but the merged result does not. Needs a FloatEnvironment.
+  /// largest projections found so far, and skip points with smaller projections. The points that a call finds
+  /// depend on timing, but the merged result does not. Needs a FloatEnvironment.
   ChunkSupports find(const PointView& chunk);
 
   /// Merges the support points of a chunk into those found so far.
@@ -64,8 +64,8 @@ class SupportSearch {
   ChunkSupports all_;
 };
 
-/// Returns the support along the k-th direction, given the points with the minimum and the maximum
-/// projection.
+/// Returns the support along the k-th direction. `low` and `high` are the points with the minimum and the
+/// maximum projection.
 Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,
                         const SupportPoint& high);
 
@@ -73,8 +73,8 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
 /// rank is not set.
 Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
-/// These functions compute the supports of a box chunk by chunk. empty_bounds() returns the supports of no
-/// point, merge_bounds() adds the box of a chunk, and finish_bounds() sets the counts.
+/// These functions compute the supports of a box chunk by chunk. empty_bounds() returns supports without
+/// points, merge_bounds() adds the box of a chunk, and finish_bounds() sets the number of valid points.
 Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);

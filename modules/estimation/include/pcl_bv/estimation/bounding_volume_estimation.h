@@ -39,7 +39,7 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   using Ptr = pcl::shared_ptr<BoundingVolumeEstimation>;
   using ConstPtr = pcl::shared_ptr<const BoundingVolumeEstimation>;
 
-  // Overridden because PCLBase records that indices were set, but not that they were removed.
+  // Overridden, because PCLBase::setIndices() cannot remove indices that were set before.
   /// Restricts the fit to the points with these indices. A null pointer removes the restriction.
   void setIndices(const pcl::IndicesPtr& indices) override { this->indices_ = indices; }
   void setIndices(const pcl::IndicesConstPtr& indices) override {
@@ -57,8 +57,8 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 
   /// Sets the instruction set, an Isa. The default is Isa::automatic, for which the constructor reads the
   /// environment variable PCL_BV_ISA. The result does not depend on the instruction set. Throws
-  /// std::invalid_argument if this build or machine does not support the instruction set. The constructor
-  /// also throws it, for the value of PCL_BV_ISA.
+  /// std::invalid_argument if this build or machine does not support the instruction set. The constructor of
+  /// the estimator also throws std::invalid_argument if the value of PCL_BV_ISA is not supported.
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
   /// Fits the volume to the input cloud, or to its points with the indices that were set.
@@ -69,10 +69,10 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   /// cloud was set, and std::out_of_range for an index outside the cloud.
   EstimationResult compute(VolumeT& volume) const { return take(fit(input(), execution_), volume); }
 
-  /// Fits one volume to each cluster, in order. Clusters are lists of indices into the input cloud; The
-  /// indices of setIndices() are ignored. The results have the same bits as one call of compute() per
-  /// cluster. A cluster whose fit fails does not affect the others. Throws as compute() does, before anything
-  /// is written.
+  /// Fits one volume to each cluster. Clusters are lists of indices into the input cloud. The indices of
+  /// setIndices() are ignored. Volumes and results are in the order of the clusters, with the same bits as
+  /// one call of compute() per cluster. A cluster whose fit fails does not affect the others. Throws as
+  /// compute() does, before anything is written.
   std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
                                         std::vector<VolumeT>& volumes) const {
     std::vector<PointView> views;
@@ -147,7 +147,7 @@ using CylinderEstimation = FitEstimation<PointT, Cylinder, fit_cylinder>;
 template <typename PointT>
 using CapsuleEstimation = FitEstimation<PointT, Capsule, fit_capsule>;
 
-/// Estimates the k-DOP along K / 2 built-in directions (K = 6, 14, 18 or 26) or along your own directions.
+/// Estimates the k-DOP along K / 2 built-in directions or along your own directions. K is 6, 14, 18 or 26.
 /// See fit_kdop().
 template <typename PointT, int K = 26>
 class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
@@ -199,18 +199,18 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   using ConstPtr = pcl::shared_ptr<const SphereEstimation>;
   using BoundingVolumeEstimation<PointT, Sphere>::compute;
 
-  /// Sets the method; SphereMethod::exact by default.
+  /// Sets the method. The default is SphereMethod::exact.
   void setMethod(SphereMethod method) { options_.method = method; }
   SphereMethod getMethod() const { return options_.method; }
 
-  /// Sets how the methods SphereMethod::ritter and SphereMethod::epos* enlarge the first sphere;
-  /// SphereGrowth::deferred by default.
+  /// Sets how the methods SphereMethod::ritter and SphereMethod::epos* enlarge the first sphere. The default
+  /// is SphereGrowth::deferred.
   void setGrowth(SphereGrowth growth) { options_.growth = growth; }
   SphereGrowth getGrowth() const { return options_.growth; }
 
-  /// Fits the smallest sphere and the proof that no sphere is smaller. See fit_smallest_sphere(). Throws as
-  /// compute() does. Also throws std::invalid_argument if a method other than SphereMethod::exact is set,
-  /// because the other methods have no proof.
+  /// Fits the smallest sphere, and stores in `certificate` the proof that no sphere is smaller. See
+  /// fit_smallest_sphere(). Throws as compute() does. Also throws std::invalid_argument if a method other
+  /// than SphereMethod::exact is set, because the other methods have no proof.
   EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const {
     if (options_.method != SphereMethod::exact)
       throw std::invalid_argument("SphereEstimation: compute() with a certificate needs SphereMethod::exact");
@@ -228,21 +228,21 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   SphereOptions options_;
 };
 
-/// Estimates an oriented box, by default the smallest box that the search finds. Boxes of the upright methods
-/// have axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
+/// Estimates an oriented box, by default with ObbMethod::minimal. Boxes of the upright methods `yaw` and
+/// `lshape` have axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
 template <typename PointT>
 class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
  public:
   using Ptr = pcl::shared_ptr<ObbEstimation>;
   using ConstPtr = pcl::shared_ptr<const ObbEstimation>;
 
-  /// Sets the method; ObbMethod::minimal by default.
+  /// Sets the method. The default is ObbMethod::minimal.
   void setMethod(ObbMethod method) { options_.method = method; }
   ObbMethod getMethod() const { return options_.method; }
 
-  /// Sets the direction against gravity for the upright methods; z by default. The length of `up` does not
-  /// matter, but compute() throws std::invalid_argument unless the largest component of `up` is from 1e-30 to
-  /// 1e30 in magnitude.
+  /// Sets the direction against gravity for the upright methods. The default is z. The length of `up` does
+  /// not matter, but compute() throws std::invalid_argument unless the largest component of `up` is from
+  /// 1e-30 to 1e30 in magnitude.
   void setUpAxis(const Eigen::Vector3d& up) { options_.up = up; }
   const Eigen::Vector3d& getUpAxis() const { return options_.up; }
 
@@ -284,8 +284,9 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
   using Ptr = pcl::shared_ptr<BestEstimation>;
   using ConstPtr = pcl::shared_ptr<const BestEstimation>;
 
-  /// Sets the methods to choose from, by name; best_candidates() by default. Throws std::invalid_argument for
-  /// an unknown name, for the name `best` and for an empty list. The message contains the wrong name.
+  /// Sets the names of the methods to choose from. By default these are the best_candidates(). Throws
+  /// std::invalid_argument for an unknown name, for the name `best` and for an empty list. The message
+  /// contains the wrong name.
   void setMethods(const std::vector<std::string>& names) {
     std::vector<const Method*> candidates;
     for (const std::string& name : names) {

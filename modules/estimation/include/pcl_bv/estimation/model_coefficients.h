@@ -26,8 +26,8 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
 }  // namespace detail
 
 /// Returns the coefficients for PCLVisualizer::addCube(): translation x y z, rotation as a quaternion x y z
-/// w, and the sizes along axes 0, 1 and 2 of the box (for an upright box: length, width, height). The
-/// coefficients are rounded to float, so the model may not enclose the box.
+/// w, and the sizes along axes 0, 1 and 2 of the box. For an upright box these sizes are length, width and
+/// height. The coefficients are rounded to float, so the model may not enclose the box.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
   const Eigen::Vector3d& c = box.center();
   const Eigen::Vector3d size = box.empty() ? c : Eigen::Vector3d(2 * box.half_extents());
@@ -45,10 +45,10 @@ inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
   return detail::as_floats({f.center.x(), f.center.y(), f.center.z(), f.radius});
 }
 
-/// Returns the coefficients for PCLVisualizer::addCylinder() and SACMODEL_CYLINDER: a point on the axis (the
-/// centre), the direction of the axis, the radius. The model is an infinite cylinder, without ends. Rounding
-/// to float moves the axis; the radius is inflated by the largest movement between the ends, so the model
-/// encloses the cylinder.
+/// Returns the coefficients for PCLVisualizer::addCylinder() and SACMODEL_CYLINDER: the centre as a point on
+/// the axis, the direction of the axis, and the radius. The model is an infinite cylinder, without ends.
+/// Rounding to float moves the axis. The radius is inflated by the largest such movement between the ends of
+/// the cylinder, so the model encloses the cylinder.
 inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
   const FloatCylinder f = cylinder.cast_float();
   return detail::as_floats(

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fits of bounding volumes to points. Every fit takes the points, then its options, then the execution. Each
-// valid point is inside the returned volume by exact real arithmetic. The result has the same bits for every
-// instruction set and every number of threads (docs/numerics.md). "The paper" is the first entry of
+// Fits of bounding volumes to points. Every fit takes the points, then its options, then the execution. In
+// exact real arithmetic, each valid point is inside the returned volume. The result has the same bits for
+// every instruction set and every number of threads (docs/numerics.md). "The paper" is the first entry of
 // docs/references.md.
 #pragma once
 
@@ -32,8 +32,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Fits the axis-aligned box of the points: their exact minimum and maximum. The paper, §2.
 ///
 /// If there is no valid point, the box is empty and the status is `no_valid_points`. One point gives a box of
-/// that point only. O(n) in one pass. Flat points take up to six passes, because their rank needs more
-/// passes. Exceptions of the points' source (PointView::source) are passed on.
+/// that point only. O(n) in one pass. Computing the rank of flat points takes up to five more passes.
+/// Exceptions of the points' source (PointView::source) are passed on.
 Fitted<Aabb> fit_aabb(const PointView& points, const Execution& execution = {});
 
 /// Fits the k-DOP of the points along the directions of `set` (not null). Each slab is the exact minimum and
@@ -51,15 +51,15 @@ struct KdopWithContacts : Fitted<Kdop> {
   SlabPoints contacts;  ///< For each slab the points on its two sides.
 };
 
-/// Fits the k-DOP as fit_kdop() does, and finds the points that touch its slabs. Takes about four times as
-/// long as fit_kdop() for KdopSet::dop6(), and about as long for other sets.
+/// Fits the k-DOP as fit_kdop() does, and finds the points that touch its slabs. Takes about the time of
+/// fit_kdop(). For KdopSet::dop6() it takes about four times as long.
 KdopWithContacts fit_kdop_with_contacts(const PointView& points,
                                         const std::shared_ptr<const KdopSet>& set = KdopSet::dop26(),
                                         const Execution& execution = {});
 
 /// Fits a sphere around the points. Centre and radius are in the points' unit. The paper, §3. Empty input and
-/// errors are as for fit_aabb(). One point or equal points give radius 0. The growing methods take two
-/// passes over the points, `epos98` three; for `exact` see fit_smallest_sphere().
+/// errors are as for fit_aabb(). One point or equal points give radius 0. For `exact` see
+/// fit_smallest_sphere(). `epos98` takes three passes over the points, the other methods take two.
 Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options = {},
                           const Execution& execution = {});
 
@@ -67,37 +67,38 @@ Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options 
 /// most 1e-12 of the radius, plus the rounding of the stored centre to double (half a unit in the last place
 /// of its coordinates). Empty input and errors are as for fit_aabb().
 ///
-/// Larsson, Capannini, Källberg 2016. Computes the smallest ball of a few points, and adds to these the
-/// farthest outside point in each octant until no point is outside. The loop always ends. Most clouds take
-/// two passes. Further passes mostly inspect only the points near the surface.
+/// Larsson, Capannini, Källberg 2016. Computes the smallest ball of a few points, adds the farthest outside
+/// point in each octant to these few points, and repeats this until no point is outside. The loop always
+/// ends. Most clouds take two passes. Further passes mostly inspect only the points near the surface.
 Certified<Sphere, SphereCertificate> fit_smallest_sphere(const PointView& points,
                                                          const Execution& execution = {});
 
 /// Fits an oriented box around the points. Centre and half extents are in the points' unit.
 ///
-/// The axes are in the order of Obb::canonical(). Those of `yaw` and `lshape` are in the order of
-/// Obb::upright(up): axis 2 is up, and axis 0 is the longer horizontal axis. The sizes along axes 0, 1 and 2
-/// are then length, width and height. For every method, the box is measured along its axes on all points. It
-/// encloses each point by exact arithmetic and is tight along each axis, except for the rounding of its
-/// centre.
+/// For `pca`, `dito14` and `minimal`, the axes are in the order of Obb::canonical(). For `yaw` and `lshape`,
+/// they are in the order of Obb::upright(up): axis 2 is up, and axis 0 is the longer horizontal axis. The
+/// sizes along axes 0, 1 and 2 are then length, width and height. Every method measures the box along its
+/// axes on all points. In exact arithmetic, the box encloses each point. It is tight along each axis, except
+/// for the rounding of its centre.
 ///
 /// If there is no valid point, the box is empty and the status is `no_valid_points`. One point gives a box
-/// with half extents 0. Points on a line or in a plane, to 1e-10 of their extent, give a box along this line
-/// or plane that is only as thick as rounding. The bits are the same for every execution.
+/// with half extents 0. Points that are on a line or in a plane, to 1e-10 of their extent, give a box along
+/// this line or plane. Rounding makes the box hardly thicker than the points. The bits are the same for every
+/// execution.
 ///
-/// O(n): two passes for `pca` and `dito14`, three for the other methods. These also take O(m log m) for m
-/// points. For `minimal` these are the points near the hull, for `yaw` and `lshape` the points near the
-/// outline seen from above. `minimal` takes some milliseconds for a round hull of 128 vertices. It takes as
-/// long for a hull of hundreds of vertices, which it searches less thoroughly. Throws std::invalid_argument
-/// for an `up` outside its range. Other errors are as for fit_aabb().
+/// O(n): two passes for `pca` and `dito14`, three for the other methods. The other methods also take
+/// O(m log m) for m of the points. For `minimal`, these m points are near the hull. For `yaw` and `lshape`,
+/// they are near the outline seen from above. `minimal` takes some milliseconds for a round hull of 128
+/// vertices. It takes as long for a hull of hundreds of vertices, which it searches less thoroughly. Throws
+/// std::invalid_argument for an `up` outside its range. Other errors are as for fit_aabb().
 Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options = {}, const Execution& execution = {});
 
 /// Computes the convex hull of the points. The vertices are exactly the extreme points of the cloud, which
-/// are the points outside the convex hull of all other points (of equal points the first). The triangles are
-/// the surface. The offset of each plane is the exact maximum projection of all points on the plane's normal,
-/// rounded up. Empty input and errors are as for fit_aabb().
+/// are the points outside the convex hull of all other points. Of several equal points only the first can be
+/// a vertex. The triangles are the surface. The offset of each plane is the exact maximum projection of all
+/// points on the plane's normal, rounded up. Empty input and errors are as for fit_aabb().
 ///
-/// The hull has the rank of the points (result.h). If the points are flat to 2^-36 of their extent, the
+/// The hull has the rank of the points (result.h). If the points are in a plane to 2^-36 of their extent, the
 /// vertices are the corners of a polygon, to the same tolerance. The planes still enclose all points.
 ///
 /// Akl, Toussaint 1978 drops the points inside the hull of the extremal points, in O(n). Barber, Dobkin,
@@ -130,10 +131,10 @@ Fitted<Ellipsoid> fit_ellipsoid(const PointView& points, const Execution& execut
 Certified<Ellipsoid, EllipsoidCertificate> fit_smallest_ellipsoid(const PointView& points,
                                                                   const Execution& execution = {});
 
-/// The following functions fit one volume to each cluster: element i is the fit to the points of `points`
-/// whose indices are list i. It has the same bits as a single fit to these points. A cluster whose fit fails
-/// does not affect the others. The clusters are distributed over the threads as for_each_view() describes.
-/// Throws std::out_of_range for an index outside the cloud, before any fit.
+/// The following functions fit one volume to each cluster. Element i of the result is the fit to the points
+/// whose indices are in list i of `clusters`. It has the same bits as a single fit to these points. A cluster
+/// whose fit fails does not affect the others. The clusters are distributed over the threads as
+/// for_each_view() describes. Throws std::out_of_range for an index outside the cloud, before any fit.
 std::vector<Fitted<Aabb>> fit_aabb(const PointView& points, const IndexLists& clusters,
                                    const Execution& execution = {});
 std::vector<Fitted<Kdop>> fit_kdop(const PointView& points, const IndexLists& clusters,
@@ -154,10 +155,11 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
 
 /// Calls fit(i, execution) once for each view i, in any order and on the threads of the execution's policy.
 ///
-/// Large views, of 200 000 points or more, are fitted first, one after another. Each of their fits gets the
-/// whole policy. The smaller views are then distributed over the threads, the largest first. Each of their
-/// fits gets Serial. The fit of one view of middle size is timed. If all smaller views together would take
-/// too little time to be worth a second thread, the calling thread fits them all.
+/// Large views, which have 200 000 points or more, are fitted first, one after another. Each fit of a large
+/// view uses all threads of the policy. The smaller views are then distributed over the threads, the largest
+/// first. Each fit of a smaller view gets Serial. The fit of one smaller view of middle size is timed. If all
+/// smaller views together would take too little time to be worth a second thread, the calling thread fits
+/// all smaller views.
 ///
 /// If fits of smaller views throw, all other smaller views are still fitted, and one of the exceptions is
 /// rethrown; which one is not specified. If the fit of a large view or of the timed view throws, no further
@@ -168,15 +170,15 @@ void for_each_view(const std::vector<PointView>& views,
 /// Result of verify().
 struct Verification {
   std::size_t checked = 0;  ///< Number of valid points, all of which are checked.
-  std::size_t outside = 0;  ///< Number of valid points that are outside by exact arithmetic.
-  /// The largest distance of an outside point from the face or surface that it is beyond, in the points'
+  std::size_t outside = 0;  ///< Number of valid points outside the volume, counted by exact tests.
+  /// The largest distance by which a point is beyond a face or curved surface of the volume, in the points'
   /// unit. 0 if no point is outside. Infinity if the volume is empty and there is a valid point.
   double max_violation = 0;
 };
 
-/// Checks for every valid point whether it is inside the volume, by the exact predicates of the volume on the
-/// stored numbers. A point that a double computation with a rigorous error bound proves inside is not checked
-/// again. All other points are decided in rational arithmetic. O(n).
+/// Checks for every valid point whether it is inside the volume. The test is exact for the stored numbers.
+/// First, double arithmetic with a rigorous error bound proves for most inside points that they are inside.
+/// Rational arithmetic decides all other points. O(n).
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution = {});
 
 /// Box, k-DOP, centroid and covariance of a cloud, in the points' unit and frame. Without a valid point,
@@ -190,10 +192,10 @@ struct CloudSummary : EstimationResult {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
   /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric. It is the
-  /// population covariance, divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b)
-  /// 2^-53 of the product of the extents along i and j, plus 2^-1073 if the entry underflows. This factor is
-  /// 6e-14 for one block, 2e-13 for 30 million points. Entries of an axis on which all points agree are
-  /// exactly 0.
+  /// population covariance, divided by n, not n - 1. With b as above, the error of entry (i, j) is at most
+  /// 3 (175 + 30 b) 2^-53 of the product of the extents along i and j, plus 2^-1073 if the entry underflows.
+  /// The factor 3 (175 + 30 b) 2^-53 is 6e-14 for one block and 2e-13 for 30 million points. Entries of an
+  /// axis on which all points have the same coordinate are exactly 0.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
@@ -203,12 +205,12 @@ struct CloudSummary : EstimationResult {
 };
 
 /// Computes the box, the k-DOP, the centroid and the covariance of all valid points. O(n). Each chunk is read
-/// from memory once, because it is still in the cache when its moments are computed after its extreme points.
-/// The bits are the same for every execution. Another order of the points may round centroid and covariance
+/// from memory once: it is still in the cache when its moments are computed after its extreme points. The
+/// bits are the same for every execution. Another order of the points may round centroid and covariance
 /// differently.
 ///
-/// The covariance uses the shifted formula in blocks of 1024 points, with sums of squares about a point of
-/// the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
+/// The covariance uses the shifted formula in blocks of 1024 points, which sums squares relative to a point
+/// of the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

@@ -43,8 +43,8 @@ const std::vector<Method>& methods();
 /// Returns the method with this name or alias; null if there is none.
 const Method* find_method(std::string_view name);
 
-/// Fits several methods to the same points, in the order of `among`. Passes over the points that several
-/// methods need are made once. The volumes have the same bits as those of Method::fit().
+/// Fits several methods to the same points. Returns the fits in the order of `among`. A pass over the points
+/// that several methods need is made only once. The volumes have the same bits as those of Method::fit().
 std::vector<Fitted<AnyVolume>> fit_methods(const PointView& points, const std::vector<const Method*>& among,
                                            const MethodOptions& options = {},
                                            const Execution& execution = {});
@@ -58,14 +58,15 @@ struct FittedSmallest : Fitted<AnyVolume> {
   const Method* method = nullptr;  ///< The method of the volume; null without a valid point or if all fail.
 };
 
-/// Fits each of the methods and returns the smallest of the volumes. Equal volumes (of flat points) are
-/// compared by surface area, then by the order of the methods. Methods that fail are skipped. If all fail,
-/// the result is that of the first method. Throws std::invalid_argument if `among` is empty.
+/// Fits each of the methods and returns the smallest of the volumes. Shapes of equal volume, such as those of
+/// flat points, are compared by surface area, then by the order of the methods. Methods that fail are
+/// skipped. If all fail, the result is that of the first method. Throws std::invalid_argument if `among` is
+/// empty.
 FittedSmallest fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                             const MethodOptions& options = {}, const Execution& execution = {});
 
-/// Returns the methods from which `best` chooses: those of aabb, obb-dito14, obb-min, sphere-exact, cylinder
-/// and capsule that this build has.
+/// Returns the methods from which `best` chooses: aabb, obb-dito14, obb-min, sphere-exact, cylinder and
+/// capsule.
 const std::vector<const Method*>& best_candidates();
 
 /// Returns the growth named "sequential", "stationary" or "deferred". Throws std::invalid_argument, listing

@@ -16,26 +16,27 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// How a bounding sphere is computed, from the loosest to the tightest. All methods but `exact` compute a
 /// first sphere of a few points, then grow it until it encloses all points (SphereGrowth).
 enum class SphereMethod : std::uint8_t {
-  ritter,  ///< Ritter 1990. Each axis has two extremal points. The ball of the pair that is farthest apart.
+  ritter,  ///< Ritter 1990. The first ball has as a diameter the segment between the two extremal points of a
+           ///< coordinate axis. Of the three axes, the one with the longest segment is taken.
   epos6,   ///< Larsson 2008. The smallest ball of the extremal points along the 3 face normals of a cube.
-  epos14,  ///< As epos6, with 7 directions: also those through the corners of the cube.
-  epos26,  ///< As epos6, with 13 directions: also those through the edges of the cube.
-  epos98,  ///< As epos6, with 49 directions: also (0,1,2), (1,1,2), (1,2,2), with all permutations and signs.
-  exact    ///< The smallest sphere. Begins with the ball of the points of epos26. The farthest outside points
-           ///< are added to these points until no point is outside.
+  epos14,  ///< As epos6, with 4 more directions: those through the corners of the cube.
+  epos26,  ///< As epos14, with 6 more directions: those through the edges of the cube.
+  epos98,  ///< As epos26, with 36 more directions: (0,1,2), (1,1,2), (1,2,2) in all permutations and signs.
+  exact    ///< The smallest sphere. The search begins with the extremal points of epos26, and adds the
+           ///< farthest outside points to them until no point is outside.
 };
 
 /// How a first sphere is enlarged until it encloses all points (the paper, §5). `exact` does not use it.
 enum class SphereGrowth : std::uint8_t {
   /// One point after another in the order of the view, in one thread (the paper, Figure 3).
   sequential,
-  /// The centre does not move. The radius becomes the largest distance of a point from it, which is found in
-  /// parallel. This growth is the simplest but looser, because a point outside by a distance d adds d to the
-  /// radius. With the other two growths such a point adds only d / 2.
+  /// The centre does not move. The radius becomes the largest distance of a point from the centre, computed
+  /// in parallel. This is the simplest growth, but its spheres are larger. A point outside the sphere, at the
+  /// distance d from it, adds d to the radius. With the other two growths such a point adds only d / 2.
   stationary,
-  /// The points outside the first sphere are listed in parallel. Then the sphere grows over them in ascending
-  /// order of their indices. If the view has no index list or an ascending one, the sphere has the same bits
-  /// as with `sequential`, because a point inside the first sphere is inside all later spheres.
+  /// The points outside the first sphere are listed in parallel. Then the sphere grows over these points in
+  /// ascending order of their indices. The sphere has the same bits as with `sequential` if the view has no
+  /// index list or an ascending one, because points inside the first sphere never make it grow.
   deferred
 };
 
@@ -53,8 +54,8 @@ struct SphereOptions {
 enum class ObbMethod : std::uint8_t {
   /// The eigenvectors of the covariance. Sensitive to point density, not only to extent.
   pca,
-  /// Of the frames given by triangles of extremal points, the one with the smallest surface (Larsson,
-  /// Kallberg 2011). The coordinate axes if their box has a smaller surface.
+  /// Each triangle of extremal points gives axes along its edges and its normal. Takes the axes whose box has
+  /// the smallest surface, or the coordinate axes if their box is not larger (Larsson, Kallberg 2011).
   dito14,
   /// The axes of the smallest volume. If the hull has at most 128 vertices, the volume is the true minimum,
   /// to a relative 1e-10 (O'Rourke 1985). If one side is shorter than 1e-4 of another, this tolerance is
@@ -64,7 +65,7 @@ enum class ObbMethod : std::uint8_t {
   /// Axis 2 is up, and the area seen from above is the minimum.
   yaw,
   /// Axis 2 is up, and the points seen from above are as close as possible to the box's sides (Zhang et al.
-  /// 2017). For vehicles of which a LiDAR sees two sides, because `yaw` often turns these wrongly.
+  /// 2017). For vehicles of which a LiDAR sees two sides. For such vehicles, `yaw` often gives a wrong angle.
   lshape
 };
 
@@ -95,15 +96,15 @@ struct SphereCertificate {
 };
 
 /// Proof that an ellipsoid is nearly the smallest: points p_i of the cloud with weights w_i > 0 whose sum is
-/// 1. With S their weighted covariance, no ellipsoid around them has a volume below 4 pi / 3 sqrt(27 det S)
-/// (Khachiyan 1996).
+/// 1. Let S be the weighted covariance of these points. No ellipsoid around them has a volume below
+/// 4 pi / 3 sqrt(27 det S) (Khachiyan 1996).
 struct EllipsoidCertificate {
   std::vector<std::size_t> support;  ///< Indices of the points p_i in the cloud.
   std::vector<double> weights;       ///< The weights w_i.
   /// Lower bound of the volume: 4 pi / 3 sqrt(27 det S) less a margin for rounding. 0 for flat points.
   double lower_bound = 0;
-  /// Relative excess of the volume over its lower bound: volume / bound - 1. For points of rank 2 it compares
-  /// areas in the plane of the points, for points of rank 1 it compares lengths.
+  /// Relative excess of the volume over its lower bound: volume / bound - 1. For points of rank 2, areas in
+  /// the plane of the points replace the volumes. For points of rank 1, lengths replace them.
   double excess = 0;
   int iterations = 0;  ///< Iterations of the solver.
 };

@@ -20,15 +20,16 @@ struct PartialState;
 }  // namespace detail
 
 /// The contribution of some points of a cloud to volumes around the whole cloud. If there are at most
-/// kMaxStored points, all are stored. Of more points a Partial stores the extreme points (the vertices of
-/// their convex hull), the support points along the 26 directions, and sums for the covariance. Copies share
-/// their data.
+/// kMaxStored points, all are stored. Of more points, a Partial stores the extreme points, which are the
+/// vertices of the convex hull, the support points along 26 directions, and sums for the covariance. It also
+/// stores the points of a block of 1024 successive numbers while it does not have all points of this block.
+/// Copies share their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the same bits as a fit to the whole cloud. There are two
 /// exceptions: for more than kMaxStored points, sphere-exact and obb-yaw are fitted to the extreme points
-/// only. Without rounding, the extreme points determine these two volumes. With rounding, other points very
-/// near to them can change the last bits of a fit to all points.
+/// only. Without rounding, the extreme points determine these two volumes. With rounding, points very near
+/// to an extreme point can change the last bits of a fit to all points.
 class Partial {
  public:
   /// Maximum number of points that are all stored.
@@ -48,8 +49,8 @@ class Partial {
   /// float and the other double coordinates.
   void merge(const Partial& other);
 
-  /// Returns whether the method can be fitted to parts. All methods can, except obb-lshape and all spheres
-  /// but sphere-exact, because points deep inside the cloud can change these volumes.
+  /// Returns whether the method can be fitted to parts. This is true for all methods except obb-lshape and
+  /// the spheres other than sphere-exact. Those volumes can depend on points deep inside the cloud.
   static bool can_fit(const Method& method);
 
   /// Fits the volume around all points. Status, rank and counts are those of all points. O(m log m) for m
@@ -60,8 +61,8 @@ class Partial {
   /// Number of points, valid or not.
   std::size_t size() const;
 
-  /// Returns the state as bytes for a file or a message, with a version and a checksum. They are about 2 kB,
-  /// plus 32 bytes for each extreme or stored point. The bytes are the same on every machine.
+  /// Returns the state as bytes for a file or a message, with a version and a checksum. The size is about
+  /// 2 kB, plus 32 bytes for each stored point. The bytes are the same on every machine.
   std::vector<std::byte> to_bytes() const;
 
   /// Restores a Partial from the bytes of to_bytes(). Throws std::invalid_argument, with the reason, for any

@@ -15,7 +15,7 @@ enum class EstimationStatus : std::uint8_t {
   ok,               ///< The points span three dimensions.
   degenerate,       ///< The points lie in a plane, on a line or in one point: rank < 3.
   no_valid_points,  ///< There is no valid point, and the volume is empty.
-  failed            ///< The fit failed, and the volume is empty. No fit of this version returns it.
+  failed            ///< The fit failed, and the volume is empty. This version never returns `failed`.
 };
 
 /// Status, rank and point counts of a fit.
@@ -26,17 +26,17 @@ enum class EstimationStatus : std::uint8_t {
 ///
 /// The exact definition is as follows. p0 is the first valid point in lexicographic order of (x, y, z). p1 is
 /// the point farthest from p0, p2 the point farthest from the line p0 p1, and p3 the point farthest from the
-/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. The rank is the number of
-/// these three distances before the first that is at most 2^-36 units. The unit is the longest side of the
-/// points' box, rounded down to a power of two (2^-1000 if that side is 2^-1000 or less). Consequently,
-/// points within 2^-41 units of a plane have rank 2 or less, and points of rank 2 are within 2^-36 units of a
-/// plane.
+/// plane p0 p1 p2. Of equally far points the first in lexicographic order is taken. Let d1, d2 and d3 be the
+/// three distances, and e = 2^-36 units. The rank is 0 if d1 <= e, otherwise 1 if d2 <= e, otherwise 2 if
+/// d3 <= e, otherwise 3. The unit is the longest side of the points' box, rounded down to a power of two, but
+/// at least 2^-1000. Consequently, points within 2^-41 units of a plane have rank 2 or less, and points of
+/// rank 2 are within 2^-36 units of a plane.
 struct EstimationResult {
   EstimationStatus status = EstimationStatus::no_valid_points;
   int rank = 0;               ///< 0 to 3, as defined above.
   std::size_t used = 0;       ///< Number of valid points, which the volume encloses.
   std::size_t dropped = 0;    ///< Number of points that are not valid (is_valid() in coordinates.h).
-  std::string_view reason{};  ///< Reason of a failure, a string with static lifetime; otherwise empty.
+  std::string_view reason{};  ///< Reason of a failure, a string with static lifetime. Empty without failure.
 };
 
 /// A fitted volume, with the status, rank and point counts of the fit.

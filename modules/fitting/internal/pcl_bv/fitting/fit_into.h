@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The fits behind fit.h. They write into an existing volume, whose memory they reuse, and they can begin with
-// supports that are known already.
+// The implementations of fit.h. These functions write into an existing volume and reuse its memory. They can
+// begin with supports that are known already (FitExecution::supports).
 #pragma once
 
 #include <memory>
@@ -17,9 +17,9 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Returns a FittedT, which is a Fitted or derived from one. `fit(made)` writes its volume and returns the
-/// result of the fit. A FloatEnvironment lives during the call. The other functions of this header set none,
-/// so callers that do not run in a parallel region set their own.
+/// Returns a FittedT, which is a Fitted or a class derived from a Fitted. `fit(made)` must write made.volume
+/// and return the result of the fit. A FloatEnvironment lives during the call. The other functions of this
+/// header set none, so their callers must hold one or run in a parallel region.
 template <typename FittedT, typename Fit>
 FittedT make_fitted(const Fit& fit) {
   const FloatEnvironment environment;
@@ -29,7 +29,7 @@ FittedT make_fitted(const Fit& fit) {
 }
 
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution& execution);
-/// Stores the points that touch the slabs in `touching`, unless it is null.
+/// If `touching` is not null, also stores the points that touch the slabs in `*touching`.
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           SlabPoints* touching, const FitExecution& execution);
 EstimationResult fit_sphere(const PointView& points, const SphereOptions& options, Sphere& sphere,
@@ -58,10 +58,11 @@ struct MethodFit {
 EstimationResult fit_method(const Method& method, const PointView& points, const MethodOptions& options,
                             AnyVolume& volume, const FitExecution& execution);
 
-/// Prepares the fits of several methods to the same points. If two or more of the methods find supports
-/// first, and not only along the coordinate axes, these supports are found once. If two or more methods need
-/// the convex hull, it is computed once, with the supports along dop26. The results are stored in `supports`,
-/// which must outlive the returned execution. If neither case applies, `supports` is unused.
+/// Prepares the fits of several methods to the same points, and returns the execution for these fits. If two
+/// or more methods need the convex hull, computes the supports along dop26 and the hull. Otherwise, if two or
+/// more methods find supports first, computes the supports along all their directions, unless these are only
+/// the coordinate axes. Stores the results in `supports`, which must outlive the returned execution. In all
+/// other cases, `supports` is not used.
 FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
                             const FitExecution& execution, Supports& supports);
 

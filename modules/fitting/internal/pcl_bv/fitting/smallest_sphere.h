@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Computes the smallest sphere of points that are not in memory but can be queried, for example points in a
-// file, in a tree or on many machines. For points in memory or of a PointSource use fit_smallest_sphere()
+// file, in a tree or on many machines. For points in memory or in a PointSource use fit_smallest_sphere()
 // (fit.h).
 #pragma once
 
@@ -25,8 +25,8 @@ struct FarPoint {
   Coordinates point{};           ///< Coordinates of the point.
 };
 
-/// The farthest point in each octant() around a centre. Of equally far points it is the one with the smallest
-/// index.
+/// The farthest point in each octant() around a centre. Of equally far points the one with the smallest index
+/// is taken.
 using OctantPoints = std::array<FarPoint, 8>;
 
 /// Replaces `best` by `other` if `other` is farther, or equally far with a smaller index. The overload for
@@ -43,18 +43,17 @@ using FarthestQuery = std::function<bool(const DistanceCenter& center, double li
 bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution = {});
 
-/// Computes the smallest sphere of the points that `supports` describes and `farthest` answers for. The
-/// supports must be along dop26, with points. The result has the same bits as that of fit_smallest_sphere().
-/// Without a valid point the sphere is empty. Calls `farthest` certificate.passes times. Throws
-/// std::invalid_argument for other supports. Exceptions of `farthest` are passed on.
+/// Computes the smallest sphere of a cloud from its supports and a query for its points. `supports` must be
+/// along dop26, with points; otherwise throws std::invalid_argument. The result has the same bits as that of
+/// fit_smallest_sphere(). Without a valid point the sphere is empty. Calls `farthest` certificate.passes
+/// times. Exceptions of `farthest` are passed on.
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate);
 
-/// Fits the smallest sphere of all points of a Partial. Points that the Partial does not store are queried
-/// through `farthest`. The result has the same bits as pcl_bv::fit_smallest_sphere() for the whole cloud, for
-/// any number of points. This requires that `farthest` answers for the same points, with their numbers in the
-/// whole cloud as indices. `farthest` is not called if all points are stored. Exceptions of `farthest` are
-/// passed on.
+/// Fits the smallest sphere of all points of a Partial. If the Partial does not store all points, calls
+/// `farthest`, which must answer for all points of the Partial, with their numbers in the whole cloud as
+/// indices. For any number of points, the result has the same bits as pcl_bv::fit_smallest_sphere() for the
+/// whole cloud. Exceptions of `farthest` are passed on.
 Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
                                                          const FarthestQuery& farthest,
                                                          const Execution& execution = {});

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact minimum and maximum projections of a cloud along directions, and the points that attain them. Boxes,
-// k-DOPs and the first balls of spheres are computed from them.
+// Exact minimum and maximum projections of a cloud along directions, and the points with these projections.
+// Boxes, k-DOPs and the first balls of sphere fits are computed from these values.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ namespace [[gnu::visibility("default")]] detail {
 struct Support {
   double low = 0;           ///< Exact minimum of n . p, rounded down to a double; never -0.
   double high = 0;          ///< Exact maximum of n . p, rounded up to a double; never -0.
-  SupportPoint low_point;   ///< The point with the minimum n . p and, of several, the smallest index.
-  SupportPoint high_point;  ///< The point with the maximum n . p and, of several, the smallest index.
+  SupportPoint low_point;   ///< The point with the minimum n . p. Of several, that with the smallest index.
+  SupportPoint high_point;  ///< The point with the maximum n . p. Of several, that with the smallest index.
 };
 
 /// What to find along each direction.
@@ -49,10 +49,10 @@ struct Supports {
   /// Only the first direction_count(set) elements are used. Element k is along the k-th direction of the set,
   /// kCubeDirections[cube_direction(set, k)].
   std::array<Support, kMaxDirections> along{};
-  PointView points;                       ///< The searched view, only for comparison with other views.
+  PointView points;                       ///< The view that was searched. Used to detect other views.
   std::shared_ptr<const LocalHull> hull;  ///< The convex hull, if share_supports() computed it; else null.
-  /// The moments of the whole cloud if `points` are only a few points that represent it (partial.h), else
-  /// null. If not null, `used` and `dropped` count the whole cloud, too.
+  /// Usually null. If `points` are only the few points that represent a whole cloud (partial.h), the moments
+  /// of the whole cloud. In this case `used` and `dropped` also count the whole cloud.
   std::shared_ptr<const Moments> moments;
 };
 
@@ -63,8 +63,8 @@ struct FitExecution : Execution {
       : Execution(execution), supports(known) {}
 
   /// The result of find_supports() for the points of the fit, or null. A fit saves a pass over the points if
-  /// the directions and the detail that it needs are in `supports`. Throws std::invalid_argument if they were
-  /// found for another view (same_memory() in point_view.h).
+  /// `supports` has the directions and the detail that the fit needs. The fit throws std::invalid_argument if
+  /// the supports were found for another view (same_memory() in point_view.h).
   const Supports* supports = nullptr;
 };
 
@@ -73,14 +73,13 @@ struct FitExecution : Execution {
 ///
 /// Takes one SIMD pass over the points in chunks. The few points of each chunk that can be extreme are
 /// compared exactly (docs/numerics.md). If FitExecution::supports already has the supports, no pass is
-/// needed. Throws std::invalid_argument if FitExecution::supports were found for other points. The rank takes
-/// up to five more passes if the points are flat to 2^-30 of their extent, unless their plane is
-/// perpendicular to a coordinate axis.
+/// needed. Throws std::invalid_argument if FitExecution::supports were found for other points. If the points
+/// are flat to 2^-30 of their extent, the rank usually takes up to five more passes (point_rank()).
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const FitExecution& execution = {});
 
-/// Returns the volume that the supports bound: the axis-aligned box or the k-DOP of all directions. It is
-/// empty without a valid point.
+/// Returns the axis-aligned box, or the k-DOP along all directions of supports.set. The volume is empty
+/// without a valid point.
 Aabb aabb_of(const Supports& supports);
 Kdop kdop_of(const Supports& supports);
 
@@ -98,8 +97,9 @@ struct CustomSupports {
 /// O(points * directions). If the extent of a float cloud is below 1e-43 or above 1e38, all points are
 /// compared exactly, which takes 50 ns for each point and direction.
 ///
-/// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
-/// between 1e-30 and 1e30 in magnitude, and if FitExecution::supports were found for other points.
+/// There must be 1 to 49 directions. Each direction must be finite, with its largest component between 1e-30
+/// and 1e30 in magnitude. Throws std::invalid_argument for other directions, and if FitExecution::supports
+/// were found for other points.
 CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
                              const FitExecution& execution = {});
 
