@@ -63,6 +63,16 @@ TEST(Directed, RootsAreTheLeastDoublesAbove) {
   }
 }
 
+TEST(Directed, RootsOfNumbersDownToTheSmallestDenormalAreTheLeastDoublesAbove) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> mantissa(1, 2);
+  for (int i = 0; i < kCases; ++i) {
+    const double a = std::ldexp(mantissa(random), -1074 + i % 300);
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << i << ": " << a);
+    ASSERT_EQ(sqrt_up(a), test::least_root_above(Rational(a), std::sqrt(a)));
+  }
+}
+
 TEST(Directed, QuotientsByPowersOfTwoRoundOutwardAmongDenormals) {
   Numbers number;
   int inexact = 0;
