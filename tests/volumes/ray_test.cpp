@@ -138,6 +138,20 @@ TEST(Ray, FromAPointThatATinyEllipsoidContainsIsAHit) {
   }
 }
 
+TEST(Ray, ThroughAFlatEllipsoidHitsItUpToItsEdgeOnly) {
+  for (const double thickness : {0.0, 1e-12, 1e-7, 1e-3}) {
+    const Ellipsoid disc(Vector3d(1, 2, 3), Eigen::Matrix3d::Identity(), Vector3d(2, 1, thickness));
+    for (const double share : {0.0, 0.5, 0.999999}) {
+      EXPECT_TRUE(disc.intersect({1 + 2 * share, 2, 8}, {0, 0, -1})) << thickness << " " << share;
+      EXPECT_TRUE(disc.intersect({1, 2 - share, -8}, {0, 0, 1})) << thickness << " " << share;
+    }
+    for (const double share : {1.000001, 1.5, 1.999, 3.0}) {
+      EXPECT_FALSE(disc.intersect({1 + 2 * share, 2, 8}, {0, 0, -1})) << thickness << " " << share;
+      EXPECT_FALSE(disc.intersect({1, 2 - share, -8}, {0, 0, 1})) << thickness << " " << share;
+    }
+  }
+}
+
 TEST(Ray, InTheFaceOfAFlatKdopRunsTheWholeWay) {
   const Kdop triangle = Kdop(KdopSet::dop14()).extend({1, 0, 0}).extend({0, 1, 0}).extend({0, 0, 1});
   const auto edge = triangle.intersect({2, -1, 0}, {-1, 1, 0});

@@ -79,13 +79,16 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
     const Eigen::Vector3d q = origin - center_;
     const double largest = radii_.maxCoeff();
     const double error_bound = 0x1p-45 * (taxicab3(q) + largest) + kSmallestNormal;
+    // Smaller radii are raised to this limit. A lower limit would enlarge the other radii of a flat ellipsoid
+    // by more.
+    const double thin = std::max(error_bound, std::sqrt(error_bound * largest));
     Eigen::Vector3d at, step;
     for (int i = 0; i < 3; ++i) {
-      const double radius = std::max(radii_[i], error_bound);  // inflates a flat ellipsoid by the error bound
+      const double radius = std::max(radii_[i], thin);
       at[i] = dot3(axes_.col(i), q) / radius;
       step[i] = dot3(axes_.col(i), u) / radius;
     }
-    const double radius = 1 + error_bound / std::max(radii_.minCoeff(), error_bound) +
+    const double radius = 1 + error_bound / std::max(radii_.minCoeff(), thin) +
                           (contains(origin) ? std::max(0.0, at.stableNorm() - 1) : 0.0);
     const double speed = step.stableNorm();
     const double nearest = -dot3(at, step / speed) / speed;

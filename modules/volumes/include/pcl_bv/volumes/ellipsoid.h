@@ -58,9 +58,9 @@ class Ellipsoid {
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Both
-  /// ends of the interval lie in an ellipsoid whose radii are larger by 2^-44 * ratio * (|origin - center|_1
-  /// + largest radius), where `ratio` is the largest radius divided by the smallest radius. For a flat
-  /// ellipsoid, the radii of that ellipsoid are about twice as large.
+  /// ends of the interval lie in an ellipsoid whose radii are larger by the smaller of two numbers. Let R be
+  /// the largest radius, r the smallest radius and s = |origin - center|_1 + R. The numbers are 2^-44 * s *
+  /// R / r and 2^-21 * sqrt(s * R).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns a box that encloses the ellipsoid by exact arithmetic. The box exceeds the smallest such box by
