@@ -248,7 +248,7 @@ TEST(SynthSource, GivesTheRuralRoadOfSoManyBeamsAndItsPoses) {
     ASSERT_TRUE(next(*source, frame));
     const RuralRoadFrame made = make_rural_road_frame({7, 16}, i);
     ASSERT_EQ(frame.points.count, made.cloud.size());
-    EXPECT_EQ(frame.header.frame_id, "verges");
+    EXPECT_EQ(frame.header.frame_id, "rural_road");
     for (std::size_t point = 0; point < made.cloud.size(); point += 1000)
       EXPECT_EQ(load_point(frame.points, point).x, made.cloud.xyz[3 * point]);
     ASSERT_TRUE(frame.pose);

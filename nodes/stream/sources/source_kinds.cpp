@@ -90,7 +90,7 @@ std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const Repl
     const auto xyz = std::make_shared<std::vector<float>>(std::move(generated.cloud.xyz));
     frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
     frame.owner = xyz;
-    if (frame.header.frame_id.empty()) frame.header.frame_id = "verges";
+    if (frame.header.frame_id.empty()) frame.header.frame_id = "rural_road";
   });
 }
 
