@@ -32,7 +32,7 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   return -1;
 }
 
-// The 13 projections of a packet share the sums x + y and x - y. The macros use named variables instead of
+// x + y and x - y are computed once per packet, and six of the 13 projections use them. The macros use named variables instead of
 // arrays, because the compiler does not know the size of SVE vectors.
 // clang-format off
 #define PCL_BV_EACH_DIRECTION(DO)                                                                 \

@@ -34,7 +34,7 @@ inline constexpr std::uint32_t group_size = 32;
 /// min_points (>= 2) points, itself included, have squared_distance() < r2 from it. A border point belongs to
 /// its nearest core point. If several are equally near, it belongs to the one with the smallest index.
 ///
-/// `cells` must be made with Cells::by_point set. `solid` means that all points of a cell are linked. Then
+/// `cells` must be made with Cells::by_point = true. `solid` means that all points of a cell are linked. Then
 /// the points of a cell with min_points or more points are core points without a test.
 template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,

@@ -11,8 +11,8 @@
 
 namespace pcl_bv::detail {
 
-/// The surface of the ground. The height of the ground in a cell is base + range * slope, in metres relative
-/// to the plane around the sensor.
+/// The surface of the ground. The height of the ground in a cell is base + range * slope, where range is the
+/// horizontal distance from the sensor. Heights are in metres, relative to the `plane` of find().
 class GroundSurface {
  public:
   struct Line {

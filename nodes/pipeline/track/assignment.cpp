@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Reserves more than needed now. The second pass over a sequence must not allocate, but has more rows
-// (tracks) than the first.
+// Reserves more than needed now. If a sequence is replayed, the tracks of its end are still active when the
+// tracks of its beginning start again. Then there are more rows (tracks), and still nothing may be allocated.
 template <typename T>
 void refill(std::vector<T>& values, std::size_t count, T value) {
   if (values.capacity() < count) values.reserve(4 * count);

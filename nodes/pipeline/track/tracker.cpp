@@ -223,8 +223,8 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.started = true;
   s.last_stamp_ns = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
-  // Reserves capacity for tracks that stay active while new ones start. The second pass over a sequence must
-  // not allocate, but has more tracks than the first.
+  // Reserves more capacity than this frame needs. If a sequence is replayed, the tracks of its end are still
+  // active when the tracks of its beginning start again, and even then update() must not allocate.
   if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
   s.track_taken.reserve(s.tracks.capacity());
   s.free.reserve(s.tracks.capacity());

@@ -91,9 +91,9 @@ struct ReplayOptions {
 /// Where a source can take the times of frames from, instead of ReplayOptions::rate_hz.
 enum class FrameTimes : std::uint8_t {
   none,
-  names,     ///< File names, with ReplayOptions::own_stamps.
-  messages,  ///< Messages of a recording, unless a rate is requested.
-  live       ///< Live messages always; a rate cannot be requested.
+  names,     ///< The file names, if ReplayOptions::own_stamps is set.
+  messages,  ///< The messages or packets of a recording, if ReplayOptions::own_stamps is set.
+  live       ///< The live messages, always. A rate cannot be requested.
 };
 
 /// An entry of the table of sources. `accepts` tells whether a source of this kind can have this name.

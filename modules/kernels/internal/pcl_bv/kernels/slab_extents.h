@@ -16,8 +16,8 @@ namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
 /// For each axis n: the minimum and maximum of the projection (nx qx + ny qy) + nz qz with q = p - origin,
-/// each step rounded to double. The points p are the valid points and the origin, whose projection is 0. No
-/// extent is -0.
+/// each step rounded to double. The points p are the valid points of the cloud. The origin is one of them and
+/// has the projection 0, so low <= 0 <= high. Zeros in low and high are +0, never -0.
 struct SlabExtents {
   std::array<double, 3> low{};
   std::array<double, 3> high{};
