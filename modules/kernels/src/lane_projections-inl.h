@@ -29,8 +29,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET != HWY_SCALAR
 
 /// Maximum number of packets per block. With smaller blocks, more maximum projections are stored. With larger
-/// blocks, more points must be searched in each lane that may hold the maximum. A 26-DOP of 4010 points on AVX-512 takes 3.1 us with 32 packets and 4.2 us with 64
-/// packets. For 300 k points it takes 100 us with 32 packets and 97 us with 64 packets.
+/// blocks, more points must be searched in each lane that may hold the maximum. A 26-DOP of 4010 points on
+/// AVX-512 takes 3.1 us with 32 packets and 4.2 us with 64 packets. For 300 k points it takes 100 us with 32
+/// packets and 97 us with 64 packets.
 inline constexpr std::size_t kPackets = 32;
 
 /// Returns the number of packets per block. A small number of points is cut into about eight blocks. A 26-DOP

@@ -35,11 +35,11 @@ class ConvexBody {
   /// Returns whether the body has no point.
   bool empty() const { return !shape_; }
 
-  /// Returns the body moved by `transform`. The result contains every point of this body, transformed
-  /// without rounding by the numbers in `transform`. Because of rounding errors of the coordinates, the result
-  /// may be larger than the body so transformed. If the linear part is not exactly a rotation, the result also grows,
-  /// because the radius of a round body is multiplied by an upper bound of the matrix norm. A call takes 1.5
-  /// us for every kind of volume.
+  /// Returns the body moved by `transform`. The result contains every point of this body, transformed without
+  /// rounding by the numbers in `transform`. Because of rounding errors of the coordinates, the result may be
+  /// larger than the body so transformed. If the linear part is not exactly a rotation, the result also
+  /// grows, because the radius of a round body is multiplied by an upper bound of the matrix norm. A call
+  /// takes 1.5 us for every kind of volume.
   ///
   /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
   /// time, not the body of the previous step.
