@@ -33,7 +33,8 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
 }
 
 // x + y and x - y are computed once per packet, and six of the 13 projections use them. The macros use named
-// variables instead of arrays, because the compiler does not know the size of SVE vectors. clang-format off
+// variables instead of arrays, because the compiler does not know the size of SVE vectors.
+// clang-format off
 #define PCL_BV_EACH_DIRECTION(DO)                                                                 \
   DO(0, x) DO(1, y) DO(2, z)                                                                      \
   DO(3, hn::Add(sum, z)) DO(4, hn::Sub(sum, z)) DO(5, hn::Add(difference, z)) DO(6, hn::Sub(difference, z)) \
