@@ -67,12 +67,11 @@ struct Frame {
 // none by more than `worst`.
 std::size_t most_violated(const DualSimplex& lp, const Eigen::Vector3d& corner, double worst,
                           const std::vector<std::size_t>* candidates) {
-  const Normals& n = lp.normals;
-  std::size_t found = n.size();
-  const std::size_t count = candidates ? candidates->size() : n.size();
+  std::size_t found = lp.normals.size();
+  const std::size_t count = candidates ? candidates->size() : lp.normals.size();
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t i = candidates ? (*candidates)[j] : j;
-    const double excess = ((n.x[i] * corner[0] + n.y[i] * corner[1]) + n.z[i] * corner[2]) - lp.offsets[i];
+    const double excess = lp.normals.projection(i, corner) - lp.offsets[i];
     if (!(excess > worst)) continue;
     worst = excess;
     found = i;

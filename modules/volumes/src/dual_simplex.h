@@ -24,6 +24,9 @@ struct Normals {
   void push_back(const Eigen::Vector3d& normal);
   std::size_t size() const { return x.size(); }
   Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  double projection(std::size_t i, const Eigen::Vector3d& q) const {
+    return (x[i] * q[0] + y[i] * q[1]) + z[i] * q[2];
+  }
 };
 
 /// Returns the power of two that is at most the largest component of the normal in magnitude, limited to

@@ -94,11 +94,11 @@ double HalfSpaces::bound(const DualBasis& basis, const Eigen::Vector3d& directio
 double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
   const double extent = std::max({max_abs_[0], max_abs_[1], max_abs_[2]});
   std::vector<double> slack(size());
-  for (std::size_t i = 0; i < size(); ++i)
-    slack[i] = offsets_[i] - dot3(normals_[i], vertex);
+  for (std::size_t i = 0; i < slack.size(); ++i)
+    slack[i] = offsets_[i] - normals_.projection(i, vertex);
   std::vector<std::size_t> tight;
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (slack[i] <= 0x1p-34 * extent || i + box_sides >= size()) tight.push_back(i);
+  for (std::size_t i = 0; i < slack.size(); ++i) {
+    if (slack[i] <= 0x1p-34 * extent || i + box_sides >= slack.size()) tight.push_back(i);
   }
   const double tolerance = 0x1p-51 * extent;
   const DualSimplex simplex{normals_, slack, direction};

@@ -59,15 +59,15 @@ KdopSupport::KdopSupport(const Kdop& kdop) : kdop_(kdop) {
   const std::size_t count = kdop.size();
   normals_.reserve(2 * count);
   offsets_.reserve(2 * count);
-  units_.resize(kdop.min().size());
+  scales_.resize(kdop.min().size());
   for (std::size_t i = 0; i < count; ++i) {
-    units_[i] = power_of_two(slabs.set.direction(i));
-    normals_.push_back(slabs.set.direction(i) / units_[i]);
-    offsets_.push_back(slabs.max[i] / units_[i]);
+    scales_[i] = 1 / power_of_two(slabs.set.direction(i));
+    normals_.push_back(slabs.set.direction(i) * scales_[i]);
+    offsets_.push_back(slabs.max[i] * scales_[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {
     normals_.push_back(-normals_[i]);
-    offsets_.push_back(-slabs.min[i] / units_[i]);
+    offsets_.push_back(-slabs.min[i] * scales_[i]);
   }
 }
 
@@ -88,7 +88,7 @@ double KdopSupport::value_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3
     residual[k].add_dot(matrix.col(k), direction);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t side = basis.sides[i], slab = side % kdop_.size();
-    const double weight = basis.weights[i] / units_[slab];
+    const double weight = basis.weights[i] * scales_[slab];
     bound.add_product(weight, side == slab ? kdop_.max(slab) : -kdop_.min(slab));
     for (std::size_t k = 0; k < 3; ++k) {
       residual[k].add_product(side == slab ? -weight : weight, kdop_.set()->direction(slab)[k]);

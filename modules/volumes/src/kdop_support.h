@@ -41,10 +41,10 @@ class KdopSupport {
 
   const Kdop& kdop_;
   Eigen::Vector3d origin_;
-  // The max sides of all slabs, then the min sides, relative to the origin and divided by powers of two.
+  // The max sides of all slabs, then the min sides, relative to the origin and multiplied by `scales_`.
   Normals normals_;
   std::vector<double> offsets_;
-  SlabVector units_;         // powers of two, by slab
+  SlabVector scales_;        // powers of two, by slab
   Eigen::Vector3d max_abs_;  // upper bound of |p_k|, by component
 };
 
