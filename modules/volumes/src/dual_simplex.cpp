@@ -10,7 +10,6 @@
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv::detail {
-
 namespace {
 
 // The three normals of a basis and their cross products. crosses[k] / determinant is column k of the inverse
@@ -63,15 +62,16 @@ struct Frame {
   double determinant;
 };
 
-// Returns the half-space, or the candidate, that the corner exceeds most, or size() if the corner exceeds
-// none by more than `worst`.
-std::size_t most_violated(const DualSimplex& lp, const Eigen::Vector3d& corner, double worst,
+// Returns the index of the half-space that the corner exceeds most, or size() if the corner exceeds none by
+// more than `worst`.
+std::size_t most_violated(const DualSimplex& simplex, const Eigen::Vector3d& corner, double worst,
                           const std::vector<std::size_t>* candidates) {
-  std::size_t found = lp.normals.size();
-  const std::size_t count = candidates ? candidates->size() : lp.normals.size();
+  const Normals& normals = simplex.normals;
+  std::size_t found = normals.size();
+  const std::size_t count = candidates ? candidates->size() : normals.size();
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t i = candidates ? (*candidates)[j] : j;
-    const double excess = lp.normals.projection(i, corner) - lp.offsets[i];
+    const double excess = normals.projection(i, corner) - simplex.offsets[i];
     if (!(excess > worst)) continue;
     worst = excess;
     found = i;
@@ -94,17 +94,6 @@ void refine(const Frame& frame, const Eigen::Vector3d& direction, Eigen::Vector3
 }
 
 }  // namespace
-
-void Normals::reserve(std::size_t count) {
-  for (std::vector<double>* v : {&x, &y, &z})
-    v->reserve(count);
-}
-
-void Normals::push_back(const Eigen::Vector3d& normal) {
-  x.push_back(normal[0]);
-  y.push_back(normal[1]);
-  z.push_back(normal[2]);
-}
 
 double power_of_two(const Eigen::Vector3d& normal) {
   const double largest = std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])});

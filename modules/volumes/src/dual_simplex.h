@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The support of a convex polytope, found by a linear program in three variables.
+// Finds the support of a convex polytope by a linear program in three variables.
 //
 // Weak duality proves bounds of the support value. The polytope is n_i . q <= offset_i for all i. Weights w_i
 // >= 0 with sum w_i n_i = d - r prove d . q <= sum w_i offset_i + r . q for every q of the polytope. The
-// proof holds for any weights >= 0, so the search computes in plain double, and its callers prove the bound.
+// proof holds for any weights >= 0. Therefore, the search computes in plain double. Its callers prove the
+// bound.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +21,15 @@ namespace pcl_bv::detail {
 struct Normals {
   std::vector<double> x, y, z;
 
-  void reserve(std::size_t count);
-  void push_back(const Eigen::Vector3d& normal);
+  void reserve(std::size_t count) {
+    for (std::vector<double>* v : {&x, &y, &z})
+      v->reserve(count);
+  }
+  void push_back(const Eigen::Vector3d& normal) {
+    x.push_back(normal[0]);
+    y.push_back(normal[1]);
+    z.push_back(normal[2]);
+  }
   std::size_t size() const { return x.size(); }
   Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
   double projection(std::size_t i, const Eigen::Vector3d& q) const {
@@ -40,8 +48,8 @@ struct DualBasis {
   Eigen::Vector3d corner = {};  ///< Intersection of the three planes, computed by solve().
 };
 
-/// The dual simplex method (Lemke 1954) for max direction . q. Refers to data of the caller. Offsets lose no
-/// digits if they are relative to a point near the sought corner.
+/// The dual simplex method (Lemke 1954), which maximizes direction . q. The members refer to the caller's
+/// data. Offsets lose no digits if they are relative to a point near the sought corner.
 struct DualSimplex {
   const Normals& normals;
   const std::vector<double>& offsets;
@@ -51,8 +59,8 @@ struct DualSimplex {
   /// sides[k] + opposite. Their normals must be opposite vectors, and linearly independent for k = 0, 1, 2.
   DualBasis start(const std::array<std::size_t, 3>& sides, std::size_t opposite) const;
 
-  /// Improves the basis until its corner is beyond none of the half-spaces, or only of the `candidates`, by
-  /// more than absolute + relative * |corner|_1.
+  /// Improves the basis until its corner exceeds no half-space by more than absolute + relative * |corner|_1.
+  /// If `candidates` is not null, only half-spaces with these indices enter the basis.
   DualBasis solve(DualBasis basis, double absolute, double relative,
                   const std::vector<std::size_t>* candidates = nullptr) const;
 };

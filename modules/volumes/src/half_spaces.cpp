@@ -4,6 +4,7 @@
 #include "half_spaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bounds.h"

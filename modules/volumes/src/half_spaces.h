@@ -38,8 +38,6 @@ class HalfSpaces {
   /// Returns an upper bound of |q| over the box.
   double radius_up() const;
 
-  std::size_t size() const { return offsets_.size(); }
-
  private:
   /// The bound that a basis proves: direction . q <= bound + residual . |q|, where |q| is the vector of the
   /// magnitudes of q's components.
@@ -48,6 +46,7 @@ class HalfSpaces {
     Eigen::Vector3d residual;
   };
 
+  std::size_t size() const { return offsets_.size(); }
   DualBasis start(const DualSimplex& simplex) const {
     return simplex.start({size() - 6, size() - 5, size() - 4}, 3);
   }

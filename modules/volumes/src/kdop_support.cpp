@@ -47,7 +47,7 @@ LocalSlabs local_slabs(const Kdop& kdop) {
     Expansion shift;
     shift.add_dot(-set.direction(i), result.origin);
     result.min[i] = Expansion(shift).add(kdop.min(i)).value();
-    result.max[i] = Expansion(shift).add(kdop.max(i)).value();
+    result.max[i] = shift.add(kdop.max(i)).value();
   }
   return result;
 }
@@ -58,17 +58,16 @@ KdopSupport::KdopSupport(const Kdop& kdop) : kdop_(kdop) {
   max_abs_ = coordinate_bound(kdop, slabs);
   const std::size_t count = kdop.size();
   normals_.reserve(2 * count);
-  offsets_.reserve(2 * count);
+  offsets_.resize(2 * count);
   scales_.resize(kdop.min().size());
   for (std::size_t i = 0; i < count; ++i) {
     scales_[i] = 1 / power_of_two(slabs.set.direction(i));
+    offsets_[i] = slabs.max[i] * scales_[i];
+    offsets_[count + i] = -slabs.min[i] * scales_[i];
     normals_.push_back(slabs.set.direction(i) * scales_[i]);
-    offsets_.push_back(slabs.max[i] * scales_[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     normals_.push_back(-normals_[i]);
-    offsets_.push_back(-slabs.min[i] * scales_[i]);
-  }
 }
 
 DualBasis KdopSupport::farthest(const Eigen::Vector3d& direction) const {
