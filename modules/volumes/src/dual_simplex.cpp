@@ -68,13 +68,17 @@ std::size_t most_violated(const DualSimplex& simplex, const Eigen::Vector3d& cor
                           const std::vector<std::size_t>* candidates) {
   const Normals& normals = simplex.normals;
   std::size_t found = normals.size();
-  const std::size_t count = candidates ? candidates->size() : normals.size();
-  for (std::size_t j = 0; j < count; ++j) {
-    const std::size_t i = candidates ? (*candidates)[j] : j;
+  const auto visit = [&](std::size_t i) {
     const double excess = normals.projection(i, corner) - simplex.offsets[i];
-    if (!(excess > worst)) continue;
+    if (!(excess > worst)) return;
     worst = excess;
     found = i;
+  };
+  if (candidates) {
+    std::for_each(candidates->begin(), candidates->end(), visit);
+  } else {
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      visit(i);
   }
   return found;
 }
