@@ -17,69 +17,51 @@ namespace {
 // Returns an upper bound of each |p_k| over the intersection of the basis slabs. An entry of the inverse that
 // nearly cancels may have no correct digit, but its error is below 1e-9 / |direction|, since the determinant
 // of the normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
-Eigen::Vector3d coordinate_bound(const Kdop& kdop, const LocalSlabs& slabs) {
+Eigen::Vector3d coordinate_bound(const Kdop& kdop, const Eigen::Matrix3d& basis_inverse) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
-    const std::size_t i = slabs.set.basis()[k];
+    const std::size_t i = kdop.set()->basis()[k];
     const double largest = std::max(std::abs(kdop.min(i)), std::abs(kdop.max(i)));
-    const double error_bound = 1e-9 / slabs.set.direction(i).norm();
-    result.array() += 1.01 * largest * (slabs.basis_inverse.col(k).array().abs() + error_bound);
+    const double error_bound = 1e-9 / kdop.set()->direction(i).norm();
+    result.array() += 1.01 * largest * (basis_inverse.col(k).array().abs() + error_bound);
   }
   return result;
 }
 
 }  // namespace
 
-LocalSlabs local_slabs(const Kdop& kdop) {
-  const KdopSet& set = *kdop.set();
+LocalSlabs::LocalSlabs(const Kdop& kdop)
+    : kdop_(kdop), scales_(kdop.min().size()), offsets_(2 * kdop.size()) {
   Eigen::Matrix3d basis;
   Eigen::Vector3d low;
   for (int k = 0; k < 3; ++k) {
-    const std::size_t i = set.basis()[k];
-    basis.row(k) = set.direction(i).transpose();
+    const std::size_t i = set().basis()[k];
+    basis.row(k) = set().direction(i).transpose();
     low[k] = kdop.min(i);
   }
-  LocalSlabs result{set, {}, basis.inverse(), {}, {}};
-  result.origin = result.basis_inverse * low;
-  result.min.resize(kdop.min().size());
-  result.max.resize(kdop.max().size());
-  for (std::size_t i = 0; i < set.size(); ++i) {
+  basis_inverse_ = basis.inverse();
+  origin_ = basis_inverse_ * low;
+  max_abs_ = coordinate_bound(kdop, basis_inverse_);
+  normals_.reserve(offsets_.size());
+  for (std::size_t i = 0; i < kdop.size(); ++i) {
+    const Eigen::Vector3d& n = set().direction(i);
+    scales_[i] = 1 / power_of_two(n);
+    normals_.push_back(scales_[i] * n);
     Expansion shift;
-    shift.add_dot(-set.direction(i), result.origin);
-    result.min[i] = Expansion(shift).add(kdop.min(i)).value();
-    result.max[i] = shift.add(kdop.max(i)).value();
+    shift.add_dot(-n, origin_);
+    offsets_[kdop.size() + i] = -scales_[i] * Expansion(shift).add(kdop.min(i)).value();
+    offsets_[i] = scales_[i] * shift.add(kdop.max(i)).value();
   }
-  return result;
-}
-
-KdopSupport::KdopSupport(const Kdop& kdop) : kdop_(kdop) {
-  const LocalSlabs slabs = local_slabs(kdop);
-  origin_ = slabs.origin;
-  max_abs_ = coordinate_bound(kdop, slabs);
-  const std::size_t count = kdop.size();
-  normals_.reserve(2 * count);
-  offsets_.resize(2 * count);
-  scales_.resize(kdop.min().size());
-  for (std::size_t i = 0; i < count; ++i) {
-    scales_[i] = 1 / power_of_two(slabs.set.direction(i));
-    offsets_[i] = slabs.max[i] * scales_[i];
-    offsets_[count + i] = -slabs.min[i] * scales_[i];
-    normals_.push_back(slabs.set.direction(i) * scales_[i]);
-  }
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < kdop.size(); ++i)
     normals_.push_back(-normals_[i]);
 }
 
-DualBasis KdopSupport::farthest(const Eigen::Vector3d& direction) const {
+DualBasis LocalSlabs::farthest(const Eigen::Vector3d& direction) const {
   const DualSimplex simplex{normals_, offsets_, direction};
-  return simplex.solve(simplex.start(kdop_.set()->basis(), kdop_.size()), 0, 0x1p-44);
+  return simplex.solve(simplex.start(set().basis(), kdop_.size()), 0, 0x1p-44);
 }
 
-Eigen::Vector3d KdopSupport::corner(const Eigen::Vector3d& direction) const {
-  return origin_ + farthest(direction).corner;
-}
-
-double KdopSupport::value_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& direction) const {
+double LocalSlabs::support_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& direction) const {
   const DualBasis basis = farthest(matrix.transpose() * direction);
   Expansion bound;
   std::array<Expansion, 3> residual;  // direction' * matrix - sum of weights * normals
@@ -90,7 +72,7 @@ double KdopSupport::value_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3
     const double weight = basis.weights[i] * scales_[slab];
     bound.add_product(weight, side == slab ? kdop_.max(slab) : -kdop_.min(slab));
     for (std::size_t k = 0; k < 3; ++k) {
-      residual[k].add_product(side == slab ? -weight : weight, kdop_.set()->direction(slab)[k]);
+      residual[k].add_product(side == slab ? -weight : weight, set().direction(slab)[k]);
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {

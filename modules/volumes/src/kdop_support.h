@@ -14,38 +14,38 @@
 namespace pcl_bv::detail {
 
 /// The slabs of a k-DOP relative to a nearby origin, so that large coordinates, such as UTM, cost no digits.
-struct LocalSlabs {
-  const KdopSet& set;
-  Eigen::Vector3d origin;
-  Eigen::Matrix3d basis_inverse;  ///< p = basis_inverse * s, with s the projections on the basis directions.
-  SlabVector min, max;            ///< Bounds relative to the origin, correctly rounded.
-};
-
-/// The k-DOP must not be empty.
-LocalSlabs local_slabs(const Kdop& kdop);
-
-/// The support of a k-DOP, which must not be empty, and must outlive this object.
-class KdopSupport {
+/// The k-DOP must not be empty, and must outlive this object.
+class LocalSlabs {
  public:
-  explicit KdopSupport(const Kdop& kdop);
+  explicit LocalSlabs(const Kdop& kdop);
 
-  /// Returns a corner that is farthest along the direction, computed in plain double.
-  Eigen::Vector3d corner(const Eigen::Vector3d& direction) const;
+  const KdopSet& set() const { return *kdop_.set(); }
+  const Eigen::Vector3d& origin() const { return origin_; }
+
+  /// The matrix with p = basis_inverse() * s, where s are the projections of p on the basis directions.
+  const Eigen::Matrix3d& basis_inverse() const { return basis_inverse_; }
+
+  /// Bounds relative to the origin, correctly rounded.
+  double min(std::size_t i) const { return -offsets_[kdop_.size() + i] / scales_[i]; }
+  double max(std::size_t i) const { return offsets_[i] / scales_[i]; }
+
+  /// Returns a corner that is farthest along the direction, relative to the origin. Computed in plain double.
+  Eigen::Vector3d corner(const Eigen::Vector3d& direction) const { return farthest(direction).corner; }
 
   /// Returns an upper bound, by exact arithmetic, of direction . (matrix * p) over all points p of the k-DOP.
   /// The bound is tight to a few units in the last place of the coordinates.
-  double value_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& direction) const;
+  double support_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& direction) const;
 
  private:
   DualBasis farthest(const Eigen::Vector3d& direction) const;
 
   const Kdop& kdop_;
   Eigen::Vector3d origin_;
-  // The max sides of all slabs, then the min sides, relative to the origin and multiplied by `scales_`.
-  Normals normals_;
-  std::vector<double> offsets_;
-  SlabVector scales_;        // powers of two, by slab
-  Eigen::Vector3d max_abs_;  // upper bound of |p_k|, by component
+  Eigen::Matrix3d basis_inverse_;
+  Eigen::Vector3d max_abs_;      // upper bound of |p_k|, by component
+  SlabVector scales_;            // powers of two, by slab
+  Normals normals_;              // of the max sides, then of the min sides, multiplied by `scales_`
+  std::vector<double> offsets_;  // likewise, relative to the origin
 };
 
 }  // namespace pcl_bv::detail
