@@ -47,7 +47,8 @@ class HalfSpaces {
   };
 
   std::size_t size() const { return offsets_.size(); }
-  // The basis of the box.
+
+  /// Returns the basis of the box.
   DualBasis start(const DualSimplex& simplex) const {
     return simplex.start({size() - 6, size() - 5, size() - 4}, 3);
   }
