@@ -98,6 +98,7 @@ double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eige
   for (std::size_t i = 0; i < slack.size(); ++i)
     slack[i] = offsets_[i] - normals_.projection(i, vertex);
   std::vector<std::size_t> tight;
+  tight.reserve(16);  // enough for most vertices and the box
   for (std::size_t i = 0; i < slack.size(); ++i) {
     if (slack[i] <= 0x1p-34 * extent || i + box_sides >= slack.size()) tight.push_back(i);
   }
