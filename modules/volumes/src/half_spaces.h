@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upper bounds of the support value of a body that is given by half-spaces. A linear program in three
-// variables is solved; its dual solution proves the bound.
+// Upper bounds of the support value of a body that is given by half-spaces, with a proof in floating point.
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
+
+#include "dual_simplex.h"
 
 namespace pcl_bv::detail {
 
@@ -38,17 +38,7 @@ class HalfSpaces {
   /// Returns an upper bound of |q| over the box.
   double radius_up() const;
 
-  std::size_t size() const { return offset_.size(); }
-  Eigen::Vector3d normal(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-  double offset(std::size_t i) const { return offset_[i]; }
-
  private:
-  /// Three half-spaces. Up to rounding, direction = sum of weights[k] * normal(sides[k]), with weights >= 0.
-  struct Basis {
-    std::array<std::size_t, 3> sides;
-    Eigen::Vector3d weights;
-  };
-
   /// The bound that a basis proves: direction . q <= bound + residual . |q|, where |q| is the vector of the
   /// magnitudes of q's components.
   struct DualBound {
@@ -56,13 +46,17 @@ class HalfSpaces {
     Eigen::Vector3d residual;
   };
 
-  class DualSimplex;
+  std::size_t size() const { return offsets_.size(); }
 
-  Basis start(const Eigen::Vector3d& direction) const;
-  DualBound prove(const Basis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
-  double bound(const Basis& basis, const Eigen::Vector3d& direction) const;
+  /// Returns the basis of the box.
+  DualBasis start(const DualSimplex& simplex) const {
+    return simplex.start({size() - 6, size() - 5, size() - 4}, 3);
+  }
+  DualBound prove(const DualBasis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
+  double bound(const DualBasis& basis, const Eigen::Vector3d& direction) const;
 
-  std::vector<double> x_, y_, z_, offset_;
+  Normals normals_;
+  std::vector<double> offsets_;
   Eigen::Vector3d max_abs_ = Eigen::Vector3d::Zero();  // largest |q_k| in the box, by component
 };
 

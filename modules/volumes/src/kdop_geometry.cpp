@@ -47,8 +47,8 @@ Eigen::Vector3d Kdop::center() const {
 Eigen::Vector3d Kdop::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   if (empty()) return Eigen::Vector3d::Constant(kNan);
-  const LocalSlabs slabs = local_slabs(*this);
-  return slabs.origin + farthest_corner(slabs, direction).corner;
+  const LocalSlabs slabs(*this);
+  return slabs.origin() + slabs.corner(direction);
 }
 
 double Kdop::distance(const Eigen::Vector3d& point) const {
@@ -70,9 +70,9 @@ Aabb Kdop::aabb() const {
       lower[k] = min(i);
       upper[k] = max(i);
     } else {
-      const LocalSlabs slabs = local_slabs(*this);
-      lower[k] = -support_up(*this, slabs, identity, -identity.col(k));
-      upper[k] = support_up(*this, slabs, identity, identity.col(k));
+      const LocalSlabs slabs(*this);
+      lower[k] = -slabs.support_up(identity, -identity.col(k));
+      upper[k] = slabs.support_up(identity, identity.col(k));
     }
   }
   return {lower, upper};
@@ -94,13 +94,13 @@ Mesh Kdop::mesh() const {
 Kdop Kdop::tightened() const {
   const FloatEnvironment environment;
   if (empty()) return *this;
-  const LocalSlabs slabs = local_slabs(*this);
+  const LocalSlabs slabs(*this);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   SlabVector lower(min().size()), upper(lower.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
-    lower[i] = std::max(min(i), -support_up(*this, slabs, identity, -n));
-    upper[i] = std::min(max(i), support_up(*this, slabs, identity, n));
+    lower[i] = std::max(min(i), -slabs.support_up(identity, -n));
+    upper[i] = std::min(max(i), slabs.support_up(identity, n));
   }
   // Both bounds of a slab are proven. If lower[i] > upper[i], the polytope has no point, and the constructor
   // makes the empty k-DOP.
@@ -110,12 +110,12 @@ Kdop Kdop::tightened() const {
 Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return Kdop(set_);
-  const LocalSlabs slabs = local_slabs(*this);
+  const LocalSlabs slabs(*this);
   SlabVector lower(min().size()), upper(lower.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
     const auto support_bound = [&](const Eigen::Vector3d& direction) {
-      const double rotated = support_up(*this, slabs, transform.linear(), direction);
+      const double rotated = slabs.support_up(transform.linear(), direction);
       return Expansion().add(rotated).add_dot(direction, transform.translation()).up();
     };
     lower[i] = -support_bound(-n);

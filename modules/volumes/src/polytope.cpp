@@ -27,11 +27,11 @@ struct CubeMap {
 CubeMap cube_map(const LocalSlabs& slabs) {
   Eigen::Vector3d low, width;
   for (int k = 0; k < 3; ++k) {
-    const std::size_t i = slabs.set.basis()[k];
-    low[k] = slabs.min[i];
-    width[k] = slabs.max[i] - slabs.min[i];
+    const std::size_t i = slabs.set().basis()[k];
+    low[k] = slabs.min(i);
+    width[k] = slabs.max(i) - slabs.min(i);
   }
-  return {slabs.basis_inverse * low, slabs.basis_inverse * width.asDiagonal()};
+  return {slabs.basis_inverse() * low, slabs.basis_inverse() * width.asDiagonal()};
 }
 
 struct MappedSlab {
@@ -46,16 +46,16 @@ struct MappedSlab {
 // slabs along which the parallelepiped has no extent.
 std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map) {
   std::vector<MappedSlab> result;
-  for (std::size_t i = 0; i < slabs.set.size(); ++i) {
-    const auto& basis = slabs.set.basis();
+  for (std::size_t i = 0; i < slabs.set().size(); ++i) {
+    const auto& basis = slabs.set().basis();
     if (std::find(basis.begin(), basis.end(), i) != basis.end()) continue;
-    const Eigen::Vector3d& n = slabs.set.direction(i);
+    const Eigen::Vector3d& n = slabs.set().direction(i);
     const double shift = n.dot(map.corner);
     const double magnitude =
-        n.cwiseAbs().dot(map.corner.cwiseAbs()) + std::abs(slabs.min[i]) + std::abs(slabs.max[i]);
+        n.cwiseAbs().dot(map.corner.cwiseAbs()) + std::abs(slabs.min(i)) + std::abs(slabs.max(i));
     const Eigen::Vector3d normal = map.edges.transpose() * n;
     if (normal.isZero(0)) continue;
-    result.push_back({normal, slabs.min[i] - shift, slabs.max[i] - shift, 0x1p-48 * magnitude});
+    result.push_back({normal, slabs.min(i) - shift, slabs.max(i) - shift, 0x1p-48 * magnitude});
   }
   // Thin slabs clip first. If the polytope collapses onto the cap of a thin slab, the cap is then still one
   // whole face.
@@ -151,11 +151,11 @@ Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<
 }
 
 Polytope intersect_slabs(const Kdop& kdop) {
-  const LocalSlabs slabs = local_slabs(kdop);
+  const LocalSlabs slabs(kdop);
   const CubeMap map = cube_map(slabs);
   const ClippedCube cube = clipped(slabs, map);
   Polytope result;
-  result.origin = slabs.origin;
+  result.origin = slabs.origin();
   compact(cube, result.vertices, result.faces);
   if (result.vertices.empty()) return result;
 
@@ -164,7 +164,7 @@ Polytope intersect_slabs(const Kdop& kdop) {
   const Measure m = measure(result.vertices, result.faces, cube.rank());
   result.centroid = map.corner + map.edges * m.centroid(result.vertices);
   if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * std::abs(map.edges.determinant());
-  if (slabs.basis_inverse.determinant() < 0) {  // a left-handed basis mirrors the cube
+  if (slabs.basis_inverse().determinant() < 0) {  // a left-handed basis mirrors the cube
     for (Face& face : result.faces)
       std::reverse(face.begin(), face.end());
   }
