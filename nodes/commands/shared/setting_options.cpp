@@ -111,8 +111,6 @@ void SettingOptions::apply(StreamConfig& config) const {
                  [&](const std::string& text) { read_setting(setting, text, value); });
     }
     if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
-    const std::string problem = problem_of(setting, value);
-    if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
   };
   visit_stream(config, read);
   FilterConfig& filter = config.pipeline.filter;
@@ -162,7 +160,7 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   if (range_from != nullptr) *range_from = line_.given("--range") ? "--range" : from;
   reject_useless(config.pipeline);
   const std::vector<std::string> problems = config.validate();
-  if (!problems.empty()) throw UsageError(problems.front());
+  if (!problems.empty()) throw UsageError(with_options(problems.front()));
   for (const std::string& line : config.pipeline.ineffective_settings())
     report_problem(with_options(line));
   return config;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -71,8 +72,7 @@ void check_combinations(const PipelineConfig& c, std::vector<ConfigProblem>& pro
   check_classes(c.cluster, problems);
 }
 
-template <typename Problems>
-std::vector<std::string> lines(const Problems& problems) {
+std::vector<std::string> lines(const std::vector<ConfigProblem>& problems) {
   std::vector<std::string> texts;
   texts.reserve(problems.size());
   for (const ConfigProblem& problem : problems)
@@ -168,18 +168,34 @@ std::string detail::problem_of(const Setting& /*setting*/, const FieldName& fiel
   return field.name.empty() ? "the name of the field is empty" : "";
 }
 
-std::vector<ConfigProblem> detail::problems_of(const StreamConfig& config) {
+std::vector<ConfigProblem> detail::problems_of(const PipelineConfig& config) {
   std::vector<ConfigProblem> problems;
-  visit_stream(config, checker(problems));
-  check_combinations(config.pipeline, problems);
+  visit_pipeline(config, checker(problems));
+  if (problems.empty()) check_combinations(config, problems);
   return problems;
 }
 
-std::vector<std::string> PipelineConfig::validate() const {
+std::vector<ConfigProblem> detail::problems_of(const RunnerConfig& config) {
   std::vector<ConfigProblem> problems;
-  visit_pipeline(*this, checker(problems));
-  check_combinations(*this, problems);
-  return lines(problems);
+  visit_runner(config, checker(problems));
+  return problems;
+}
+
+std::vector<ConfigProblem> detail::problems_of(const StreamConfig& config) {
+  std::vector<ConfigProblem> problems = problems_of(config.pipeline);
+  std::ranges::move(problems_of(config.runner), std::back_inserter(problems));
+  return problems;
+}
+
+void detail::throw_if_any(const std::vector<ConfigProblem>& problems) {
+  std::string all;
+  for (const std::string& line : lines(problems))
+    all.append(all.empty() ? "" : "; ").append(line);
+  if (!all.empty()) throw std::invalid_argument(all);
+}
+
+std::vector<std::string> PipelineConfig::validate() const {
+  return lines(problems_of(*this));
 }
 
 std::vector<std::string> StreamConfig::validate() const {

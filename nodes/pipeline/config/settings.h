@@ -194,13 +194,11 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
 }
 
-/// Same as visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
-template <typename Stream, typename Visit>
-void visit_stream(Stream& c, Visit&& visit) {
+/// Same as visit_pipeline(), for the settings of a runner.
+template <typename Runner, typename Visit>
+void visit_runner(Runner& c, Visit&& visit) {
   using S = Setting;
-  visit_pipeline(c.pipeline, visit);
-  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"},
-        c.runner.queue);
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.queue);
   visit(S{"runner.policy",
           "auto, drop_oldest, drop_newest, block",
           "When the queue is full: drop_oldest, drop_newest, block, auto",
@@ -208,9 +206,16 @@ void visit_stream(Stream& c, Visit&& visit) {
           {},
           "--policy",
           "NAME"},
-        c.runner.policy);
-  visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
-  visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.runner.watchdog_s);
+        c.policy);
+  visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.max_age_ms);
+  visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.watchdog_s);
+}
+
+/// Same as visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
+template <typename Stream, typename Visit>
+void visit_stream(Stream& c, Visit&& visit) {
+  visit_pipeline(c.pipeline, visit);
+  visit_runner(c.runner, visit);
 }
 // clang-format on
 

@@ -35,10 +35,10 @@ QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
 struct RunnerConfig {
-  std::size_t queue = 1;  ///< Frames that may wait, at least 1.
+  std::size_t queue = 1;  ///< Frames that may wait, 1 to 100000.
   QueuePolicy policy = QueuePolicy::automatic;
-  double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: no limit.
-  double watchdog_s = 0;  ///< Report if no frame comes for this number of seconds. 0: never.
+  double max_age_ms = 0;  ///< Frames that have waited longer are dropped; finite. 0: no limit.
+  double watchdog_s = 0;  ///< Report if no frame comes for this number of seconds; finite. 0: never.
 };
 
 /// The complete configuration of a stream.
@@ -131,8 +131,7 @@ class StreamRunner {
   };
 
   /// Starts the thread. StreamRunner treats QueuePolicy::automatic as drop_oldest. Throws
-  /// std::invalid_argument if `config.queue` is 0, if a duration is negative or NaN, or if `process` or
-  /// `on_result` is empty.
+  /// std::invalid_argument if a value of `config` is not allowed, or if `process` or `on_result` is empty.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config);
 
   /// As the constructor above, but results reuse the memory of `reserved`, which FramePipeline::reserve() has
