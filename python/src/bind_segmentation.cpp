@@ -86,8 +86,8 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// Issues the warnings of FrameWarnings about a frame for which only this ground has been computed. Removes
-/// "ground." from the names of settings, so that the warnings have the names of the arguments of ground().
+/// Issues the warnings of FrameWarnings about a frame for which only this ground has been computed. The
+/// warnings name the arguments of ground(), which are the keys of the settings without "ground.".
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();
   pipeline.ground = config;
@@ -103,13 +103,11 @@ void warn_of_ground(const PointView& points, const GroundConfig& config, const G
   std::vector<std::string> texts;
   {
     const py::gil_scoped_release unlocked;
-    texts = FrameWarnings().take(frame, result);
+    const auto argument = [](std::string_view key) { return std::string(key.substr(key.find('.') + 1)); };
+    texts = FrameWarnings(argument).take(frame, result);
   }
-  for (std::string& text : texts) {
-    for (std::size_t at; (at = text.find("ground.")) != std::string::npos;)
-      text.erase(at, std::string_view("ground.").size());
+  for (const std::string& text : texts)
     warn(text);
-  }
 }
 
 GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,

@@ -58,20 +58,17 @@ void read_growth(const std::string& text, ClusterConfig& cluster) {
 
 }  // namespace
 
-std::string with_options(std::string text) {
-  const auto replace = [&](std::string_view key, std::string_view option) {
-    const std::size_t at = text.find(key);
-    if (at == std::string::npos || text.find('_', at + key.size()) == at + key.size())
-      return;  // part of a longer key
-    text.replace(at, key.size(), option);
+SettingName option_names(bool stream) {
+  return [stream](std::string_view key) {
+    if (key == "filter.range_max") return std::string("--range");
+    if (key == "cluster.tolerance_per_metre") return std::string("the growth of --cluster");
+    std::string name(key);
+    const StreamConfig any;
+    visit_stream(any, [&](const Setting& setting, const auto&) {
+      if (setting.key == key && has_option(setting, stream)) name = setting.option;
+    });
+    return name;
   };
-  const PipelineConfig any;
-  visit_pipeline(any, [&](const Setting& setting, const auto&) {
-    if (!setting.option.empty()) replace(setting.key, setting.option);
-  });
-  replace("filter.range_max", "--range");
-  replace("cluster.tolerance_per_metre", "the growth of --cluster");
-  return text;
 }
 
 SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
@@ -159,10 +156,11 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   apply(config);
   if (range_from != nullptr) *range_from = line_.given("--range") ? "--range" : from;
   reject_useless(config.pipeline);
-  const std::vector<std::string> problems = config.validate();
-  if (!problems.empty()) throw UsageError(with_options(problems.front()));
-  for (const std::string& line : config.pipeline.ineffective_settings())
-    report_problem(with_options(line));
+  const SettingName name = option_names(stream_);
+  const std::vector<ConfigProblem> problems = problems_of(config, name);
+  if (!problems.empty()) throw UsageError(name(problems.front().key) + ": " + problems.front().what);
+  for (const std::string& line : config.pipeline.ineffective_settings(name))
+    report_problem(line);
   return config;
 }
 

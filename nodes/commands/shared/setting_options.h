@@ -13,8 +13,9 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the text with the keys of settings replaced by their options.
-std::string with_options(std::string text);
+/// Returns a function that names settings by their options. A setting without an option has its key as its
+/// name. With `stream`, those of tracks and queues have options.
+SettingName option_names(bool stream);
 
 /// The options that configure a command, namely --preset, --config, --range, --print-config and those of the
 /// settings (nodes/pipeline/config/settings.h). Options override the file, the file overrides the preset, and
