@@ -43,7 +43,7 @@ class SettingOptions {
   /// Values by option. The command line refers to these values, which a map never moves.
   std::map<std::string_view, std::string> texts_;
   std::map<std::string_view, bool> flags_;
-  std::string preset_, file_, range_, padding_;
+  std::string preset_, file_, padding_;
   std::vector<std::string> dropped_, cropped_;
   bool stream_, print_config_ = false;
 };

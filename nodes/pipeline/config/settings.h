@@ -29,6 +29,14 @@ struct NumberRange {
   bool as_float = false;
 };
 
+/// The part of an option's value that belongs to a setting, if the option sets several settings. Their values
+/// have colons between them.
+struct OptionPart {
+  std::string_view name{};  ///< "MIN" of "--range MIN:MAX"; empty if the setting has an option of its own.
+  bool last = true;
+  bool optional = false;  ///< Whether the part may be missing, which means 0.
+};
+
 /// The description of a setting.
 struct Setting {
   std::string_view key;                      ///< Key with its stage: "filter.range_min".
@@ -37,6 +45,7 @@ struct Setting {
   NumberRange range{};                       ///< Allowed numbers.
   std::string_view unset{};                  ///< Meaning of null or of an empty list.
   std::string_view option{}, placeholder{};  ///< Such as "--sensor-height" and "M", or empty.
+  OptionPart part{};  ///< Only the first part has a placeholder, which is that of the whole value.
 };
 
 // Tables of settings by stage, for visit_pipeline() and visit_stream().
@@ -44,9 +53,10 @@ struct Setting {
 template <typename Filter, typename Visit>
 void visit_filter(Filter& c, Visit&& visit) {
   using S = Setting;
-  visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this"}, c.range_min);
+  visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this",
+          {}, {}, "--range", "MIN:MAX", {"MIN", false}}, c.range_min);
   visit(S{"filter.range_max", "m", "Drop points farther from the origin than this",
-          {0, kNoLimit}}, c.range_max);
+          {0, kNoLimit}, {}, "--range", {}, {"MAX"}}, c.range_max);
   visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of a box of points to drop",
           {}, "no box"}, c.own_box_min);
   visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of a box of points to drop",
@@ -58,7 +68,7 @@ void visit_filter(Filter& c, Visit&& visit) {
 template <typename Ground, typename Visit>
 void visit_ground(Ground& c, Visit&& visit) {
   using S = Setting;
-  visit(S{"ground.method", "none, plane, zones", "Remove the ground first: none, plane or zones (outdoors)",
+  visit(S{"ground.method", "none, plane, zones", "Remove the ground first, outdoors by zones",
           {}, {}, "--ground", "KIND"}, c.method);
   visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z", "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
           {}, {}, "--up", "AXIS"}, c.up);
@@ -77,8 +87,8 @@ template <typename Cluster, typename Visit>
 void visit_cluster(Cluster& c, Visit&& visit) {
   using S = Setting;
   visit(S{"cluster.tolerance", "m; 0: all points are one object",
-          "Points closer than this are one object; 0: all; TOL:PER_METRE grows",
-          {0, 1e6, true, true}, {}, "--cluster", "TOL"}, c.tolerance);
+          "Points closer than this are one object; 0: all",
+          {0, 1e6, true, true}, {}, "--cluster", "TOL[:PER_METRE]", {"TOL", false}}, c.tolerance);
   visit(S{"cluster.min_size", "points", "Drop objects of fewer points",
           {0, kNoLimit}, "10; without clusters 0", "--min-size", "N"}, c.min_size);
   visit(S{"cluster.max_size", "points", "Drop objects of more points",
@@ -88,9 +98,10 @@ void visit_cluster(Cluster& c, Visit&& visit) {
           {1, kNoLimit}, {}, "--min-points", "N"}, c.min_points);
   visit(S{"cluster.tolerance_per_metre", "m per m",
           "The tolerance grows by this with the distance from the origin",
-          {0, 1e6, true, true}}, c.tolerance_per_metre);
+          {0, 1e6, true, true}, {}, "--cluster", {}, {"PER_METRE", true, true}},
+        c.tolerance_per_metre);
   visit(S{"cluster.oversized", "drop, keep, split",
-          "Objects above --max-size: drop, keep, split (half the tolerance)",
+          "Larger objects (split: half the tolerance)",
           {}, {}, "--oversized", "RULE"}, c.oversized);
   visit(S{"cluster.class_field", "name of a field",
           "Integer field with the classes of points; an object has one class",
@@ -121,7 +132,7 @@ void visit_runner(Runner& c, Visit&& visit) {
   using S = Setting;
   visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.queue);
   visit(S{"runner.policy", "auto, drop_oldest, drop_newest, block",
-          "When the queue is full: drop_oldest, drop_newest, block, auto",
+          "When the queue is full",
           {}, {}, "--policy", "NAME"}, c.policy);
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.max_age_ms);
   visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.watchdog_s);
@@ -140,7 +151,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"volumes", "methods", "Methods with commas, or all",
           {}, "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
   visit(S{"growth", "sequential, stationary, deferred",
-          "Sphere growth (Ritter, EPOS): sequential, stationary, deferred",
+          "Sphere growth (Ritter, EPOS)",
           {}, {}, "--growth", "POLICY"}, c.growth);
   visit_track(c.track, visit);
   visit(S{"threads", "0: all processors", "Threads, 0 for all processors",
