@@ -62,7 +62,8 @@ class ConfigError : public std::runtime_error {
 /// ConfigError if the file cannot be read, is not YAML, or has an unknown key or a value that is not allowed.
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
-/// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name.
+/// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name. If `name` is empty,
+/// errors have neither a name nor a line number.
 StreamConfig parse_stream_config(const std::string& text, const std::string& name,
                                  const StreamConfig& defaults = {});
 
