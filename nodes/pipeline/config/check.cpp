@@ -93,6 +93,15 @@ auto checker(std::vector<ConfigProblem>& problems) {
 
 }  // namespace
 
+NumberRange detail::range_of(std::string_view key) {
+  NumberRange range;
+  const PipelineConfig any;
+  visit_pipeline(any, [&](const Setting& setting, const auto&) {
+    if (setting.key == key) range = setting.range;
+  });
+  return range;
+}
+
 std::string detail::problem_of(const Setting& setting, double value) {
   const auto& [min, max, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;

@@ -167,6 +167,9 @@ void visit_stream(Stream& c, Visit&& visit) {
   visit_runner(c.runner, visit);
 }
 
+/// Returns the range of the setting of a pipeline with this key.
+NumberRange range_of(std::string_view key);
+
 /// Return a value as text. Numbers have the fewest digits that read back exactly. A missing value is "null",
 /// and a missing limit is "unlimited".
 std::string to_text(bool value);
