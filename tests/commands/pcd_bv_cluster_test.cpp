@@ -214,6 +214,9 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
           "--min-points: 5 is not allowed: must be 1 if --cluster PER_METRE is above 0");
   refused({"--cluster", "0.5", "--oversized", "shrink"},
           "--oversized: 'shrink' is not one of drop, keep, split");
+  refused({"--range", "5"}, "--range: '5' lacks :MAX");
+  refused({"--range", "5:1"}, "--range MAX: 1 is below --range MIN, 5");
+  refused({"--cluster", "1", "--min-size", "9", "--max-size", "8"}, "--max-size: 8 is below --min-size, 9");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
   refused({"--class", "label"}, "--class: only useful with --cluster");
 }
