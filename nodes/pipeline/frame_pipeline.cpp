@@ -19,6 +19,7 @@
 #include "pcl_bv/points/select_points.h"
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
+#include "pipeline/config/check.h"
 #include "synthetic_sweep.h"
 #include "tracked_volumes.h"
 
@@ -50,10 +51,7 @@ struct Prepared {
 };
 
 std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
-  std::string problems;
-  for (const std::string& line : config.validate())
-    problems += (problems.empty() ? "" : "; ") + line;
-  if (!problems.empty()) throw std::invalid_argument(problems);
+  throw_if_any(problems_of(config));
   auto prepared = std::make_shared<Prepared>();
   prepared->methods = config.methods();
   prepared->classes = ClassTable(config);

@@ -58,19 +58,19 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
   return label;
 }
 
-std::string ground_warning(const FrameResult& result) {
+std::string ground_warning(const FrameResult& result, const SettingName& name, const std::string& better_up) {
   const GroundConfig& ground = result.config->ground;
   const Counts& counts = result.counts;
   const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
   if (ground.method == GroundMethod::none || looked_at < kFewPoints) return {};
-  const std::string tried = " (up is " + format_up(ground.up) + ")";
-  if (counts.ground == 0)
-    return "no ground found" + tried +
-           ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";
-  if (counts.ground == looked_at)
-    return "all points were classified as ground" + tried +
-           ": try ground.up, ground.distance, or ground.method none";
-  return {};
+  if (counts.ground > 0 && counts.ground < looked_at) return {};
+  const std::string advice =
+                        " (up is " + format_up(ground.up) + "): try " + name("ground.up") + better_up + ", ",
+                    none = ", or " + name("ground.method") + " none";
+  if (counts.ground > 0)
+    return "all points were classified as ground" + advice + name("ground.distance") + none;
+  return "no ground found" + advice + name("ground.sensor_height") + ", " + name("ground.max_slope_degrees") +
+         none;
 }
 
 std::string range_warning(const FrameResult& result, const std::string& from) {

@@ -28,6 +28,7 @@ constexpr double kLittleGround = 0.15;
 struct Found {
   const Frame& frame;
   const FrameResult& result;
+  const SettingName& name;
   bool& searched;  // whether little ground has led to a search for another up direction
 
   const PipelineConfig& config() const { return *result.config; }
@@ -54,14 +55,13 @@ std::string text_of(const Eigen::Vector3d& position) {
 }
 
 std::string no_ground(const Found& f) {
-  std::string text = ground_warning(f.result);
+  std::string text = ground_warning(f.result, f.name);
   if (text.empty() || f.result.counts.ground > 0) return text;
-  if (const auto other = f.other_up()) {
-    const std::string tried = "try ground.up";
-    text.insert(text.find(tried) + tried.size(), ' ' + format_up(other->up) + " (" + percent(other->share) +
-                                                     " of the points would be ground)");
-  }
-  return text;
+  const auto other = f.other_up();
+  if (!other) return text;
+  return ground_warning(
+      f.result, f.name,
+      ' ' + format_up(other->up) + " (" + percent(other->share) + " of the points would be ground)");
 }
 
 std::string little_ground(const Found& f) {
@@ -73,18 +73,18 @@ std::string little_ground(const Found& f) {
   const auto other = f.other_up();
   if (!other) return {};
   return "only " + percent(share) + " of the points are ground (up is " + format_up(f.config().ground.up) +
-         "), " + percent(other->share) +
-         " would be with the opposite up: if the cloud is upside down, use ground.up " + format_up(other->up);
+         "), " + percent(other->share) + " would be with the opposite up: if the cloud is upside down, use " +
+         f.name("ground.up") + ' ' + format_up(other->up);
 }
 
 std::string sensor_elsewhere(const Found& f) {
   if (!f.zones() || f.result.sensor.confirmed) return {};
   if (const auto& given = f.config().ground.sensor)
-    return "few points lie around ground.sensor " + text_of(*given) +
+    return "few points lie around " + f.name("ground.sensor") + ' ' + text_of(*given) +
            ", the centre of ground zones: ground may be missed";
   return "the points do not lie around the origin: ground zones are centred at " +
          text_of(f.result.sensor.position) +
-         ", where the points are densest; if the sensor was elsewhere, use ground.sensor";
+         ", where the points are densest; if the sensor was elsewhere, use " + f.name("ground.sensor");
 }
 
 std::string origin_elsewhere(const Found& f) {
@@ -92,8 +92,8 @@ std::string origin_elsewhere(const Found& f) {
   const bool range = f.config().filter.range_max < std::numeric_limits<double>::infinity();
   const bool growth = f.config().cluster.tolerance_per_metre > 0;
   if (!range && !growth) return {};
-  return std::string(range ? "filter.range_max" : "") + (range && growth ? " and " : "") +
-         (growth ? "cluster.tolerance_per_metre" : "") + (range && growth ? " are" : " is") +
+  return (range ? f.name("filter.range_max") : "") + (range && growth ? " and " : "") +
+         (growth ? f.name("cluster.tolerance_per_metre") : "") + (range && growth ? " are" : " is") +
          " measured from the origin, but the points do not lie around it";
 }
 
@@ -106,7 +106,7 @@ std::string far_points(const Found& f) {
 
 std::string level_ground(const Found& f) {
   if (!f.zones() || !f.result.ground.assumed_level || f.result.counts.ground == 0) return {};
-  return "no plane lies ground.sensor_height " + to_text(*f.config().ground.sensor_height) +
+  return "no plane lies " + f.name("ground.sensor_height") + ' ' + to_text(*f.config().ground.sensor_height) +
          " m below the sensor, within 0.5 m: level ground is assumed there";
 }
 
@@ -129,7 +129,7 @@ std::vector<std::string> FrameWarnings::take(const Frame& frame, const FrameResu
   std::vector<std::string> texts;
   std::uint32_t bit = 1;
   for (const auto& kind : kKinds) {
-    std::string text = (returned_ & bit) != 0 ? "" : kind({frame, result, searched_});
+    std::string text = (returned_ & bit) != 0 ? "" : kind({frame, result, name_, searched_});
     if (!text.empty()) {
       returned_ |= bit;
       texts.push_back(std::move(text));

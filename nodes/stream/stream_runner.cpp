@@ -16,7 +16,7 @@
 #include <utility>
 #include <variant>
 
-#include "pipeline/config/settings.h"
+#include "pipeline/config/check.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -234,9 +234,7 @@ StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config)
     : StreamRunner(std::move(callbacks), config, FrameResult()) {}
 
 StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved) {
-  require(config.queue > 0, "runner.queue: 0 is not at least 1");
-  require(config.max_age_ms >= 0, "runner.max_age_ms: " + to_text(config.max_age_ms) + " is not at least 0");
-  require(config.watchdog_s >= 0, "runner.watchdog_s: " + to_text(config.watchdog_s) + " is not at least 0");
+  throw_if_any(problems_of(config));
   require(callbacks.process && callbacks.on_result, "a StreamRunner needs process and on_result");
   state_ = std::make_unique<State>(std::move(callbacks), config, std::move(reserved));
   state_->worker = std::thread([state = state_.get()] { state->run(); });

@@ -18,7 +18,8 @@ namespace {
 using namespace py::literals;
 
 std::size_t size_or_unlimited(py::handle value, const char* name) {
-  return value.is_none() ? std::numeric_limits<std::size_t>::max() : whole_number(value, name, {1, kNoLimit});
+  return value.is_none() ? std::numeric_limits<std::size_t>::max()
+                         : whole_number(value, name, range_of("cluster.max_size"));
 }
 
 /// Returns the settings of one class. Settings that are not in the dict are taken from `others`.
@@ -35,7 +36,7 @@ ClassOptions class_settings(std::int64_t value, py::handle settings_dict, const 
       own.clusters.tolerance =
           static_cast<float>(number(of, "class_settings: tolerance", {0, 1e6, false, true}));
     } else if (name == "min_size") {
-      own.clusters.min_size = whole_number(of, "class_settings: min_size", {0, kNoLimit});
+      own.clusters.min_size = whole_number(of, "class_settings: min_size", range_of("cluster.min_size"));
     } else if (name == "max_size") {
       own.clusters.max_size = size_or_unlimited(of, "class_settings: max_size");
     } else {
@@ -62,11 +63,11 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
                              py::handle threads) {
   const PointArray array = points_of(points);
   ClusterOptions settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false, true}))};
-  settings.min_size = whole_number(min_size, "min_size", {0, kNoLimit});
+  settings.min_size = whole_number(min_size, "min_size", range_of("cluster.min_size"));
   settings.max_size = size_or_unlimited(max_size, "max_size");
-  settings.min_points = whole_number(min_points, "min_points", {1, kNoLimit});
-  settings.tolerance_per_metre =
-      static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6, true, true}));
+  settings.min_points = whole_number(min_points, "min_points", range_of("cluster.min_points"));
+  settings.tolerance_per_metre = static_cast<float>(
+      number(tolerance_per_metre, "tolerance_per_metre", range_of("cluster.tolerance_per_metre")));
   settings.oversized = parse_text<Oversized>(oversized, "oversized");
   const std::vector<ClassOptions> own = all_class_settings(own_settings, settings);
   if (classes.is_none() && !own.empty()) raise_value_error("class_settings", "needs the argument classes");
@@ -86,8 +87,8 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// Issues the warnings that FrameWarnings gives for a frame with this ground and no other results. Removes
-/// "ground." from the names of settings, so that the warnings have the names of the arguments of ground().
+/// Issues the warnings that FrameWarnings gives for a frame with this ground and no other results. The warnings
+/// name the arguments of ground(), which are the keys of the settings without "ground.".
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();
   pipeline.ground = config;
@@ -103,13 +104,11 @@ void warn_of_ground(const PointView& points, const GroundConfig& config, const G
   std::vector<std::string> texts;
   {
     const py::gil_scoped_release unlocked;
-    texts = FrameWarnings().take(frame, result);
+    const auto argument = [](std::string_view key) { return std::string(key.substr(key.find('.') + 1)); };
+    texts = FrameWarnings(argument).take(frame, result);
   }
-  for (std::string& text : texts) {
-    for (std::size_t at; (at = text.find("ground.")) != std::string::npos;)
-      text.erase(at, std::string_view("ground.").size());
+  for (const std::string& text : texts)
     warn(text);
-  }
 }
 
 GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
@@ -120,10 +119,12 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
   config.method = parse_text<GroundMethod>(method, "method");
   if (config.method == GroundMethod::none) raise_value_error("method", "'none' is not one of plane, zones");
   config.up = up_argument(up);
-  if (!sensor_height.is_none()) config.sensor_height = number(sensor_height, "sensor_height", {});
-  if (!distance.is_none()) config.distance = number(distance, "distance", {0, kFinite, false});
+  if (!sensor_height.is_none())
+    config.sensor_height = number(sensor_height, "sensor_height", range_of("ground.sensor_height"));
+  if (!distance.is_none()) config.distance = number(distance, "distance", range_of("ground.distance"));
   if (!max_slope_degrees.is_none())
-    config.max_slope_degrees = number(max_slope_degrees, "max_slope_degrees", {0, 89});
+    config.max_slope_degrees =
+        number(max_slope_degrees, "max_slope_degrees", range_of("ground.max_slope_degrees"));
   const auto set = [&](auto settings) {
     settings.up = config.up;
     settings.sensor_height = config.sensor_height;

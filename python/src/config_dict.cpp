@@ -136,22 +136,13 @@ class RegionVolumes {
   std::vector<std::vector<AnyVolume>> volumes_;  // volumes of each region; empty if it has a file
 };
 
-/// Parses a dict. Removes "Pipeline: line 1: " from error messages, because a dict has no lines.
+/// Parses a dict. Errors have no line number, because a dict has no lines.
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
-  try {
-    RegionVolumes regions(settings);
-    YamlCounters counters;
-    StreamConfig config =
-        parse_stream_config(yaml_map(regions.settings(), "", counters), kConfigName, defaults);
-    regions.put_into(config.pipeline.filter.regions);
-    return config;
-  } catch (const ConfigError& error) {
-    std::string text = error.what();
-    for (const std::string& prefix : {std::string(kConfigName) + ": ", std::string("line 1: ")}) {
-      if (text.rfind(prefix, 0) == 0) text.erase(0, prefix.size());
-    }
-    throw py::value_error(text);
-  }
+  RegionVolumes regions(settings);
+  YamlCounters counters;
+  StreamConfig config = parse_stream_config(yaml_map(regions.settings(), "", counters), "", defaults);
+  regions.put_into(config.pipeline.filter.regions);
+  return config;
 }
 
 StreamConfig read_config(py::handle config, const StreamConfig& defaults) {

@@ -125,7 +125,7 @@ TEST_F(GroundOffOrigin, RangesAndGrowingTolerancesAreSaidToCountFromTheOrigin) {
               HasSubstr("--range is measured from the origin, but the points do not lie around it"));
   EXPECT_THAT(
       run({"--cluster", "0.3:0.01", "--volume", "aabb", cloud}).err,
-      HasSubstr("the growth of --cluster is measured from the origin, but the points do not lie around it"));
+      HasSubstr("--cluster PER_METRE is measured from the origin, but the points do not lie around it"));
   EXPECT_EQ(run({"--cluster", "0.5", "--volume", "aabb", cloud}).err, "");
 }
 

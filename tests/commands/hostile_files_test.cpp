@@ -127,11 +127,12 @@ TEST_F(HostileFiles, NumbersOfOptionsAreRefusedWithValueAndRange) {
       EXPECT_THAT(result.err, HasSubstr(range)) << option << ' ' << value;
     }
   }
-  expect_refused(run({"--cluster", "1e-300", "synth:sphere:100"}), 2,
-                 "--cluster: 1e-300 is too small: it becomes 0 as float32, the type of points; use 0, or at "
-                 "least 1.4e-45");
+  expect_refused(
+      run({"--cluster", "1e-300", "synth:sphere:100"}), 2,
+      "--cluster TOL: 1e-300 is too small: it becomes 0 as float32, the type of points; use 0, or at "
+      "least 1.4e-45");
   expect_refused(run({"--cluster", "-1", "synth:sphere:100"}), 2,
-                 "--cluster: -1 is not at least 0 and at most 1e+06");
+                 "--cluster TOL: -1 is not at least 0 and at most 1e+06");
 }
 
 }  // namespace

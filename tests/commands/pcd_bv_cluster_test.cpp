@@ -207,13 +207,16 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.err, "pcd_bv: " + line + "\n");
   };
-  refused({"--cluster", "0.5:far"}, "--cluster: 'far' is not a number");
-  refused({"--cluster", "0.5:"}, "--cluster: '' is not a number");
-  refused({"--cluster", "0.5:-1"}, "cluster.tolerance_per_metre: -1 is not at least 0 and at most 1e+06");
+  refused({"--cluster", "0.5:far"}, "--cluster PER_METRE: 'far' is not a number");
+  refused({"--cluster", "0.5:"}, "--cluster PER_METRE: '' is not a number");
+  refused({"--cluster", "0.5:-1"}, "--cluster PER_METRE: -1 is not at least 0 and at most 1e+06");
   refused({"--cluster", "0.5:0.01", "--min-points", "5"},
-          "cluster.min_points: 5 is not allowed: must be 1 if cluster.tolerance_per_metre is above 0");
+          "--min-points: 5 is not allowed: must be 1 if --cluster PER_METRE is above 0");
   refused({"--cluster", "0.5", "--oversized", "shrink"},
           "--oversized: 'shrink' is not one of drop, keep, split");
+  refused({"--range", "5"}, "--range: '5' lacks :MAX");
+  refused({"--range", "5:1"}, "--range MAX: 1 is below --range MIN, 5");
+  refused({"--cluster", "1", "--min-size", "9", "--max-size", "8"}, "--max-size: 8 is below --min-size, 9");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
   refused({"--class", "label"}, "--class: only useful with --cluster");
 }

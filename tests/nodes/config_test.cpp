@@ -270,12 +270,14 @@ TEST(StreamConfig, UpIsAnAxisOrAnyVector) {
 }
 
 TEST(Settings, EachHasAKeyOfItsOwnAndWhatToSayOfIt) {
-  std::set<std::string_view> keys, options;
+  std::set<std::string_view> keys;
+  std::set<std::pair<std::string_view, std::string_view>> options;
   const StreamConfig defaults;
   visit_stream(defaults, [&](const Setting& setting, const auto& value) {
     EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
     EXPECT_FALSE(setting.help.empty()) << setting.key;
-    EXPECT_TRUE(setting.option.empty() || options.insert(setting.option).second) << setting.option;
+    EXPECT_TRUE(setting.option.empty() || options.insert({setting.option, setting.part.name}).second)
+        << setting.option;
     EXPECT_EQ(problem_of(setting, value), "") << setting.key;
     auto read = value;
     if (!to_text(value).empty()) read_text(to_text(value), read);

@@ -51,10 +51,7 @@ void declare_frames(CommandLine& line, Texts& t) {
 }
 
 void declare_results(CommandLine& line, Texts& t) {
-  std::string sinks = sink_syntax();
-  for (const char* first_of_a_line : {" dds:", " image:"})
-    sinks.replace(sinks.find(first_of_a_line), 1, "\n");
-  line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
+  line.option("--sink", t.sinks, "SINK", sink_syntax() + "; repeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
   line.option("--report", t.report, "SECONDS",
               "Print counters and latency at this interval on standard error");

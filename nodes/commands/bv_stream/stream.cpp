@@ -179,13 +179,13 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
                                      Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&, last_note = std::string(), warnings = FrameWarnings(), out_of_range = false](
-                            const Frame& frame, const FrameResult& result) mutable {
+  callbacks.on_result = [&, last_note = std::string(), warnings = FrameWarnings(option_names(true)),
+                         out_of_range = false](const Frame& frame, const FrameResult& result) mutable {
     sinks.write(frame, result);
     if (!frame.note.empty() && frame.note != last_note) report_problem(named(frame, frame.note));
     last_note = frame.note;
-    for (std::string& warning : warnings.take(frame, result))
-      report_problem(named(frame, with_options(std::move(warning))));
+    for (const std::string& warning : warnings.take(frame, result))
+      report_problem(named(frame, warning));
     // Report the range warning only if the frame before had none. The texts are not compared, because the
     // numbers in them change from frame to frame.
     const std::string range = range_warning(result, range_from);

@@ -5,10 +5,12 @@
 
 #include "process.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -115,8 +117,7 @@ std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& 
   std::vector<std::string> warnings;
   const std::string range = range_warning(result, options.range_from);
   if (!range.empty()) warnings.push_back(range);
-  for (std::string& warning : FrameWarnings().take(frame, result))
-    warnings.push_back(with_options(std::move(warning)));
+  std::ranges::move(FrameWarnings(option_names(false)).take(frame, result), std::back_inserter(warnings));
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));

@@ -22,6 +22,20 @@ std::string version_text(const std::string& command) {
   return text + '\n';
 }
 
+// Breaks lines at spaces, so that the column of help texts has at most 74 characters.
+std::string wrapped(std::string text) {
+  constexpr std::size_t max_width = 74;
+  std::size_t begin = 0, space = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') begin = i + 1;
+    if (text[i] == ' ') space = i;
+    if (i - begin < max_width || space <= begin) continue;
+    text[space] = '\n';
+    begin = space + 1;
+  }
+  return text;
+}
+
 // Returns the arguments in the order that CLI11 expects, the last one first. If the value of an option is
 // empty ("--output= scan.pcd"), inserts an empty argument. Otherwise CLI11 would take the next argument, an
 // input, as the value.
@@ -88,18 +102,18 @@ CommandLine::CommandLine(const std::string& command, const std::string& descript
 CommandLine::~CommandLine() = default;
 
 void CommandLine::option(const char* name, std::string& value, const char* type, const std::string& help) {
-  app_->add_option(name, value, help)->type_name(type);
+  app_->add_option(name, value, wrapped(help))->type_name(type);
 }
 
 void CommandLine::option(const char* name, std::vector<std::string>& values, const char* type,
                          const std::string& help) {
-  CLI::Option* const option = app_->add_option(name, values, help)->type_name(type);
+  CLI::Option* const option = app_->add_option(name, values, wrapped(help))->type_name(type);
   // An option takes only one value, because the next argument may be an input.
   if (name[0] == '-') option->allow_extra_args(false);
 }
 
 void CommandLine::flag(const char* name, bool& value, const std::string& help) {
-  app_->add_flag(name, value, help);
+  app_->add_flag(name, value, wrapped(help));
 }
 
 std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {

@@ -4,7 +4,7 @@
 #include "setting_options.h"
 
 #include <algorithm>
-#include <tuple>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -41,37 +41,45 @@ std::pair<double, double> range_of(const StreamConfig& config) {
   return {config.pipeline.filter.range_min, config.pipeline.filter.range_max};
 }
 
-// The option --cluster takes TOL or TOL:PER_METRE.
-constexpr std::string_view kTolerance = "cluster.tolerance";
-
-std::string own_part(const Setting& setting, const std::string& text) {
-  return setting.key == kTolerance ? text.substr(0, text.find(':')) : text;
+// Returns the option of a setting, with the name of the setting's part of its value: "--range MAX".
+std::string option_of(const Setting& setting) {
+  const std::string option(setting.option);
+  return setting.part.name.empty() ? option : option + ' ' + std::string(setting.part.name);
 }
 
-void read_growth(const std::string& text, ClusterConfig& cluster) {
-  cluster.tolerance_per_metre = 0;
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) return;
-  parse_with("--cluster", text.substr(colon + 1),
-             [&](const std::string& growth) { read_text(growth, cluster.tolerance_per_metre); });
+// Returns the help of an option, a line for each setting that it sets, with the choices and the default.
+std::string help_of(std::string_view option, const StreamConfig& defaults) {
+  std::string help;
+  visit_stream(defaults, [&](const Setting& setting, const auto& value) {
+    if (setting.option != option) return;
+    help.append(help.empty() ? "" : "\n").append(setting.help);
+    if (std::is_enum_v<std::decay_t<decltype(value)>>) help.append(": ").append(setting.unit);
+    help += " (" + shown_default(setting, to_text(value)) + ")";
+  });
+  return help;
+}
+
+// Takes the part of a setting from the front of an option's value; `rest` is what previous settings left.
+std::optional<std::string> take_part(const Setting& setting, std::optional<std::string>& rest) {
+  std::optional<std::string> part = std::exchange(rest, std::nullopt);
+  const std::size_t colon = part && !setting.part.last ? part->find(':') : std::string::npos;
+  if (colon == std::string::npos) return part;
+  rest = part->substr(colon + 1);
+  part->resize(colon);
+  return part;
 }
 
 }  // namespace
 
-std::string with_options(std::string text) {
-  const auto replace = [&](std::string_view key, std::string_view option) {
-    const std::size_t at = text.find(key);
-    if (at == std::string::npos || text.find('_', at + key.size()) == at + key.size())
-      return;  // part of a longer key
-    text.replace(at, key.size(), option);
+SettingName option_names(bool stream) {
+  return [stream](std::string_view key) {
+    std::string name(key);
+    const StreamConfig any;
+    visit_stream(any, [&](const Setting& setting, const auto&) {
+      if (setting.key == key && has_option(setting, stream)) name = option_of(setting);
+    });
+    return name;
   };
-  const PipelineConfig any;
-  visit_pipeline(any, [&](const Setting& setting, const auto&) {
-    if (!setting.option.empty()) replace(setting.key, setting.option);
-  });
-  replace("filter.range_max", "--range");
-  replace("cluster.tolerance_per_metre", "the growth of --cluster");
-  return text;
 }
 
 SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
@@ -79,10 +87,6 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
   line.option("--preset", preset_, "NAME", "Preset of settings: road, indoor or table");
   line.option("--config", file_, "FILE.yaml", "Settings; options override them");
   line.flag("--print-config", print_config_, "Print the settings that would be used, as such a file");
-  const FilterConfig& filter = defaults.pipeline.filter;
-  line.option("--range", range_, "MIN:MAX",
-              "Drop points nearer or farther than this from the origin (" + to_text(filter.range_min) + ":" +
-                  to_text(filter.range_max) + ")");
   line.option("--drop-inside", dropped_, "FILE.json",
               "Drop points inside the volumes of this result; repeatable");
   line.option("--keep-inside", cropped_, "FILE.json",
@@ -90,29 +94,30 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
   line.option("--padding", padding_, "M", "Inflate the volumes of --drop-inside, --keep-inside by this (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {
     if (!has_option(setting, stream_)) return;
-    const std::string help(setting.help);
     if constexpr (std::is_same_v<decltype(value), const bool&>) {
-      line.flag(setting.option.data(), flags_[setting.option], help);
-    } else {
+      line.flag(setting.option.data(), flags_[setting.option], std::string(setting.help));
+    } else if (!setting.placeholder.empty()) {
       line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
-                  help + " (" + shown_default(setting, to_text(value)) + ")");
+                  help_of(setting.option, defaults_));
     }
   };
   visit_stream(defaults, declare);
 }
 
 void SettingOptions::apply(StreamConfig& config) const {
-  const auto read = [this](const Setting& setting, auto& value) {
+  std::map<std::string_view, std::optional<std::string>> rest(texts_.begin(), texts_.end());
+  const auto read = [&](const Setting& setting, auto& value) {
     if (!has_option(setting, stream_) || !line_.given(setting.option.data())) return;
     if constexpr (std::is_same_v<decltype(value), bool&>) {
       value = true;
     } else {
-      parse_with(setting.option, own_part(setting, texts_.at(setting.option)),
+      const auto part = take_part(setting, rest.at(setting.option));
+      if (!part && !setting.part.optional)
+        reject_value(setting.option, texts_.at(setting.option), "lacks :" + std::string(setting.part.name));
+      parse_with(option_of(setting), part.value_or("0"),
                  [&](const std::string& text) { read_setting(setting, text, value); });
     }
     if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
-    const std::string problem = problem_of(setting, value);
-    if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
   };
   visit_stream(config, read);
   FilterConfig& filter = config.pipeline.filter;
@@ -125,8 +130,6 @@ void SettingOptions::apply(StreamConfig& config) const {
     if (line_.given("--padding"))
       parse_with("--padding", padding_, [&](const std::string& text) { read_text(text, region.padding); });
   }
-  if (line_.given("--cluster")) read_growth(texts_.at("--cluster"), config.pipeline.cluster);
-  if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
 }
 
 void SettingOptions::reject_useless(const PipelineConfig& config) const {
@@ -161,10 +164,11 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   apply(config);
   if (range_from != nullptr) *range_from = line_.given("--range") ? "--range" : from;
   reject_useless(config.pipeline);
-  const std::vector<std::string> problems = config.validate();
-  if (!problems.empty()) throw UsageError(problems.front());
-  for (const std::string& line : config.pipeline.ineffective_settings())
-    report_problem(with_options(line));
+  const SettingName name = option_names(stream_);
+  const std::vector<ConfigProblem> problems = problems_of(config, name);
+  if (!problems.empty()) throw UsageError(name(problems.front().key) + ": " + problems.front().what);
+  for (const std::string& line : config.pipeline.ineffective_settings(name))
+    report_problem(line);
   return config;
 }
 

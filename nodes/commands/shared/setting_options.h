@@ -13,8 +13,9 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the text with the keys of settings replaced by their options.
-std::string with_options(std::string text);
+/// Returns a function that names settings by their options. A setting without an option has its key as its
+/// name. With `stream`, those of tracks and queues have options.
+SettingName option_names(bool stream);
 
 /// The options that configure a command, namely --preset, --config, --range, --print-config and those of the
 /// settings (nodes/pipeline/config/settings.h). Options override the file, the file overrides the preset, and
@@ -42,7 +43,7 @@ class SettingOptions {
   /// Values by option. The command line refers to these values, which a map never moves.
   std::map<std::string_view, std::string> texts_;
   std::map<std::string_view, bool> flags_;
-  std::string preset_, file_, range_, padding_;
+  std::string preset_, file_, padding_;
   std::vector<std::string> dropped_, cropped_;
   bool stream_, print_config_ = false;
 };

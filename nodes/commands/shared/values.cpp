@@ -20,16 +20,6 @@ std::size_t parse_whole_number(std::string_view option, std::string_view text, s
   reject_value(option, text, range);
 }
 
-std::pair<double, double> parse_range(std::string_view text) {
-  double min = 0, max = 0;
-  const std::size_t colon = text.find(':');
-  if (colon != std::string_view::npos && read_whole_text(text.substr(0, colon), min) &&
-      read_whole_text(text.substr(colon + 1), max) && min >= 0 && min <= max) {
-    return {min, max};
-  }
-  reject_value("--range", text, "is not MIN:MAX with 0 <= MIN <= MAX");
-}
-
 std::size_t parse_bin_fields(std::string_view text) {
   return parse_whole_number("--bin-fields", text, 3, 32);
 }

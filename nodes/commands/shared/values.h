@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace pcl_bv::detail {
 
@@ -32,11 +31,9 @@ auto parse_with(std::string_view option, const Text& text, Parse parse) {
   }
 }
 
-/// Parse a whole number from `min` to `max`, and the text MIN:MAX of --range. Throw UsageError for any other
-/// text.
+/// Parses a whole number from `min` to `max`. Throws UsageError for any other text.
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
                                std::size_t max = std::numeric_limits<std::size_t>::max());
-std::pair<double, double> parse_range(std::string_view text);
 
 /// Parses the number of floats per point of .bin files, which is 3 to 32. Throws UsageError for any other
 /// text.

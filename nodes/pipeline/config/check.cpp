@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -33,46 +34,48 @@ std::string problem_of_row(const Row& row) {
   return problem;
 }
 
-void check_classes(const ClusterConfig& all, std::vector<ConfigProblem>& problems) {
+void check_classes(const ClusterConfig& all, const SettingName& name, std::vector<ConfigProblem>& problems) {
   const auto add = [&](const std::string& what) { problems.push_back({"cluster.classes", what}); };
-  if (!all.classes.empty() && !all.class_field) add("needs cluster.class_field");
+  if (!all.classes.empty() && !all.class_field) add("needs " + name("cluster.class_field"));
   for (const ClassConfig& own : all.classes) {
-    const std::string name = "class " + std::to_string(own.value) + ": ";
+    const std::string which = "class " + std::to_string(own.value) + ": ";
     const std::size_t min = own.min_size.value_or(all.effective_min_size()),
                       max = own.max_size.value_or(all.max_size);
-    if (min > max) add(name + "max_size, " + to_text(max) + ", is below min_size, " + to_text(min));
+    if (min > max) add(which + "max_size, " + to_text(max) + ", is below min_size, " + to_text(min));
   }
 }
 
-void check_combinations(const PipelineConfig& c, std::vector<ConfigProblem>& problems) {
+void check_combinations(const PipelineConfig& c, const SettingName& name,
+                        std::vector<ConfigProblem>& problems) {
   const auto add = [&](const char* key, const std::string& what) { problems.push_back({key, what}); };
   const FilterConfig& filter = c.filter;
   if (filter.range_min > filter.range_max) {
-    add("filter.range_max",
-        to_text(filter.range_max) + " is below filter.range_min, " + to_text(filter.range_min));
+    add("filter.range_max", to_text(filter.range_max) + " is below " + name("filter.range_min") + ", " +
+                                to_text(filter.range_min));
   }
   if (filter.own_box_min.has_value() != filter.own_box_max.has_value()) {
     add(filter.own_box_min ? "filter.own_box_min" : "filter.own_box_max",
         "is set without the other corner: set both or none");
   } else if (filter.own_box_min && !(filter.own_box_min->array() <= filter.own_box_max->array()).all()) {
-    add("filter.own_box_max", "is below filter.own_box_min");
+    add("filter.own_box_max", "is below " + name("filter.own_box_min"));
   }
-  if (c.cluster.tolerance_per_metre > 0 && c.cluster.min_points > 1)
-    add("cluster.min_points", to_text(c.cluster.min_points) +
-                                  " is not allowed: must be 1 if cluster.tolerance_per_metre is above 0");
-  if (c.cluster.tolerance_per_metre > 0 && c.cluster.tolerance == 0)
-    add("cluster.tolerance", "0 is not allowed: must be above 0 if cluster.tolerance_per_metre is above 0");
+  if (c.cluster.tolerance_per_metre > 0) {
+    const std::string if_it_grows = " if " + name("cluster.tolerance_per_metre") + " is above 0";
+    if (c.cluster.min_points > 1)
+      add("cluster.min_points", to_text(c.cluster.min_points) + " is not allowed: must be 1" + if_it_grows);
+    if (c.cluster.tolerance == 0) add("cluster.tolerance", "0 is not allowed: must be above 0" + if_it_grows);
+  }
   if (c.cluster.class_field && c.cluster.tolerance == 0)
-    add("cluster.class_field", "needs a cluster.tolerance above 0: with 0, all points are one object");
+    add("cluster.class_field",
+        "needs a " + name("cluster.tolerance") + " above 0: with 0, all points are one object");
   if (c.cluster.effective_min_size() > c.cluster.max_size) {
-    add("cluster.max_size", to_text(c.cluster.max_size) + " is below cluster.min_size, " +
+    add("cluster.max_size", to_text(c.cluster.max_size) + " is below " + name("cluster.min_size") + ", " +
                                 to_text(c.cluster.effective_min_size()));
   }
-  check_classes(c.cluster, problems);
+  check_classes(c.cluster, name, problems);
 }
 
-template <typename Problems>
-std::vector<std::string> lines(const Problems& problems) {
+std::vector<std::string> lines(const std::vector<ConfigProblem>& problems) {
   std::vector<std::string> texts;
   texts.reserve(problems.size());
   for (const ConfigProblem& problem : problems)
@@ -89,6 +92,15 @@ auto checker(std::vector<ConfigProblem>& problems) {
 }
 
 }  // namespace
+
+NumberRange detail::range_of(std::string_view key) {
+  NumberRange range;
+  const PipelineConfig any;
+  visit_pipeline(any, [&](const Setting& setting, const auto&) {
+    if (setting.key == key) range = setting.range;
+  });
+  return range;
+}
 
 std::string detail::problem_of(const Setting& setting, double value) {
   const auto& [min, max, closed, as_float] = setting.range;
@@ -168,18 +180,34 @@ std::string detail::problem_of(const Setting& /*setting*/, const FieldName& fiel
   return field.name.empty() ? "the name of the field is empty" : "";
 }
 
-std::vector<ConfigProblem> detail::problems_of(const StreamConfig& config) {
+std::vector<ConfigProblem> detail::problems_of(const PipelineConfig& config, const SettingName& name) {
   std::vector<ConfigProblem> problems;
-  visit_stream(config, checker(problems));
-  check_combinations(config.pipeline, problems);
+  visit_pipeline(config, checker(problems));
+  if (problems.empty()) check_combinations(config, name, problems);
   return problems;
 }
 
-std::vector<std::string> PipelineConfig::validate() const {
+std::vector<ConfigProblem> detail::problems_of(const RunnerConfig& config) {
   std::vector<ConfigProblem> problems;
-  visit_pipeline(*this, checker(problems));
-  check_combinations(*this, problems);
-  return lines(problems);
+  visit_runner(config, checker(problems));
+  return problems;
+}
+
+std::vector<ConfigProblem> detail::problems_of(const StreamConfig& config, const SettingName& name) {
+  std::vector<ConfigProblem> problems = problems_of(config.pipeline, name);
+  std::ranges::move(problems_of(config.runner), std::back_inserter(problems));
+  return problems;
+}
+
+void detail::throw_if_any(const std::vector<ConfigProblem>& problems) {
+  std::string all;
+  for (const std::string& line : lines(problems))
+    all.append(all.empty() ? "" : "; ").append(line);
+  if (!all.empty()) throw std::invalid_argument(all);
+}
+
+std::vector<std::string> PipelineConfig::validate() const {
+  return lines(problems_of(*this));
 }
 
 std::vector<std::string> StreamConfig::validate() const {

@@ -20,11 +20,18 @@ namespace pcl_bv::detail {
 /// A setting whose value is not allowed.
 struct ConfigProblem {
   std::string key;
-  std::string what;  ///< The value and the allowed values.
+  std::string what;  ///< The value and the allowed values. Names other settings by a SettingName.
 };
 
-/// Returns the problems of single settings and of combinations of settings.
-std::vector<ConfigProblem> problems_of(const StreamConfig& config);
+/// Return the problems of single settings. If there are none, return those of combinations of settings. All
+/// configurations are checked by these functions: those from files, options, other programs and C++.
+std::vector<ConfigProblem> problems_of(const PipelineConfig& config,
+                                       const SettingName& name = key_of_setting);
+std::vector<ConfigProblem> problems_of(const RunnerConfig& config);
+std::vector<ConfigProblem> problems_of(const StreamConfig& config, const SettingName& name = key_of_setting);
+
+/// Throws std::invalid_argument with all problems, unless there are none.
+void throw_if_any(const std::vector<ConfigProblem>& problems);
 
 /// Returns the allowed range of a whole number as text, such as " of at least 1 and at most 1000".
 std::string whole_number_range(const NumberRange& range);

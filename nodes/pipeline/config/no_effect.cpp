@@ -22,16 +22,16 @@ bool is_growing_sphere(const Method* method) {
 
 }  // namespace
 
-std::vector<std::string> PipelineConfig::ineffective_settings() const {
+std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName& name) const {
   std::vector<std::string> lines;
-  const auto check = [&](const char* key, bool set, bool useful, const char* needed) {
-    if (set && !useful) lines.push_back(std::string(key) + ": has no effect without " + needed);
+  const auto check = [&](const char* key, bool set, bool useful, const std::string& needed) {
+    if (set && !useful) lines.push_back(name(key) + ": has no effect without " + needed);
   };
   const std::vector<const Method*> all = methods();
   const bool upright = std::any_of(all.begin(), all.end(), is_upright),
              sphere = std::any_of(all.begin(), all.end(), is_growing_sphere);
-  check("track.smooth", track.smooth, track.enabled, "track.enabled");
-  check("track.grow", track.grow, track.enabled, "track.enabled");
+  check("track.smooth", track.smooth, track.enabled, name("track.enabled"));
+  check("track.grow", track.grow, track.enabled, name("track.enabled"));
   check("track.smooth", track.smooth && track.enabled, upright, "an upright box, obb-yaw or obb-lshape");
   check("track.grow", track.grow && track.enabled, upright, "an upright box, obb-yaw or obb-lshape");
   check("growth", growth != SphereGrowth::deferred, sphere,
@@ -39,13 +39,13 @@ std::vector<std::string> PipelineConfig::ineffective_settings() const {
   const bool limited = cluster.max_size < std::numeric_limits<std::size_t>::max() ||
                        std::any_of(cluster.classes.begin(), cluster.classes.end(),
                                    [](const ClassConfig& own) { return own.max_size.has_value(); });
-  check("cluster.oversized", cluster.oversized != Oversized::drop, limited, "cluster.max_size");
+  check("cluster.oversized", cluster.oversized != Oversized::drop, limited, name("cluster.max_size"));
   const bool grounded = ground.method != GroundMethod::none;
-  check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones,
-        "ground.method zones");
-  check("ground.sensor_height", ground.sensor_height.has_value(), grounded, "ground.method");
-  check("ground.distance", ground.distance.has_value(), grounded, "ground.method");
-  check("ground.max_slope_degrees", ground.max_slope_degrees.has_value(), grounded, "ground.method");
+  const std::string method = name("ground.method");
+  check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones, method + " zones");
+  check("ground.sensor_height", ground.sensor_height.has_value(), grounded, method);
+  check("ground.distance", ground.distance.has_value(), grounded, method);
+  check("ground.max_slope_degrees", ground.max_slope_degrees.has_value(), grounded, method);
   return lines;
 }
 

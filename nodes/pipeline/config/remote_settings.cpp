@@ -160,6 +160,7 @@ class PipelineSettings final : public RemoteParameters {
   }
 
  private:
+  // Parses a value. Returns why it cannot be parsed; set_config() checks what it parsed.
   static std::string put(const std::string& key, const UntrustedJson& value, PipelineConfig& config) {
     if (is_fixed(key)) return key + ": cannot be changed while frames come";
     std::string problem = key + ": no such setting";
@@ -167,11 +168,10 @@ class PipelineSettings final : public RemoteParameters {
       if (setting.key != key) return;
       try {
         set(setting, text_of(value), field);
-        problem = problem_of(setting, field);
+        problem.clear();
       } catch (const std::exception& error) {
-        problem = error.what();
+        problem = key + ": " + error.what();
       }
-      if (!problem.empty()) problem = key + ": " + problem;
     });
     return problem;
   }

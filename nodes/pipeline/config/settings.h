@@ -29,6 +29,14 @@ struct NumberRange {
   bool as_float = false;
 };
 
+/// The part of an option's value that belongs to a setting, if the option sets several settings. Their values
+/// have colons between them.
+struct OptionPart {
+  std::string_view name{};  ///< "MIN" of "--range MIN:MAX"; empty if the setting has an option of its own.
+  bool last = true;
+  bool optional = false;  ///< Whether the part may be missing, which means 0.
+};
+
 /// The description of a setting.
 struct Setting {
   std::string_view key;                      ///< Key with its stage: "filter.range_min".
@@ -37,182 +45,130 @@ struct Setting {
   NumberRange range{};                       ///< Allowed numbers.
   std::string_view unset{};                  ///< Meaning of null or of an empty list.
   std::string_view option{}, placeholder{};  ///< Such as "--sensor-height" and "M", or empty.
+  OptionPart part{};  ///< Only the first part has a placeholder, which is that of the whole value.
 };
 
+// Tables of settings by stage, for visit_pipeline() and visit_stream().
+// clang-format off
+template <typename Filter, typename Visit>
+void visit_filter(Filter& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this",
+          {}, {}, "--range", "MIN:MAX", {"MIN", false}}, c.range_min);
+  visit(S{"filter.range_max", "m", "Drop points farther from the origin than this",
+          {0, kNoLimit}, {}, "--range", {}, {"MAX"}}, c.range_max);
+  visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of a box of points to drop",
+          {}, "no box"}, c.own_box_min);
+  visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of a box of points to drop",
+          {}, "no box"}, c.own_box_max);
+  visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]",
+          "Drop points inside volumes; keep: outside of all"}, c.regions);
+}
+
+template <typename Ground, typename Visit>
+void visit_ground(Ground& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"ground.method", "none, plane, zones", "Remove the ground first, outdoors by zones",
+          {}, {}, "--ground", "KIND"}, c.method);
+  visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z", "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
+          {}, {}, "--up", "AXIS"}, c.up);
+  visit(S{"ground.sensor", "m, [x, y, z]", "Sensor position",
+          {}, "origin, or the densest part of the cloud", "--sensor", "X,Y,Z"}, c.sensor);
+  visit(S{"ground.sensor_height", "m", "Height of the sensor (the origin with plane) above the ground",
+          {}, "estimated", "--sensor-height", "M"}, c.sensor_height);
+  visit(S{"ground.distance", "m", "Height up to which points are ground",
+          {0, kFinite, false}, "0.2 with plane, 0.15 with zones", "--ground-distance", "M"},
+        c.distance);
+  visit(S{"ground.max_slope_degrees", "degrees", "Maximum slope of the ground",
+          {0, 89}, "15 with plane, 20 with zones", "--ground-slope", "DEG"}, c.max_slope_degrees);
+}
+
+template <typename Cluster, typename Visit>
+void visit_cluster(Cluster& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"cluster.tolerance", "m; 0: all points are one object",
+          "Points closer than this are one object; 0: all",
+          {0, 1e6, true, true}, {}, "--cluster", "TOL[:PER_METRE]", {"TOL", false}}, c.tolerance);
+  visit(S{"cluster.min_size", "points", "Drop objects of fewer points",
+          {0, kNoLimit}, "10; without clusters 0", "--min-size", "N"}, c.min_size);
+  visit(S{"cluster.max_size", "points", "Drop objects of more points",
+          {1, kNoLimit}, {}, "--max-size", "N"}, c.max_size);
+  visit(S{"cluster.min_points", "points; 1: no noise",
+          "Drop noise: points that are not within the tolerance of a core point",
+          {1, kNoLimit}, {}, "--min-points", "N"}, c.min_points);
+  visit(S{"cluster.tolerance_per_metre", "m per m",
+          "The tolerance grows by this with the distance from the origin",
+          {0, 1e6, true, true}, {}, "--cluster", {}, {"PER_METRE", true, true}},
+        c.tolerance_per_metre);
+  visit(S{"cluster.oversized", "drop, keep, split",
+          "Larger objects (split: half the tolerance)",
+          {}, {}, "--oversized", "RULE"}, c.oversized);
+  visit(S{"cluster.class_field", "name of a field",
+          "Integer field with the classes of points; an object has one class",
+          {}, "none", "--class", "FIELD"}, c.class_field);
+  visit(S{"cluster.classes",
+          "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
+          "Classes that differ from the others"}, c.classes);
+}
+
+template <typename Track, typename Visit>
+void visit_track(Track& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"track.enabled", "", "Give objects ids that last from frame to frame",
+          {}, {}, "--track"}, c.enabled);
+  visit(S{"track.gate", "m", "Largest distance of an object from its predicted position",
+          {0, 100, false}}, c.gate);
+  visit(S{"track.birth", "frames", "Detections after which an object gets its id", {1, 1000}}, c.birth);
+  visit(S{"track.death", "frames", "Frames without a detection after which a track is deleted",
+          {1, 1000}}, c.death);
+  visit(S{"track.smooth", "", "Smooth the yaw of tracked upright boxes; they still hold all points",
+          {}, {}, "--smooth"}, c.smooth);
+  visit(S{"track.grow", "", "Give tracked upright boxes the largest length and width seen",
+          {}, {}, "--grow"}, c.grow);
+}
+
+template <typename Runner, typename Visit>
+void visit_runner(Runner& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.queue);
+  visit(S{"runner.policy", "auto, drop_oldest, drop_newest, block",
+          "When the queue is full",
+          {}, {}, "--policy", "NAME"}, c.policy);
+  visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.max_age_ms);
+  visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.watchdog_s);
+}
 /// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the field of `c`, const if
 /// `c` is const. Its type is one of:
 /// - bool, double, std::size_t, std::string (the instruction set), Eigen::Vector3d (a direction) or an enum;
 /// - std::optional of a double, a std::size_t, a point or a FieldName;
 /// - std::vector of a std::string (methods), a RegionConfig or a ClassConfig.
-// clang-format off: a table
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
   using S = Setting;
-  visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this"}, c.filter.range_min);
-  visit(S{"filter.range_max", "m", "Drop points farther from the origin than this", {0, kNoLimit}},
-        c.filter.range_max);
-  visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of a box of points to drop", {}, "no box"},
-        c.filter.own_box_min);
-  visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of a box of points to drop", {}, "no box"},
-        c.filter.own_box_max);
-  visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]",
-          "Drop points inside volumes; keep: outside of all"},
-        c.filter.regions);
-  visit(S{"ground.method",
-          "none, plane, zones",
-          "Remove the ground first: none, plane or zones (outdoors)",
-          {},
-          {},
-          "--ground",
-          "KIND"},
-        c.ground.method);
-  visit(S{"ground.up",
-          "x, y, z, -x, -y, -z or a vector X,Y,Z",
-          "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
-          {},
-          {},
-          "--up",
-          "AXIS"},
-        c.ground.up);
-  visit(S{"ground.sensor",
-          "m, [x, y, z]",
-          "Sensor position",
-          {},
-          "origin, or the densest part of the cloud",
-          "--sensor",
-          "X,Y,Z"},
-        c.ground.sensor);
-  visit(S{"ground.sensor_height",
-          "m",
-          "Height of the sensor (the origin with plane) above the ground",
-          {},
-          "estimated",
-          "--sensor-height",
-          "M"},
-        c.ground.sensor_height);
-  visit(S{"ground.distance",
-          "m",
-          "Height up to which points are ground",
-          {0, kFinite, false},
-          "0.2 with plane, 0.15 with zones",
-          "--ground-distance",
-          "M"},
-        c.ground.distance);
-  visit(S{"ground.max_slope_degrees",
-          "degrees",
-          "Maximum slope of the ground",
-          {0, 89},
-          "15 with plane, 20 with zones",
-          "--ground-slope",
-          "DEG"},
-        c.ground.max_slope_degrees);
-  visit(S{"cluster.tolerance",
-          "m; 0: all points are one object",
-          "Points closer than this are one object; 0: all; TOL:PER_METRE grows",
-          {0, 1e6, true, true},
-          {},
-          "--cluster",
-          "TOL"},
-        c.cluster.tolerance);
-  visit(S{"cluster.min_size",
-          "points",
-          "Drop objects of fewer points",
-          {0, kNoLimit},
-          "10; without clusters 0",
-          "--min-size",
-          "N"},
-        c.cluster.min_size);
-  visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
-        c.cluster.max_size);
-  visit(S{"cluster.min_points",
-          "points; 1: no noise",
-          "Drop noise: points that are not within the tolerance of a core point",
-          {1, kNoLimit},
-          {},
-          "--min-points",
-          "N"},
-        c.cluster.min_points);
-  visit(S{"cluster.tolerance_per_metre",
-          "m per m",
-          "The tolerance grows by this with the distance from the origin",
-          {0, 1e6, true, true}},
-        c.cluster.tolerance_per_metre);
-  visit(S{"cluster.oversized",
-          "drop, keep, split",
-          "Objects above --max-size: drop, keep, split (half the tolerance)",
-          {},
-          {},
-          "--oversized",
-          "RULE"},
-        c.cluster.oversized);
-  visit(S{"cluster.class_field",
-          "name of a field",
-          "Integer field with the classes of points; an object has one class",
-          {},
-          "none",
-          "--class",
-          "FIELD"},
-        c.cluster.class_field);
-  visit(S{"cluster.classes",
-          "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
-          "Classes that differ from the others"},
-        c.cluster.classes);
-  visit(S{"volumes",
-          "methods",
-          "Methods with commas, or all",
-          {},
-          "obb-lshape; without clusters aabb,sphere,obb",
-          "--volume",
-          "LIST"},
-        c.volumes);
-  visit(S{"growth",
-          "sequential, stationary, deferred",
-          "Sphere growth (Ritter, EPOS): sequential, stationary, deferred",
-          {},
-          {},
-          "--growth",
-          "POLICY"},
-        c.growth);
-  visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
-        c.track.enabled);
-  visit(S{"track.gate", "m", "Largest distance of an object from its predicted position", {0, 100, false}},
-        c.track.gate);
-  visit(S{"track.birth", "frames", "Detections after which an object gets its id", {1, 1000}}, c.track.birth);
-  visit(S{"track.death", "frames", "Frames without a detection after which a track is deleted", {1, 1000}},
-        c.track.death);
-  visit(S{"track.smooth",
-          "",
-          "Smooth the yaw of tracked upright boxes; they still hold all points",
-          {},
-          {},
-          "--smooth"},
-        c.track.smooth);
-  visit(S{"track.grow", "", "Give tracked upright boxes the largest length and width seen", {}, {}, "--grow"},
-        c.track.grow);
-  visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
-        c.threads);
+  visit_filter(c.filter, visit);
+  visit_ground(c.ground, visit);
+  visit_cluster(c.cluster, visit);
+  visit(S{"volumes", "methods", "Methods with commas, or all",
+          {}, "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
+  visit(S{"growth", "sequential, stationary, deferred",
+          "Sphere growth (Ritter, EPOS)",
+          {}, {}, "--growth", "POLICY"}, c.growth);
+  visit_track(c.track, visit);
+  visit(S{"threads", "0: all processors", "Threads, 0 for all processors",
+          {0, 1024}, {}, "--threads", "N"}, c.threads);
   visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
 }
+// clang-format on
 
 /// Same as visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
 template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
-  using S = Setting;
   visit_pipeline(c.pipeline, visit);
-  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"},
-        c.runner.queue);
-  visit(S{"runner.policy",
-          "auto, drop_oldest, drop_newest, block",
-          "When the queue is full: drop_oldest, drop_newest, block, auto",
-          {},
-          {},
-          "--policy",
-          "NAME"},
-        c.runner.policy);
-  visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
-  visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.runner.watchdog_s);
+  visit_runner(c.runner, visit);
 }
-// clang-format on
+
+/// Returns the range of the setting of a pipeline with this key.
+NumberRange range_of(std::string_view key);
 
 /// Return a value as text. Numbers have the fewest digits that read back exactly. A missing value is "null",
 /// and a missing limit is "unlimited".

@@ -23,6 +23,7 @@ namespace {
 using Lines = std::map<std::string, int>;
 
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
+  if (name.empty()) throw ConfigError(what);
   throw ConfigError(name + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + what);
 }
 

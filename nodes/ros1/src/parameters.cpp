@@ -47,13 +47,6 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
   }
 }
 
-// Removes the line number from an error message, because the number refers to a generated text.
-std::string without_line_number(std::string problem) {
-  const std::size_t at = problem.find(": line ");
-  if (at != std::string::npos) problem.erase(at, problem.find(':', at + 2) - at);
-  return problem;
-}
-
 }  // namespace
 
 StreamConfig config_of(const ros::NodeHandle& parameters) {
@@ -81,9 +74,9 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
     tree["volumes"] = methods;
   }
   try {
-    return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), name, config);
+    return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), "", config);
   } catch (const ConfigError& error) {
-    throw ConfigError(without_line_number(error.what()));
+    throw ConfigError(name + ": " + error.what());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
@@ -126,8 +127,10 @@ struct FrameResult {
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
 /// Returns a warning if ground removal found no ground, or only ground, among at least 100 points. The
-/// warning names the keys of settings to try. Otherwise returns an empty text.
-std::string ground_warning(const FrameResult& result);
+/// warning names the settings to try. `better_up` is inserted after the name of ground.up. Otherwise returns
+/// an empty text.
+std::string ground_warning(const FrameResult& result, const SettingName& name = key_of_setting,
+                           const std::string& better_up = "");
 
 /// Returns a warning if the range filter (filter.range_min to filter.range_max) dropped more than half of at
 /// least 100 finite points. `from` tells where the range was set ("--preset table"). Otherwise returns an
@@ -167,15 +170,18 @@ detail::Picture picture_of(const Frame& frame, const FrameResult& result,
 /// - stamps of tracked frames that do not advance.
 class FrameWarnings {
  public:
-  /// Returns the warnings about a result, one line each. The lines name settings by their keys. Each kind of
-  /// warning is returned once per configuration. `frame` is the frame of `result`; its points must be in
-  /// memory if ground was removed.
+  /// The warnings name settings by `name`.
+  explicit FrameWarnings(SettingName name = key_of_setting) : name_(std::move(name)) {}
+
+  /// Returns the warnings about a result, one line each. Each kind of warning is returned once per
+  /// configuration. `frame` is the frame of `result`; its points must be in memory if ground was removed.
   ///
   /// O(1), except for the search for another up direction, which takes milliseconds. Per configuration, there
   /// is at most one search for a frame without ground and one for a frame with little ground.
   std::vector<std::string> take(const Frame& frame, const FrameResult& result);
 
  private:
+  SettingName name_;
   std::shared_ptr<const PipelineConfig> config_;
   std::uint32_t returned_ = 0;  // kinds already returned, one bit each
   bool searched_ = false;       // whether little ground has led to a search for another up direction

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -113,6 +114,15 @@ struct TrackConfig {
   bool grow = false;      ///< Give upright boxes the largest length and width seen of the object.
 };
 
+/// Returns how messages name a setting, given its key in the configuration file ("ground.up"), such as by an
+/// option of a command.
+using SettingName = std::function<std::string(std::string_view key)>;
+
+/// The SettingName that returns the key.
+inline std::string key_of_setting(std::string_view key) {
+  return std::string(key);
+}
+
 /// The complete configuration of a FramePipeline.
 struct PipelineConfig {
   FilterConfig filter;
@@ -132,7 +142,7 @@ struct PipelineConfig {
 
   /// Returns a warning for each setting that has no effect in combination with the others, such as
   /// "track.smooth: has no effect without track.enabled". Such settings are allowed.
-  std::vector<std::string> ineffective_settings() const;
+  std::vector<std::string> ineffective_settings(const SettingName& name = key_of_setting) const;
 
   /// Returns the union of the methods of all objects: first those of `volumes`, then further ones of
   /// cluster.classes. Unknown names are skipped.

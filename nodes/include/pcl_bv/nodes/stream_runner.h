@@ -35,10 +35,10 @@ QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
 struct RunnerConfig {
-  std::size_t queue = 1;  ///< Maximum number of waiting frames; at least 1.
+  std::size_t queue = 1;  ///< Maximum number of waiting frames, 1 to 100000.
   QueuePolicy policy = QueuePolicy::automatic;
-  double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: no limit.
-  double watchdog_s = 0;  ///< Seconds without a frame after which `on_silence` is called. 0: never.
+  double max_age_ms = 0;  ///< Frames that have waited longer are dropped; finite. 0: no limit.
+  double watchdog_s = 0;  ///< Seconds without a frame after which `on_silence` is called; finite. 0: never.
 };
 
 /// The complete configuration of a stream.
@@ -62,7 +62,8 @@ class ConfigError : public std::runtime_error {
 /// ConfigError if the file cannot be read, is not YAML, or has an unknown key or a value that is not allowed.
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
-/// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name.
+/// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name. If `name` is empty,
+/// errors have neither a name nor a line number.
 StreamConfig parse_stream_config(const std::string& text, const std::string& name,
                                  const StreamConfig& defaults = {});
 
@@ -131,8 +132,7 @@ class StreamRunner {
   };
 
   /// Starts the thread. StreamRunner treats QueuePolicy::automatic as drop_oldest. Throws
-  /// std::invalid_argument if `config.queue` is 0, if a duration is negative or NaN, or if `process` or
-  /// `on_result` is empty.
+  /// std::invalid_argument if a value of `config` is not allowed, or if `process` or `on_result` is empty.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config);
 
   /// As the constructor above, but results reuse the memory of `reserved`, which FramePipeline::reserve() has
