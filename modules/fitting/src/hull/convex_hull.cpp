@@ -83,8 +83,8 @@ std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
   return extreme;
 }
 
-// Returns the extreme points of points in a plane, on a line or at one position. Drops a coordinate without
-// which the points span as many dimensions as with it. This does not change which points are extreme.
+// Returns the extreme points of points in a plane, on a line or at one position. Drops one coordinate, chosen
+// such that the points still span as many dimensions. The same points are extreme without this coordinate.
 std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points,
                                           const std::vector<std::size_t>& corners) {
   if (corners.size() < 2) return corners;

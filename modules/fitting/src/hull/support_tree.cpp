@@ -24,7 +24,7 @@ constexpr std::size_t kFewQueries = 64;
 
 // Error bound of a projection. Local coordinates are at most 2, with an error of at most 4 2^-53. The
 // products with a normal and their sum add less than 20 times this error. The sides of a box add at most the
-// same again.
+// same amount.
 constexpr double kErrorBound = 0x1p-44;
 
 }  // namespace

@@ -58,8 +58,8 @@ Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
   return solve(rows, x, result) ? result : Vector::Constant(kNan);
 }
 
-// Finds the best ball of a support of up to four points and one new point, which must be on its boundary. All
-// coordinates are relative to the new point.
+// Finds the best ball of a support of up to four points and one new point. The new point must be on the
+// boundary of the ball. All coordinates are relative to the new point.
 class Step {
  public:
   Step(const Vector* points, const std::array<std::size_t, 4>& support, int size, std::size_t pivot)
