@@ -129,8 +129,8 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   std::vector<std::size_t> distinct = faces;
   std::sort(distinct.begin(), distinct.end());
   const bool cut = std::adjacent_find(distinct.begin(), distinct.end()) != distinct.end();
-  // The division of a face into triangles depends on all points that Quickhull added. To make the division
-  // unique, the hull of the vertices alone is computed.
+  // The division of a face into triangles depends on all points that Quickhull added. The hull of the
+  // vertices alone is computed here, so that the division depends on the vertices alone.
   if (cut && hull.vertices.size() < points.size()) {
     std::vector<Coordinates> extreme;
     for (const std::size_t i : hull.vertices)

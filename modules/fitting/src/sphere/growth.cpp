@@ -72,8 +72,8 @@ void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& spher
   }
 }
 
-// Grows over the points outside in ascending order of their indices. The view's index list may have any
-// order.
+// Grows the sphere over the points outside it, in ascending order of their indices. The view's index list may
+// have any order.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
   std::vector<std::size_t> outside;

@@ -113,7 +113,7 @@ class Step {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
         const double product = dot3(spokes_[i], spokes_[j]);
-        // If the triangle is not acute, its longest side alone gives the ball.
+        // If the triangle is not acute, its ball is the ball of its longest side, which needs no triple.
         if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
         Vector center;
         const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross3(spokes_[i], spokes_[j])};

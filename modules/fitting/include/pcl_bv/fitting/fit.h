@@ -157,10 +157,10 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
 /// Calls fit(i, execution) once for each view i, in any order and on the threads of the execution's policy.
 ///
 /// Large views, which have 200 000 points or more, are fitted first, one after another. Each fit of a large
-/// view uses all threads of the policy. The smaller views are then distributed over the threads, the largest
-/// first. Each fit of a smaller view gets Serial. The fit of one smaller view of middle size is timed. If all
-/// smaller views together would take too little time to be worth a second thread, the calling thread fits
-/// all smaller views.
+/// view uses all threads of the policy. Each fit of a smaller view gets Serial. First, one smaller view of
+/// middle size is fitted and timed. If the other smaller views together would take too little time to be
+/// worth a second thread, the calling thread fits them all. Otherwise they are distributed over the threads,
+/// the largest first.
 ///
 /// If fits of smaller views throw, all other smaller views are still fitted, and one of the exceptions is
 /// rethrown; which one is not specified. If the fit of a large view or of the timed view throws, no further
