@@ -82,8 +82,8 @@ py::array without_mask(const py::array& array, const char* name) {
   return array.attr("filled")(std::nan(""));
 }
 
-/// Converts whole numbers of a list to float64. The integers of an array are a type that the user has chosen,
-/// but those of a list are not. Refuses numbers above 2^53 in magnitude.
+/// Converts whole numbers of a list to float64. Refuses numbers above 2^53 in magnitude. Arrays of integers
+/// are not converted, but refused by points_of(), because the user has chosen their type.
 py::array from_list(const py::array& array, py::handle object, const char* name) {
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u') return array;

@@ -33,7 +33,7 @@ struct PointArray {
 ///
 /// - arrays in Fortran order and arrays with backward or overlapping rows;
 /// - arrays in which x, y, z are not adjacent;
-/// - arrays of integers or with the other byte order;
+/// - records with integer fields, and arrays with the other byte order;
 /// - masked arrays. Their masked numbers become NaN.
 ///
 /// Raises a TypeError for other types of numbers, and a ValueError for other shapes. If there are fewer rows

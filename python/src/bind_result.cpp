@@ -43,8 +43,8 @@ py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   throw py::key_error(std::string(method->name) + " is not a method of this pipeline");
 }
 
-/// Returns the indices of the cluster's points. They are usually those of the pipeline's index list. The
-/// pipeline makes no index list if all valid points that passed the filter are one cluster. In this case,
+/// Returns the indices of the cluster's points. Usually takes these indices from the pipeline's index list.
+/// The pipeline makes no index list if all valid points that passed the filter are one cluster. In this case,
 /// computes the indices from the labels.
 py::object indices_of(const ClusterObject& cluster) {
   const FrameResult& result = cluster.owner_result->result;
@@ -222,7 +222,7 @@ notebook shows the same page with at most 50000 points; write('x.html', result) 
 '<!DOCTYPE html>'
 )";
 
-// A limit, because each point takes 22 bytes in the notebook's file.
+// Maximum number of points in a notebook's cell. Each point takes 22 bytes in the notebook's file.
 constexpr std::size_t kMaxCellPoints = 50'000;
 
 std::string in_a_notebook(const std::string& page) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A Python class for each shape. Its properties have the same names as in files.
+// Defines a Python class for each shape. The properties of the class have the same names as in files.
 
 #include "bind.h"
 #include "read_shapes.h"

@@ -14,8 +14,8 @@ using namespace detail;
 class LabelGroups {
  public:
   /// `labels` has an integer for each point, or is an object with the attribute `labels`, such as Clusters.
-  /// Points with a negative label are in no group. Labels of type uint32 are first converted to int32. This
-  /// makes the labels negative that pcd_bv writes for ground and for points without cluster.
+  /// Points with a negative label are in no group. Labels of type uint32 are first converted to int32. The
+  /// labels that pcd_bv writes for ground and for points without a cluster then become negative.
   LabelGroups(py::handle labels, const PointView& points);
 
   std::size_t size() const { return views_.size(); }

@@ -60,7 +60,7 @@ std::optional<TrackEntry> track(py::handle state) {
 }
 
 /// Returns a list with one element for each element of result.volumes. A requested volume becomes an object
-/// with the volume and the result of its fit, a volume that was not requested becomes None.
+/// with the volume and the result of its fit. A volume that was not requested becomes None.
 py::list volumes(const FrameResult& result) {
   py::list list(result.volumes.size());
   for (std::size_t i = 0; i < result.volumes.size(); ++i) {

@@ -40,7 +40,8 @@ class MomentTree {
   void append(const MomentNode& next);
 
   /// Appends the nodes of `tree` with `first` added to their block numbers. `first` must be 0 or a multiple
-  /// of the number of blocks in each node, and all numbers must be higher than those appended before.
+  /// of the number of blocks in each node, and the sums must be higher than the numbers of all blocks
+  /// appended before.
   void append(std::size_t first, const MomentTree& tree);
 
   /// Returns the moments of all blocks. If there is no block, the count is 0.

@@ -40,8 +40,9 @@ bool four_points_span_solid(const PointView& points, double extent) {
 }
 
 // A simplex that grows point by point. A point is added, and increases the rank, if its distance from the
-// point, line or plane of the earlier points is above a limit. The limits ensure that no strip thinner than
-// 2^-19 of the extent contains the triangle of the first three points.
+// point, line or plane of the earlier points is above a limit. The limits prove the rank. For example, no
+// strip thinner than 2^-19 of the extent contains the triangle of the first three points, and a cloud of rank
+// 1 is in a strip with a width of 2^-35 of the extent.
 class Simplex {
  public:
   explicit Simplex(double extent)

@@ -37,9 +37,9 @@ struct Span {
 Span span_of(const PointView& points, double scale, const FitExecution& execution);
 
 /// Returns the rank that span_of() defines, or 0 without a valid point. `supports` must be of the same
-/// points. Inspects only a few points of nearly all clouds: if four points clearly span a solid, the rank is
-/// 3. Takes O(n) if a cloud is flat to 2^-30 of its extent. If the points' box has sides of exactly 0, a few
-/// points are enough again, provided that they clearly span the dimensions of the other sides. Needs a
+/// points. For nearly all clouds, inspects only a few points: if four points clearly span a solid, the rank
+/// is 3. If sides of the points' box are exactly 0, it is enough that a few points clearly span the
+/// dimensions of the other sides. Other clouds that are flat to 2^-30 of their extent take O(n). Needs a
 /// FloatEnvironment.
 int point_rank(const PointView& points, const Supports& supports, const FitExecution& execution);
 

@@ -24,7 +24,8 @@ class ChunkQueue {
   ChunkQueue(std::size_t chunks, const std::function<void(std::size_t)>& body)
       : chunks_(chunks), body_(body) {}
 
-  // Bodies compute with the IEEE default, whatever the host or the thread of an executor has set.
+  // Bodies run in IEEE's default floating-point environment, even if the host or a thread of an executor has
+  // set another one.
   void work() {
     const FloatEnvironment environment;
     for (std::size_t chunk; (chunk = next_.fetch_add(1, std::memory_order_relaxed)) < chunks_;) {

@@ -188,7 +188,7 @@ bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   return false;
 }
 
-// First tries vertices for which SupportGraph::climb() is not needed, because that is faster.
+// First tries vertices for which SupportGraph::climb() is not needed, because these are faster to find.
 void FlushSearch::search(const NormalRange& range) {
   const Vector3d n1 = range.first[0] + range.first[1], n2 = range.second[0] + range.second[1],
                  n3 = cross3(n1, n2);
@@ -219,8 +219,8 @@ bool FlushSearch::is_proven(const NormalRange& range, const Widths& widths) cons
   return true;
 }
 
-// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal, if the volume over
-// `begin` is larger before it and smaller after it. Returns 0.5 if there is no such t.
+// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal. If the volume over
+// `begin` is not larger at t = 0 and smaller at t = 1, or if both have the same vertices, returns 0.5.
 double FlushSearch::change(const NormalRange& range, const Measured& begin, const Measured& end) const {
   if (begin.supports == end.supports) return 0.5;
   Quartic lead = numerator(range, begin.widths);

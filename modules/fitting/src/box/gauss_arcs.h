@@ -16,7 +16,7 @@ namespace pcl_bv::detail {
 
 /// The arcs of all edges of a hull, and lower bounds of its width.
 struct GaussArcs {
-  /// The arc of an edge. An arc of more than 60 degrees is divided into several elements.
+  /// The arc of an edge. An arc of more than 60 degrees is divided into several elements of `arcs`.
   struct Arc {
     std::int32_t from, to;  ///< Indices into `nodes` of the normals at the two ends.
     std::int32_t vertex;    ///< A vertex of the edge that the arc belongs to.

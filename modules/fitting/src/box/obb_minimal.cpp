@@ -63,10 +63,9 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
 // take too long, because the time grows quadratically.
 constexpr std::size_t kExhaustive = 128;
 
-// Numbers of frames in the search. `random_starts` are the random frames among the starts. `rotated_starts`
-// are the best starts, and only these are rotated. `finalists` are the best frames, and only these are
-// rotated to the end. If pairs of edges are compared afterwards, a box within some percent of the minimum is
-// enough.
+// Numbers of frames in the search. The starts include `random_starts` random frames. Only the best
+// `rotated_starts` starts are rotated. Of these, only the best `finalists` frames are rotated to the end. If
+// pairs of edges are compared afterwards (kBeforePairs), a box within some percent of the minimum is enough.
 struct Effort {
   std::size_t random_starts, rotated_starts, finalists;
 };

@@ -28,8 +28,9 @@ struct Ground {
   Eigen::Vector3d up, east, north;
 };
 
-/// Corners of a convex polygon, counter-clockwise. Up to 1024 corners are stored without an allocation, which
-/// would cost more than the outline of a small cluster. A sweep can have thousands of small clusters.
+/// Corners of a convex polygon, counter-clockwise. Up to 1024 corners are stored without an allocation. For a
+/// small cluster, of which a sweep can have thousands, an allocation would take longer than computing the
+/// outline.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
 /// Returns the convex outline of the points seen from above, in local coordinates. It has rounding errors,

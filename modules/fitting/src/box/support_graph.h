@@ -24,9 +24,9 @@ class SupportGraph {
     std::int32_t low, high;
   };
 
-  /// Returns the vertices with the minimum and the maximum projection along the middle of a cell, which is
-  /// the cell that contains `direction`. The faces of a cube are divided into 384 cells. The vertices of a
-  /// cell are computed when the cell is first used. For a zero vector, returns vertex 0 twice.
+  /// The faces of a cube are divided into 384 cells. Returns the vertices with the minimum and the maximum
+  /// projection along the middle of the cell that contains `direction`. These vertices are computed when the
+  /// cell is first used. For a zero vector, returns vertex 0 twice.
   LowHigh approximate_supports(const Eigen::Vector3d& direction);
 
   /// Returns the vertices with the minimum and the maximum projection along the direction, as climb() finds

@@ -83,8 +83,8 @@ std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
   return extreme;
 }
 
-// Returns the extreme points of points in a plane, on a line or at one position. Drops a coordinate without
-// which the points span as many dimensions as with it. This does not change which points are extreme.
+// Returns the extreme points of points in a plane, on a line or at one position. Drops one coordinate, chosen
+// such that the points still span as many dimensions. The same points are extreme without this coordinate.
 std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points,
                                           const std::vector<std::size_t>& corners) {
   if (corners.size() < 2) return corners;
@@ -129,8 +129,8 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   std::vector<std::size_t> distinct = faces;
   std::sort(distinct.begin(), distinct.end());
   const bool cut = std::adjacent_find(distinct.begin(), distinct.end()) != distinct.end();
-  // The division of a face into triangles depends on all points that Quickhull added. To make the division
-  // unique, the hull of the vertices alone is computed.
+  // The division of a face into triangles depends on all points that Quickhull added. The hull of the
+  // vertices alone is computed here, so that the division depends on the vertices alone.
   if (cut && hull.vertices.size() < points.size()) {
     std::vector<Coordinates> extreme;
     for (const std::size_t i : hull.vertices)

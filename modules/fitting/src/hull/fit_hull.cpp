@@ -29,10 +29,10 @@ void add_both(const Eigen::Vector3d& v, Normals& normals) {
   add_unit(-v, normals);
 }
 
-// Returns the normals of the hull's planes. First come the normals of the triangles. A flat hull has no
-// triangles. Instead, it has both normals along each flat direction, and the normals of the edges of its
-// polygon or of the two ends of its segment. The normals of the axis-aligned box come last. Without the box,
-// the planes of two faces that meet at a small angle could, due to rounding, intersect far beyond the points.
+// Returns the normals of the hull's planes. First come the normals of the triangles. For a flat hull, which
+// has no triangles, first come both normals along each flat direction, then the normals of the polygon's
+// edges or of the segment's ends. The normals of the axis-aligned box come last. Without the box, the planes
+// of two faces that meet at a small angle could, due to rounding, intersect far beyond the points.
 Normals normals_of(const LocalHull& hull) {
   Normals normals;
   const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };

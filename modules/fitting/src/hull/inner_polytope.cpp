@@ -38,7 +38,7 @@ struct Scalar {
 
   bool is_float;
   double unit() const { return is_float ? 0x1p-24 : kUnitRoundoff; }
-  double underflow_bound() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // above errors by underflow
+  double underflow_bound() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // above errors of underflow
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
   double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }

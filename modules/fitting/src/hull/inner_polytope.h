@@ -10,9 +10,9 @@
 
 namespace pcl_bv::detail {
 
-/// Returns half-spaces for list_outside(). list_outside() lists all points of the cloud, except points that
-/// are, in exact arithmetic, strictly inside the convex hull of the extremal points. It lists the extremal
-/// points themselves. If the extremal points do not span a solid, the number of half-spaces is 0.
+/// Returns half-spaces for list_outside(). With these, list_outside() omits only points that are strictly
+/// inside the convex hull of the extremal points. Rounding does not change this. list_outside() lists the
+/// extremal points themselves. If the extremal points do not span a solid, the number of half-spaces is 0.
 HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 }  // namespace pcl_bv::detail

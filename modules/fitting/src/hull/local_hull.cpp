@@ -23,7 +23,8 @@ constexpr std::size_t kFewPoints = 500;
 // If a chunk of a source has more candidates than this, only its extreme points are stored. If all chunks
 // together have more than 8 times this number, only the extreme points of all chunks are stored. For points
 // in memory, all candidates are stored, because these take only a few times the memory of the points.
-// Furthermore, on a smooth surface all points are extreme, so this would compute the hull twice for nothing.
+// Furthermore, on a smooth surface all points are extreme, so computing the extreme points of the chunks
+// first would drop no point.
 constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,

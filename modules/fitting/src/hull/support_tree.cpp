@@ -24,7 +24,7 @@ constexpr std::size_t kFewQueries = 64;
 
 // Error bound of a projection. Local coordinates are at most 2, with an error of at most 4 2^-53. The
 // products with a normal and their sum add less than 20 times this error. The sides of a box add at most the
-// same again.
+// same amount.
 constexpr double kErrorBound = 0x1p-44;
 
 }  // namespace
@@ -44,9 +44,9 @@ double SupportTree::Node::projection_bound(const Eigen::Vector3d& normal) const 
 
 // Returns the axes of the box of some points. The first two axes span the plane of three points: the first
 // point, the point farthest from it, and the point farthest from the line through these two. In this plane
-// the sides are those of the smallest rectangle. If a side were along that line instead, the box of a square
-// patch would be too wide by a third. For a flat helix of 100 000 points, the query of each facet on top
-// would then visit half of the nodes, which takes 15 s in total.
+// the sides are those of the smallest rectangle around the points. If a side were along that line instead,
+// the box of a square patch would be too wide by a third. For a flat helix of 100 000 points, the query of
+// each facet on top would then visit half of the nodes, which takes 15 s in total.
 Eigen::Matrix3d SupportTree::sides(std::uint32_t begin, std::uint32_t end) const {
   const auto from_start = [&](std::uint32_t i) -> Eigen::Vector3d {
     return point(i).local - point(begin).local;

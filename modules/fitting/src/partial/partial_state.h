@@ -16,8 +16,8 @@
 
 namespace pcl_bv::detail {
 
-/// The data of a Partial. The state depends on the points alone, not on how they were divided into parts or
-/// in which order these were merged.
+/// The data of a Partial. The state depends on the points alone, not on how the points were divided into
+/// parts or in which order the parts were merged.
 struct PartialState {
   ScalarType scalar = ScalarType::float32;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compass search in the tangent plane of the sphere of directions.
+// search_axis() is a compass search in the tangent plane of the sphere of directions.
 
 #include "round/axis_search.h"
 

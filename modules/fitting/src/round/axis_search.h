@@ -33,8 +33,8 @@ struct Profile {
 };
 
 /// Returns the vertices in local coordinates. Of more than 1000 vertices it returns only those with the
-/// minimum or maximum projection along one of 49 directions. These are enough for the search, because the
-/// volume along the found axis is measured on all points.
+/// minimum or maximum projection along one of 49 directions. With fewer vertices the found axis may be
+/// slightly worse, but the volume still encloses all points, because it is measured on all points.
 std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull);
 
 /// Returns a unit vector for which size() is small. size() must return the same for opposite vectors. The

@@ -52,9 +52,9 @@ Candidate widened(const Profile& profile) {
   return best;
 }
 
-// Returns the capsule around all points whose segment has the ends a and b. Let q = p - a, e = b - a and
-// U = 2^-53. The error of the computed distance from the segment is less than 20 U (|q|_1 + |e|_1). This
-// includes the errors of the foot, the differences and the lengths.
+// Returns the capsule with the segment from a to b that encloses all points. Let q = p - a, e = b - a and U =
+// 2^-53. The error of the computed distance from the segment is less than 20 U (|q|_1 + |e|_1). This includes
+// the errors of the foot, the differences and the lengths.
 Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
   const Eigen::Vector3d e = (b - a) * frame.scale();

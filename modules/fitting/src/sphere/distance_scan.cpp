@@ -189,8 +189,8 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
     scan_chunk(first, count, center, limit, best);
   });
   found = best.points();
-  // If the float filter rejects almost no points, nearly all points are near the surface, and bounds do not
-  // help either.
+  // If the float filter rejected few points in most chunks, most points are near the surface, and bounds do
+  // not help either.
   if (2 * best.chunks_filtered() < (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk) {
     filter_ = FloatFilter::off;
     bounds_.reset();

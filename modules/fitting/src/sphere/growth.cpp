@@ -72,8 +72,8 @@ void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& spher
   }
 }
 
-// Grows over the points outside in ascending order of their indices. The view's index list may have any
-// order.
+// Grows the sphere over the points outside it, in ascending order of their indices. The view's index list may
+// have any order.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
   std::vector<std::size_t> outside;
@@ -103,8 +103,8 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
     grow_by_index(scan, sphere);
   } else if (growth == SphereGrowth::deferred && !scan.serial()) {
-    // Each block is compared with the sphere that has grown over the blocks before. This skips only points
-    // that would not change the sphere.
+    // Each block is compared with the sphere that has grown over the blocks before. The comparison skips only
+    // points that would not change the sphere.
     for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });
   } else {
     grow_in_order(scan, sphere);  // gives the bits of the deferred variants, and is faster in one thread

@@ -58,8 +58,8 @@ Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
   return solve(rows, x, result) ? result : Vector::Constant(kNan);
 }
 
-// Finds the best ball of a support of up to four points and one new point, which must be on its boundary. All
-// coordinates are relative to the new point.
+// Finds the best ball of a support of up to four points and one new point. The new point must be on the
+// boundary of the ball. All coordinates are relative to the new point.
 class Step {
  public:
   Step(const Vector* points, const std::array<std::size_t, 4>& support, int size, std::size_t pivot)
@@ -113,7 +113,7 @@ class Step {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
         const double product = dot3(spokes_[i], spokes_[j]);
-        // If the triangle is not acute, its longest side alone gives the ball.
+        // If the triangle is not acute, its ball is the ball of its longest side, which needs no triple.
         if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
         Vector center;
         const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross3(spokes_[i], spokes_[j])};

@@ -32,8 +32,8 @@ class SeedPoints {
   /// Appends a point. If a point with this index is present already, returns false and changes nothing.
   bool add(std::size_t index, const Coordinates& point);
 
-  /// Returns the smallest ball of the points, in local coordinates. `start`, if not null, is an earlier
-  /// result, computed before points were added.
+  /// Returns the smallest ball of the points, in local coordinates. `start`, if not null, is the result of an
+  /// earlier call, after which points may have been added.
   SmallBall smallest_ball(const LocalFrame& frame, const SmallBall* start = nullptr) const;
 
   /// Returns the largest squared distance of the points from `center`.

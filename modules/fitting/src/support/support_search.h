@@ -39,9 +39,9 @@ class SupportSearch {
   /// `points` is the number of points of the cloud. Stores a reference to `directions`.
   SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points);
 
-  /// Finds the support points of a chunk. Several threads may call find() at the same time. They share the
-  /// largest projections found so far, and skip points with smaller projections. The points that a call finds
-  /// depend on timing, but the merged result does not. Needs a FloatEnvironment.
+  /// Finds the support points of a chunk. Several threads may call find() at the same time. The calls share
+  /// the largest projections found so far, and skip points with smaller projections. The points that a call
+  /// finds depend on timing, but the merged result does not. Needs a FloatEnvironment.
   ChunkSupports find(const PointView& chunk);
 
   /// Merges the support points of a chunk into those found so far.

@@ -263,8 +263,8 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
   using ConstPtr = pcl::shared_ptr<const EllipsoidEstimation>;
   using BoundingVolumeEstimation<PointT, Ellipsoid>::compute;
 
-  /// Fits the ellipsoid and stores in `certificate` a proven bound of how much larger it is than the smallest
-  /// ellipsoid.
+  /// Fits the ellipsoid. Stores in `certificate` the proof of how near its volume is to the minimum. See
+  /// fit_smallest_ellipsoid().
   EstimationResult compute(Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) const {
     auto fitted = fit_smallest_ellipsoid(this->input(), this->execution());
     certificate = std::move(fitted.certificate);

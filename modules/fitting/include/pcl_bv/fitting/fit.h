@@ -59,7 +59,8 @@ KdopWithContacts fit_kdop_with_contacts(const PointView& points,
 
 /// Fits a sphere around the points. Centre and radius are in the points' unit. The paper, §3. Empty input and
 /// errors are as for fit_aabb(). One point or equal points give radius 0. For `exact` see
-/// fit_smallest_sphere(). `epos98` takes three passes over the points, the other methods take two.
+/// fit_smallest_sphere(). `epos98` takes three passes over the points, `ritter` and the other EPOS methods
+/// take two.
 Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options = {},
                           const Execution& execution = {});
 
@@ -86,11 +87,11 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const PointView& points
 /// this line or plane. Rounding makes the box hardly thicker than the points. The bits are the same for every
 /// execution.
 ///
-/// O(n): two passes for `pca` and `dito14`, three for the other methods. The other methods also take
-/// O(m log m) for m of the points. For `minimal`, these m points are near the hull. For `yaw` and `lshape`,
+/// O(n): two passes for `pca` and `dito14`, three for the other methods. For m of the points, these other
+/// methods also take O(m log m). For `minimal`, these m points are near the hull. For `yaw` and `lshape`,
 /// they are near the outline seen from above. `minimal` takes some milliseconds for a round hull of 128
-/// vertices. It takes as long for a hull of hundreds of vertices, which it searches less thoroughly. Throws
-/// std::invalid_argument for an `up` outside its range. Other errors are as for fit_aabb().
+/// vertices. A hull of hundreds of vertices takes as long, because `minimal` searches it less thoroughly.
+/// Throws std::invalid_argument for an `up` outside its range. Other errors are as for fit_aabb().
 Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options = {}, const Execution& execution = {});
 
 /// Computes the convex hull of the points. The vertices are exactly the extreme points of the cloud, which
@@ -101,8 +102,8 @@ Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options = {}, con
 /// The hull has the rank of the points (result.h). If the points are in a plane to 2^-36 of their extent, the
 /// vertices are the corners of a polygon, to the same tolerance. The planes still enclose all points.
 ///
-/// Akl, Toussaint 1978 drops the points inside the hull of the extremal points, in O(n). Barber, Dobkin,
-/// Huhdanpaa 1996 finds the hull of the m remaining points, usually in O(m log m).
+/// First drops the points inside the hull of the extremal points, in O(n) (Akl, Toussaint 1978). Then
+/// computes the hull of the m remaining points, usually in O(m log m) (Barber, Dobkin, Huhdanpaa 1996).
 Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 
 /// Fits a small cylinder around the points. The axis is the best that a search finds. The search tries
@@ -113,10 +114,10 @@ Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 /// Takes the time of fit_hull(), plus about a thousand times O(vertices).
 Fitted<Cylinder> fit_cylinder(const PointView& points, const Execution& execution = {});
 
-/// Fits a small capsule around the points. The axis is found as for fit_cylinder(). Then each end is as far
-/// inward as the points allow. The radius is larger than necessary if that makes the volume smaller. Except
-/// for rounding, the volume is never larger than that of the smallest sphere. Empty input, errors and time
-/// are as for fit_cylinder().
+/// Fits a small capsule around the points. The axis is found as for fit_cylinder(). Then each end of the
+/// capsule's segment is moved inward as far as the points allow. A larger radius than necessary is chosen if
+/// it makes the volume smaller. Except for rounding, the volume is never larger than that of the smallest
+/// sphere. Empty input, errors and time are as for fit_cylinder().
 Fitted<Capsule> fit_capsule(const PointView& points, const Execution& execution = {});
 
 /// Fits the smallest ellipsoid around the points, to about 1e-6 of its volume. Empty input and errors are as
@@ -156,10 +157,10 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
 /// Calls fit(i, execution) once for each view i, in any order and on the threads of the execution's policy.
 ///
 /// Large views, which have 200 000 points or more, are fitted first, one after another. Each fit of a large
-/// view uses all threads of the policy. The smaller views are then distributed over the threads, the largest
-/// first. Each fit of a smaller view gets Serial. The fit of one smaller view of middle size is timed. If all
-/// smaller views together would take too little time to be worth a second thread, the calling thread fits
-/// all smaller views.
+/// view uses all threads of the policy. Each fit of a smaller view gets Serial. First, one smaller view of
+/// middle size is fitted and timed. If the other smaller views together would take too little time to be
+/// worth a second thread, the calling thread fits them all. Otherwise they are distributed over the threads,
+/// the largest first.
 ///
 /// If fits of smaller views throw, all other smaller views are still fitted, and one of the exceptions is
 /// rethrown; which one is not specified. If the fit of a large view or of the timed view throws, no further
@@ -176,9 +177,9 @@ struct Verification {
   double max_violation = 0;
 };
 
-/// Checks for every valid point whether it is inside the volume. The test is exact for the stored numbers.
-/// First, double arithmetic with a rigorous error bound proves for most inside points that they are inside.
-/// Rational arithmetic decides all other points. O(n).
+/// Checks for every valid point whether it is inside the volume. The test is exact for the stored parameters
+/// of the volume. First, double arithmetic with a rigorous error bound proves for most inside points that
+/// they are inside. Rational arithmetic decides all other points. O(n).
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution = {});
 
 /// Box, k-DOP, centroid and covariance of a cloud, in the points' unit and frame. Without a valid point,
@@ -199,8 +200,8 @@ struct CloudSummary : EstimationResult {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
-  /// whose largest extent is below 1e-99. For these it is a larger power of two, because their squares could
-  /// underflow. The eigenvectors of the covariance do not depend on this factor.
+  /// whose largest extent is below 1e-99. For such clouds it is a larger power of two, because squares of
+  /// their coordinates could underflow. The eigenvectors of the covariance do not depend on this factor.
   double covariance_scale = 1;
 };
 
@@ -209,8 +210,8 @@ struct CloudSummary : EstimationResult {
 /// bits are the same for every execution. Another order of the points may round centroid and covariance
 /// differently.
 ///
-/// The covariance uses the shifted formula in blocks of 1024 points, which sums squares relative to a point
-/// of the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
+/// In each block of 1024 points, the shifted formula sums the products of coordinates relative to a point of
+/// the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

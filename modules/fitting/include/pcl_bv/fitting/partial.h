@@ -20,10 +20,10 @@ struct PartialState;
 }  // namespace detail
 
 /// The contribution of some points of a cloud to volumes around the whole cloud. If there are at most
-/// kMaxStored points, all are stored. Of more points, a Partial stores the extreme points, which are the
-/// vertices of the convex hull, the support points along 26 directions, and sums for the covariance. It also
-/// stores the points of a block of 1024 successive numbers while it does not have all points of this block.
-/// Copies share their data.
+/// kMaxStored points, all are stored. Of more points, a Partial stores the support points along 26
+/// directions, sums for the covariance, and the extreme points, which are the vertices of the convex hull.
+/// The points with the numbers 1024 k to 1024 k + 1023 are a block. As long as a Partial does not have all
+/// points of a block, it also stores the points of this block that it has. Copies share their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the same bits as a fit to the whole cloud. There are two

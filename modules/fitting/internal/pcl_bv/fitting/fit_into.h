@@ -18,8 +18,8 @@ namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
 /// Returns a FittedT, which is a Fitted or a class derived from a Fitted. `fit(made)` must write made.volume
-/// and return the result of the fit. A FloatEnvironment lives during the call. The other functions of this
-/// header set none, so their callers must hold one or run in a parallel region.
+/// and return the result of the fit. A FloatEnvironment lives while `fit` runs. The other functions of this
+/// header make no FloatEnvironment, so their callers must hold one or run in a parallel region.
 template <typename FittedT, typename Fit>
 FittedT make_fitted(const Fit& fit) {
   const FloatEnvironment environment;

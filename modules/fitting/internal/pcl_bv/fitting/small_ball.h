@@ -32,9 +32,9 @@ struct SmallBall {
 ///
 /// In each step the farthest point joins the support of at most four points (the pivoting of Gaertner 1999).
 /// The candidates for the next ball are the balls that the farthest point spans with one, two or three points
-/// of the support. The candidate is taken whose centre has the smallest maximum distance from these five
-/// points. No tolerance for flatness is needed: if a support is too flat for an accurate solution, this
-/// distance becomes larger, and another candidate is taken.
+/// of the support. The candidate is taken whose centre has the smallest maximum distance from the support and
+/// the farthest point. No tolerance for flatness is needed: if a support is too flat for an accurate
+/// solution, this distance becomes larger, and another candidate is taken.
 ///
 /// `start`, if not null, is the ball that smallest_ball() returned for the first points of this array. The
 /// search begins with this ball.

@@ -49,7 +49,7 @@ struct Supports {
   /// Only the first direction_count(set) elements are used. Element k is along the k-th direction of the set,
   /// kCubeDirections[cube_direction(set, k)].
   std::array<Support, kMaxDirections> along{};
-  PointView points;                       ///< The view that was searched. Used to detect other views.
+  PointView points;                       ///< The view that was searched. Fits to other views throw.
   std::shared_ptr<const LocalHull> hull;  ///< The convex hull, if share_supports() computed it; else null.
   /// Usually null. If `points` are only the few points that represent a whole cloud (partial.h), the moments
   /// of the whole cloud. In this case `used` and `dropped` also count the whole cloud.

@@ -73,8 +73,8 @@ ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 struct Execution {
   Execution() = default;
 
-  /// By default, resolves Isa::automatic once, in this call; see UsableIsa. Copies of the Execution keep the
-  /// resolved set.
+  /// By default, `instructions` is the set to which Isa::automatic resolves in this call; see UsableIsa.
+  /// Copies of the Execution keep the resolved set.
   template <typename Policy, typename = std::enable_if_t<std::is_convertible_v<Policy, ParallelPolicy>>>
   Execution(Policy policy, UsableIsa instructions = {}) : parallel(std::move(policy)), isa(instructions) {}
 

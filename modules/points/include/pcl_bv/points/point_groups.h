@@ -20,8 +20,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// Coordinates keep their bits, NaN and infinity included, and points keep their order. Point i of view() is
 /// the i-th point visited by the assigned view. So PointView::index() of view() is the index in the cloud if
-/// a whole cloud was assigned. If a slice or a view with an index list was assigned, it is the position in
-/// the slice or in the list.
+/// a whole cloud was assigned. If a slice or a view with an index list was assigned, PointView::index() is
+/// the position in the slice or in the list.
 ///
 /// Every kernel and fit accepts view() and returns the same bits as for the assigned view. For an index list
 /// that is not ascending, only boxes and k-DOPs have the same bits. Other results may differ: if points have

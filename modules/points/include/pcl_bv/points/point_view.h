@@ -37,8 +37,9 @@ inline constexpr std::size_t kGroupBytes = 64;
 class PointSource;
 
 /// A read-only view of points, either of consecutive points of an array or of the points that an index list
-/// selects. The view does not own the memory, which must outlive the view. Fits, verify(), cloud_statistics()
-/// and masks also take points of a PointSource; all other functions take points in memory.
+/// selects. The view does not own the memory, which must outlive the view. Fits, verify(),
+/// cloud_statistics(), masks, VolumeTree::first_containing(), pictures and points_vtp() also take points of a
+/// PointSource. All other functions take points in memory.
 ///
 /// Coordinates x, y, z are of type `scalar`, in metres by convention (any unit works). In records,
 /// coordinates need no alignment. Coordinates may be NaN or infinite. Functions that read the coordinates
