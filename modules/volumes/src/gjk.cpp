@@ -40,7 +40,8 @@ struct Precision<DoubleDouble> {
   static constexpr double margin = 0, negligible_length = 0x1p-96, rounding = 0x1p-100;
 };
 
-// Return b + delta - a. In DoubleDouble, delta + rest is the exact difference of the origins.
+// The two functions below return b + delta - a. `a` and `b` are points of the two cores. `delta` is the
+// rounded difference of the origins. delta + rest is the exact difference, which only DoubleDouble uses.
 Vector<double> difference(const Eigen::Vector3d& delta, const Eigen::Vector3d&, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& a, double) {
   return {delta[0] + (b[0] - a[0]), delta[1] + (b[1] - a[1]), delta[2] + (b[2] - a[2])};
@@ -183,8 +184,8 @@ class GjkSearch {
   double upper_bound_ = kInfinity;  // distance of two points of the cores, up to rounding
 };
 
-// Returns numbers of one body. lower_bound() orders the bodies of a pair by these numbers, so that the order
-// of the arguments does not matter.
+// Returns the numbers by which lower_bound() orders two bodies, so that the order of its arguments does not
+// matter.
 auto key(const PosedShape& p) {
   const Eigen::Vector3d order_key = p.shape.order_key();
   return std::array{static_cast<double>(p.shape.kind),

@@ -78,9 +78,9 @@ class Aabb {
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the axis-aligned box of the transformed box. The result contains every transformed point of this
-  /// box, by exact arithmetic on the stored matrix. Each max is rounded up to the next double, and each min
-  /// is rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
+  /// Returns the axis-aligned box of the transformed box. The result contains every point of this box,
+  /// transformed by the stored matrix without rounding. Each max is rounded up to the next double, and each
+  /// min is rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
   Aabb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the box to contain the point. A point with a coordinate that is not finite is ignored.

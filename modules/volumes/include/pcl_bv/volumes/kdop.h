@@ -118,8 +118,8 @@ class Kdop {
   /// Returns whether this is the empty k-DOP, with min > max.
   bool empty() const;
 
-  /// Returns whether the k-DOP contains the point. Conservative: true for every point that is inside by exact
-  /// arithmetic. False for an empty k-DOP and for a point with a coordinate that is not finite.
+  /// Returns whether the k-DOP contains the point. Conservative: true for every point of the k-DOP, in spite
+  /// of rounding errors. False for an empty k-DOP and for a point with a coordinate that is not finite.
   ///
   /// Computed in double: for each slab, s = (x nx + y ny) + z nz lies between min and max, with a tolerance
   /// of 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 for rounding.
@@ -182,9 +182,9 @@ class Kdop {
   /// two vertices; a point has no face.
   Mesh mesh() const;
 
-  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every
-  /// transformed point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few
-  /// units in the last place of the coordinates.
+  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every point
+  /// of this k-DOP, transformed by the stored matrix without rounding. Slabs are tight to a few units in the
+  /// last place of the coordinates.
   Kdop transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point or, if
