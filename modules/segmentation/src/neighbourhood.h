@@ -35,8 +35,8 @@ using BlocksAround = std::array<std::uint32_t, 27>;
 inline constexpr std::uint32_t no_block = std::numeric_limits<std::uint32_t>::max();
 inline constexpr std::size_t own_block = 13;
 
-/// Finds the blocks around a block. Call find() for blocks in ascending order. next_[row] is the index of the
-/// first block in each of the nine rows, and find() only increases this index.
+/// Finds the blocks around a block. Call find() for blocks in ascending order: in each of the nine rows,
+/// find() continues at the index next_[row], where the previous call ended.
 template <typename Key>
 class BlockRows {
  public:

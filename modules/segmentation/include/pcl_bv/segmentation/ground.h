@@ -50,7 +50,9 @@ struct SensorPosition {
   /// Whether the points lie around the position `assumed` of find_sensor(). If not, `position` is an
   /// estimate.
   bool confirmed = true;
-  double far_share = 0;  ///< Share of points that are 100 m or farther from `position`, 0 to 1.
+  /// Share of points that are 100 m or farther from `position`, 0 to 1. Computed only by find_sensor(), from
+  /// a sample of at least 100 points; otherwise 0.
+  double far_share = 0;
 };
 
 /// A cloud split into ground and other points. Reusing an object reuses its memory.
