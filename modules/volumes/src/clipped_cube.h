@@ -21,8 +21,8 @@ class ClippedCube {
   ClippedCube();
 
   /// Cuts off the points y with normal . y > offset. A vertex is treated as on the plane if |normal . y -
-  /// offset| is at most 2^-42 of the normal's largest component plus `rounding`, the error bound of the
-  /// offset. A normal of 0 cuts nothing.
+  /// offset| is at most 2^-42 of the normal's largest component plus `rounding`. `rounding` is the error
+  /// bound of the offset. A normal of 0 cuts nothing.
   void cut(const Eigen::Vector3d& normal, double offset, double rounding = 0);
 
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Includes vertices cut off.

@@ -163,11 +163,11 @@ Mesh Cylinder::mesh() const {
                    Triad(axis_), 48);
 }
 
-// A point center + s axis + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) +
-// M v, where w is the new axis, `length` is |M axis| and e is the small error M axis - length w. The
-// projection of M v on w equals the projection of v on M' w. M' w is `length` times the old axis plus a small
-// error. Since v is perpendicular to the old axis, only the projection of v on this error is not 0. `back`
-// bounds this projection.
+// Let w be the new axis, `length` = |M axis| and e the small error M axis - length w. A point center + s axis
+// + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) + M v. The projection of
+// M v on w equals the projection of v on M' w. M' w is `length` times the old axis plus a small error. Since
+// v is perpendicular to the old axis, only the projection of v on this error is not 0. `back` bounds this
+// projection.
 Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -23,8 +23,8 @@ Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& rotation, const Eigen::Ve
 // Tolerances of the two number types.
 //
 // `margin`: the origin is treated as inside a tetrahedron only if the determinants of any three of its
-// vertices exceed `margin`. (Coordinates are below 4 in magnitude, so the error of a determinant, a sum of
-// six products of three numbers, is at most 1e-13.)
+// vertices exceed `margin`. For double, `margin` exceeds the error of a determinant: coordinates are below 4
+// in magnitude, so the sum of six products of three numbers is off by at most 1e-13.
 //
 // `negligible_length`: shorter lengths are treated as 0.
 //
@@ -181,7 +181,7 @@ class GjkSearch {
   Eigen::Vector3d direction_;       // initial direction, then the best direction of a search
   bool overlap_ = false;            // the bodies overlap or are nearer than bound_
   double lower_bound_ = 0;          // best proven lower bound of the distance
-  double upper_bound_ = kInfinity;  // distance of two points of the cores, up to rounding
+  double upper_bound_ = kInfinity;  // smallest distance found between points of the cores
 };
 
 // Returns the numbers by which lower_bound() orders two bodies, so that the order of its arguments does not

@@ -58,7 +58,7 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 // computed in double. Let q = origin - center and U = 2^-53. The position of P is off by at most 4 U |q|, and
 // the distance h of P from the centre by another 9 U |q|. Along the line, P is at most 8 U |q|_1 from the
 // exact foot of the perpendicular. A radius that is larger by 52 U |q|_1 covers these errors. A radius that
-// is larger by 64 U |q|_1 also covers its own rounding.
+// is larger by 64 U |q|_1 also covers the rounding of this radius.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);

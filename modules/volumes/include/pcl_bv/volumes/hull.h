@@ -59,8 +59,8 @@ class Hull {
   /// rounding errors. False for an empty hull and for a point with a coordinate that is not finite.
   /// O(planes).
   ///
-  /// Computed in double: for each plane, s = (x nx + y ny) + z nz is at most the offset, with a tolerance of
-  /// 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 for rounding.
+  /// Computed in double, with s = (x nx + y ny) + z nz. The condition for each plane is s - e <= offset,
+  /// where e = 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 is the error bound.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(triangles).

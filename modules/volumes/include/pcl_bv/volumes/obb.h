@@ -94,8 +94,8 @@ class Obb {
   /// 0 if contains() is true for the origin.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
-  /// move outward by 2^-51 of their magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
+  /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap, in
@@ -125,7 +125,7 @@ class Obb {
   /// smallest volume; if volumes are equal (for example 0), the candidate with the smallest surface area. If
   /// one box encloses the other by more than rounding errors, the result is the enclosing box, unchanged. If
   /// both boxes have exactly the same third axis, as upright boxes have, the third candidate has this third
-  /// axis instead of the coordinate axes, and the axes of the result are ordered as by upright(). The order
+  /// axis instead of the coordinate axes. The axes of the result are then ordered as by upright(). The order
   /// of the two boxes does not change the result. In general, the result is not the minimum-volume box.
   Obb merged(const Obb& other) const;
 
