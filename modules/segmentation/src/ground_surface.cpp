@@ -11,9 +11,9 @@ namespace pcl_bv::detail {
 namespace {
 
 // The lowest point of a cell is ground if it is at most `above` metres above the expected height and at most
-// `below` metres below it. Both limits grow with the distance since ground was last seen, up to `above_max`
-// and `below_max`. With these values curbs and clods are ground, but bonnets and the seats of benches are
-// not.
+// `below` metres below it. Both limits grow by `above_growth` and `below_growth` for each metre since ground
+// was last seen, up to `above_max` and `below_max`. With these values curbs and clods are ground, but bonnets
+// and the seats of benches are not.
 constexpr float above = 0.12F, above_growth = 0.024F, above_max = 0.225F;
 constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 

@@ -71,10 +71,10 @@ struct Clusters : IndexLists {
 /// Finds Euclidean clusters. These are the connected components of the graph that links two points if their
 /// distance is below the tolerance.
 ///
-/// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2, where d2 = (dx*dx + dy*dy) + dz*dz
-/// and r2 = tolerance * tolerance are rounded to the scalar type of the points after each operation. So
-/// points at exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even
-/// duplicates are linked.
+/// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2. Here d2 = (dx*dx + dy*dy) + dz*dz
+/// and r2 = tolerance * tolerance, rounded to the scalar type of the points after each operation. Points at
+/// exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even duplicates
+/// are linked.
 ///
 /// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996). Linked core points are in one
 /// cluster. A border point is linked to core points but is not a core point. It belongs to the core point

@@ -177,12 +177,12 @@ GroundSplit split_ground_by_zones(const PointView& points, const GroundZonesOpti
 ///
 /// The check uses a sample of at most 1024 valid points, without the points at (0, 0, 0), which are rays
 /// without a return. Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR
-/// are near the sensor: in recorded sweeps at least 72 % of the points are within 12.5 m of the sensor, and
-/// at most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are treated as lying
+/// are near the sensor. In recorded sweeps at least 72 % of the points are within 12.5 m of the sensor. At
+/// most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are treated as lying
 /// around `assumed` if one of these holds:
 /// - At least 5 % of the points are within 12.5 m of `assumed`.
-/// - At least 5 % are within 25 m of `assumed`, as for a sensor that is high up or looks far ahead, and no
-///   other position has half of the points within 12.5 m.
+/// - At least 5 % are within 25 m of `assumed`, and no other position has half of the points within 12.5 m.
+///   This covers a sensor that is high up or looks far ahead.
 /// - The sample has fewer than 100 points.
 ///
 /// Returns `assumed` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of
