@@ -62,8 +62,8 @@ struct ClusterOptions {
 /// The clusters of a cloud. The largest cluster is first; clusters of equal size are ordered by their
 /// smallest point index. Within a cluster the indices are ascending. Reusing an object reuses its memory.
 struct Clusters : IndexLists {
-  std::size_t small_points = 0;  ///< Number of points in clusters with fewer than min_size points.
-  std::size_t large_points = 0;  ///< Number of points in clusters with more than max_size points.
+  std::size_t small_points = 0;  ///< Number of points in dropped clusters with fewer than min_size points.
+  std::size_t large_points = 0;  ///< Number of points in dropped clusters with more than max_size points.
   std::size_t noise_points = 0;  ///< Number of points that are neither core points nor linked to one.
   std::size_t class_points = 0;  ///< Number of points of classes that are dropped.
 };

@@ -58,7 +58,7 @@ struct SensorPosition {
 /// A cloud split into ground and other points. Reusing an object reuses its memory.
 struct GroundSplit {
   bool found = false;  ///< Whether there is a plane. If not, all valid points are in `rest`.
-  /// Unit normal of the plane, pointing up; 0 if no plane was found. The height of a point p above the plane
+  /// Unit normal of the plane, pointing up; 0 if there is no plane. The height of a point p above the plane
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
