@@ -30,7 +30,7 @@ double multiply_up(double a, double b) {
 }
 
 double sqrt_up(double a) {
-  // The error of the square of a smaller root is below 2^-1074, the smallest double.
+  // For a smaller `a`, std::fma() below may underflow, so `a` is first scaled up.
   if (a > 0 && a < 0x1p-900) return sqrt_up(a * 0x1p200) * 0x1p-100;
   const double root = std::sqrt(a);
   return std::isfinite(root) && std::fma(root, root, -a) < 0 ? next_up(root) : root;

@@ -50,8 +50,8 @@ bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
   if (a.count * b.count <= max_direct_pairs) {
     return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
   }
-  // If both boxes are single positions, one of the two tests above has decided. So here the longer group has
-  // at least two points.
+  // If each box is a single position, one of the first two tests has returned. So here the group with the
+  // longer box has at least two points.
   if (longest_side(a.box) < longest_side(b.box)) std::swap(a, b);
   auto [near, far] = split(a);
   if (min_squared_distance(far.box, b.box) < min_squared_distance(near.box, b.box)) std::swap(near, far);

@@ -68,7 +68,8 @@ template <typename Key>
 struct CellPart {
   std::size_t begin, end;
   std::vector<BlockRun<Key>> runs;
-  std::vector<std::uint32_t> next;  ///< For each cell, its number of points, then the position of the next.
+  /// For each cell, first its number of points in this part, later the position of its next point.
+  std::vector<std::uint32_t> next;
 };
 
 /// Smallest number of blocks for which the buffers of BlockKeys are freed after make_cells() instead of

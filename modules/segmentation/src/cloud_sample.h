@@ -12,9 +12,10 @@
 
 namespace pcl_bv::detail {
 
-/// Replaces `sample` by at most `sample_size` valid points. Visits the points cyclically, in steps of 0.618
-/// times the size of the cloud (the golden section). So no point is visited twice, and the visited points are
-/// evenly spread at any time. Unlike every n-th point, they have no common period with the rows of a sensor.
+/// Replaces `sample` by at most `sample_size` valid points. Visits the points cyclically. The step is about
+/// 0.618 times the size of the cloud (the golden section) and has no common divisor with the size. So no
+/// point is visited twice, and the visited points are evenly spread at any time. Unlike every n-th point, the
+/// visited points have no common period with the rows of a sensor.
 void draw_sample(const PointView& points, std::uint32_t seed, std::size_t sample_size,
                  std::vector<Eigen::Vector3d>& sample);
 

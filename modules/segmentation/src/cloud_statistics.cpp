@@ -4,7 +4,8 @@
 // Finds the median spacing without an exact nearest-neighbour search for all samples. The smallest distance
 // found so far for a sample is an upper bound of its spacing. So the median of these bounds is at least the
 // median of the spacings. Each point is compared only with the samples whose distance is at most the median
-// of the bounds. A larger distance cannot lower a bound that is below this median.
+// of the bounds. A larger distance could only lower a bound above the median, and the bound would stay above
+// it. So the median would not change.
 
 #include "pcl_bv/segmentation/cloud_statistics.h"
 

@@ -20,7 +20,9 @@ struct CoreScratch {
   std::vector<std::uint64_t> core_cells;  ///< For each block, bits of its cells with core points.
   std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of cells with non-core points.
   std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
-  std::vector<std::uint32_t> label;   ///< Core point of each border point. Later the node of each core point.
+  /// For each position of a border point, the position of its core point. For each position of a core point,
+  /// its node, which remove_non_core() sets.
+  std::vector<std::uint32_t> label;
   /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last
   /// group with fewer points has no box.
   std::vector<Box<T>> groups;

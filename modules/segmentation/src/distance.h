@@ -45,8 +45,8 @@ Box<T> box_of(const Point<T>* points, std::size_t count) {
 }
 
 // Rounding is monotone, i.e. a <= b implies fl(a) <= fl(b). So fl(a - c) <= fl(b - c). The same holds for
-// squares and for sums of non-negative numbers. So the two bounds below hold exactly for the rounded d2 of
-// each pair, without a margin.
+// squares and for sums of non-negative numbers. So the two bounds below hold for the rounded
+// squared_distance() of each pair, without a margin.
 
 /// Returns a lower bound of squared_distance() for all pairs of points in the two boxes.
 template <typename T>

@@ -57,8 +57,8 @@ void check(const ClusterOptions& options) {
 }
 
 // Returns 1 / side of the cells. The coordinate differences of a linked pair (d2 < r2) are at most sqrt(r2).
-// They may exceed the tolerance: r2 may be a denormal that was rounded up, or infinity while d2 is finite.
-// The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
+// The differences may exceed the tolerance: r2 may be a denormal that was rounded up, or infinity while d2 is
+// finite. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
 template <typename T>
 double inverse_cell_side(T r2) {
   using limits = std::numeric_limits<T>;

@@ -11,22 +11,22 @@ namespace pcl_bv::detail {
 namespace {
 
 // The lowest point of a cell is ground if it is at most `above` metres above the expected height and at most
-// `below` metres below it. Both limits grow with the distance since ground was last seen, up to `above_max`
-// and `below_max`. With these values curbs and clods are ground, but bonnets and the seats of benches are
-// not.
+// `below` metres below it. Both limits grow by `above_growth` and `below_growth` for each metre since ground
+// was last seen, up to `above_max` and `below_max`. With these values curbs and clods are ground, but bonnets
+// and the seats of benches are not.
 constexpr float above = 0.12F, above_growth = 0.024F, above_max = 0.225F;
 constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 
-// `above` and `above_growth` in cells with an object. The values are small because the lowest point may
-// belong to the object.
+// These values replace `above` and `above_growth` in cells with an object. They are small because the lowest
+// point may belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
 // A rise changes the slope by rise / (slope_memory + distance since ground was last seen). All three are in
 // metres.
 constexpr float slope_memory = 2.6F;
 
-// If the lowest point is below the expected height, the expected height follows by at most this fall per
-// metre. The fall is small because the ground behind a ditch continues at the height before the ditch.
+// If the lowest point is below the expected height, the expected height falls by at most this much per metre.
+// The value is small because the ground behind a ditch mostly has the same height as before it.
 constexpr float max_fall = 0.06F;
 
 // since_ground at the centre of the rings, metres. It is not 0 because the height of the plane there is only
@@ -34,7 +34,7 @@ constexpr float max_fall = 0.06F;
 constexpr float first_since_ground = 2;
 // since_ground before any ground has been seen, metres. It is larger than every distance within the cells.
 constexpr float never_seen = 1000;
-constexpr float roughness = 0.02F;  // height of the middle of bare ground above its lowest point, metres
+constexpr float roughness = 0.02F;  // mean height of bare ground above the lowest point of a cell, metres
 
 }  // namespace
 

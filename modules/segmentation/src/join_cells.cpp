@@ -183,8 +183,9 @@ Key key_offset(const CellGrid& grid, const BlockRow& row) {
   return static_cast<Key>(along(row.dz, 2) + along(row.dy, 1) + along(-1, 0));
 }
 
-// Joins each block of a chunk with the preceding blocks in one row of its neighbours. `first` is the index,
-// among all blocks, at which this row begins. The keys are sorted, so `first` never decreases.
+// Joins each block from `begin` to `end` with the preceding blocks in one row of its neighbours. `first` is
+// the index of the first block whose key is at least the key at which the row begins. The key of the row
+// increases from block to block, so `first` never decreases.
 template <typename T, typename Key>
 void sweep(const JoinContext<T>& context, const std::vector<Key>& keys, Key offset,
            const std::array<TouchingAndNext, 3>& masks, std::size_t begin, std::size_t end,

@@ -17,8 +17,8 @@
 
 namespace pcl_bv::detail {
 
-/// Masks for one row of blocks. Each row is a separate variable, because clang limits the evaluation of each
-/// constant to a million steps.
+/// Masks for one row of blocks. clang limits the evaluation of a constant to a million steps, so each row is
+/// a separate constant.
 template <int dy, int dz>
 inline constexpr std::array<CellMasks, 3> masks_of_row{
     cells_within({-1, dy, dz}, 2), cells_within({0, dy, dz}, 2), cells_within({1, dy, dz}, 2)};
@@ -35,8 +35,8 @@ using BlocksAround = std::array<std::uint32_t, 27>;
 inline constexpr std::uint32_t no_block = std::numeric_limits<std::uint32_t>::max();
 inline constexpr std::size_t own_block = 13;
 
-/// Finds the blocks around a block. Call find() for blocks in ascending order. next_[row] is the index of the
-/// first block in each of the nine rows, and find() only increases this index.
+/// Finds the blocks around a block. Call find() for blocks in ascending order: in each of the nine rows,
+/// find() continues at the index next_[row], where the previous call ended.
 template <typename Key>
 class BlockRows {
  public:
@@ -93,9 +93,9 @@ class Neighbourhood {
     has_other_blocks_ = false;
   }
 
-  /// Adds the runs in other blocks. These are at most seven blocks: along an axis, a cell in the lower half
-  /// of its block is never within two cells of the next block, and a cell in the upper half is never within
-  /// two cells of the previous block.
+  /// Adds the runs in other blocks. These are at most seven blocks. Along an axis, a cell in the lower half
+  /// of its block is never within two cells of the next block. A cell in the upper half is never within two
+  /// cells of the previous block.
   void add_other_blocks() {
     if (has_other_blocks_) return;
     has_other_blocks_ = true;

@@ -21,8 +21,8 @@ struct BlockRow {
   int dy, dz;
 };
 
-/// Rows with half of the 26 neighbours, because each pair of blocks is visited from one side only. Of the
-/// first row, only the first neighbour is used, because only this one precedes the block itself.
+/// Rows with half of the 26 neighbours: those that precede the block in the order of keys. So each pair of
+/// blocks is visited once. In the first row, only the neighbour with dx = -1 precedes the block.
 inline constexpr std::array<BlockRow, 5> half_of_neighbours{{{0, 0}, {-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
 /// For each cell of a block, a set of cells of another block.
@@ -40,8 +40,9 @@ constexpr std::uint64_t cells_within_on_axis(int shift, int own, int offset, int
   return mask;
 }
 
-/// Returns, for each cell, the cells of the other block at most `max_distance` away along each axis. Computes
-/// each axis separately, which takes few steps, because clang limits constants to a million steps.
+/// Returns, for each cell, the cells of the other block at most `max_distance` away along each axis. clang
+/// limits the evaluation of a constant to a million steps. Therefore each axis is computed separately, which
+/// takes few steps.
 constexpr CellMasks cells_within(const BlockOffset& offset, int max_distance) {
   std::array<std::array<std::uint64_t, 4>, 3> on_axis{};
   for (int own = 0; own < 4; ++own) {
@@ -55,8 +56,8 @@ constexpr CellMasks cells_within(const BlockOffset& offset, int max_distance) {
   return masks;
 }
 
-/// Masks of the cells that touch a cell, and of the cells two away. Touching cells are mostly linked, so they
-/// are tested first.
+/// Masks of the cells that touch a cell, and of the cells that are two cells away. Touching cells are mostly
+/// linked, so they are tested first.
 struct TouchingAndNext {
   CellMasks touching, two_away;
 };

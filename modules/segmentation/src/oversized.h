@@ -16,7 +16,8 @@ struct SplitScratch {
   std::vector<std::size_t> order;
 };
 
-/// Clusters the points of a view with the given options and appends all clusters, whatever their size.
+/// Clusters the points of a view with the given options and appends the clusters of at least min_size points.
+/// max_size is ignored.
 using ClusterPoints = std::function<void(const PointView&, const ClusterOptions&, Clusters&)>;
 
 /// Replaces each cluster above max_size by the clusters of its points with half the tolerance, up to three

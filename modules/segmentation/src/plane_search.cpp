@@ -142,8 +142,8 @@ std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const V
   return plane;
 }
 
-// Returns the sum of the squared heights of the points above the plane. The heights are in units of
-// `distance` and clamped to -max_below and max_above. Stops early when the sum is no longer below `best`.
+// Returns the sum, over all points, of the squared height above the plane. Heights are in units of `distance`
+// and clamped to the range from -max_below to max_above. Stops early when the sum is no longer below `best`.
 // Eigen's min and max do not branch. Branches would be three times slower, because heights are unpredictable.
 // Each of the four lanes is summed in order, so the bits do not depend on the SIMD width.
 double cost_of(const Plane& plane, const Points& points, double distance, double best) {
@@ -189,8 +189,8 @@ std::optional<Plane> refine(const Plane& plane, const Points& points, double dis
   return refined;
 }
 
-// Returns the best plane through three points of points.lowest. These points include ground points even under
-// tables.
+// Returns the plane with the smallest cost that passes through three points of points.lowest. `lowest` has
+// ground points even where tables hide most of the ground.
 std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
                             const GroundPlaneOptions& options) {
   const Points& lowest = points.lowest;
@@ -201,7 +201,7 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
   };
   std::optional<Plane> best;
   double best_cost =
-      max_above * max_above * static_cast<double>(points.support.size());  // cost of a plane far below them
+      max_above * max_above * static_cast<double>(points.support.size());  // of a plane far below all points
   for (unsigned i = 0; i < options.iterations; ++i) {
     const Vector3d& a = pick();
     const Vector3d& b = pick();

@@ -19,8 +19,8 @@ namespace {
 constexpr double kSmallExtent = 0x1p-400;
 constexpr double kLift = 0x1p600;
 
-// Adds sign * (a - b)^2 exactly, as the products d^2, 2 d e and e^2 with a - b = d + e, where e is the
-// rounding error of d.
+// Adds sign * (a - b)^2 exactly. With the rounded difference d and its rounding error e, a - b = d + e. So
+// the terms are d^2, 2 d e and e^2.
 void add_square_of_difference(Expansion& sum, double a, double b, double sign) {
   const double d = a - b;
   const double e = Expansion().add(a).add(-b).add(-d).value();

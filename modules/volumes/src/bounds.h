@@ -12,7 +12,7 @@
 
 namespace pcl_bv::detail {
 
-/// Return upper bounds of |v| and of |a - b|, by exact arithmetic.
+/// Return proven upper bounds of |v| and of |a - b|.
 double norm_up(const Eigen::Vector3d& v);
 double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
@@ -38,7 +38,7 @@ struct TransformedPoint {
 };
 TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
 
-/// Returns an upper bound of |m v - factor w|, by exact arithmetic.
+/// Returns a proven upper bound of |m v - factor w|.
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,
                      const Eigen::Vector3d& w);
 

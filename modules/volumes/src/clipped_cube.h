@@ -11,9 +11,9 @@
 namespace pcl_bv::detail {
 
 /// A convex polytope inside the unit cube, as a closed surface of vertex loops. In spite of rounding, the
-/// surface stays closed after every cut: the two faces of a cut edge share its new vertex, and the cap (the
-/// new face on the plane) consists of edges of the remaining faces. A polytope that collapses becomes a
-/// polygon with two sides (rank 2), an edge (rank 1) or a vertex (rank 0).
+/// surface stays closed after every cut. The two faces of a cut edge share its new vertex. The new face on
+/// the plane, the cap, consists of edges of the remaining faces. A polytope that collapses becomes a polygon
+/// with two sides (rank 2), an edge (rank 1) or a vertex (rank 0).
 class ClippedCube {
  public:
   using Loop = std::vector<std::int32_t>;
@@ -21,8 +21,8 @@ class ClippedCube {
   ClippedCube();
 
   /// Cuts off the points y with normal . y > offset. A vertex is treated as on the plane if |normal . y -
-  /// offset| is at most 2^-42 of the normal's largest component plus `rounding`, the error bound of the
-  /// offset. A normal of 0 cuts nothing.
+  /// offset| is at most 2^-42 of the normal's largest component plus `rounding`. `rounding` is the error
+  /// bound of the offset. A normal of 0 cuts nothing.
   void cut(const Eigen::Vector3d& normal, double offset, double rounding = 0);
 
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Includes vertices cut off.

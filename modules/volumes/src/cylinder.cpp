@@ -67,7 +67,7 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
 // Error bounds, with U = 2^-53. Each component of q is off by at most U of itself, `along` by at most 5 U
 // |q|_1 and each component of `cross` by at most 6 U |q|_1. Therefore the length of `cross` changes by at
 // most 11 U |q|_1. Computing the length adds 4 U of the length; the deviation of |axis| from 1 adds another 4
-// U. The tolerance of 32 U |q|_1 exceeds all sums of these errors.
+// U of the length. The tolerance of 32 U |q|_1 exceeds all sums of these errors.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
@@ -91,8 +91,8 @@ double Cylinder::surface_area() const {
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  // The cross products are accurate even if d is nearly parallel to the axis. d - (d . axis) axis would then
-  // be rounding noise in any direction.
+  // The cross products are accurate even if d is nearly parallel to the axis. For such a d, the difference d
+  // - (d . axis) axis would be rounding noise in any direction.
   const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
          radius_ * perpendicular.stableNormalized();
@@ -163,11 +163,11 @@ Mesh Cylinder::mesh() const {
                    Triad(axis_), 48);
 }
 
-// A point center + s axis + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) +
-// M v, where w is the new axis, `length` is |M axis| and e is the small error M axis - length w. The
-// projection of M v on w equals the projection of v on M' w. M' w is `length` times the old axis plus a small
-// error. Since v is perpendicular to the old axis, only the projection of v on this error is not 0. `back`
-// bounds this projection.
+// Let w be the new axis, `length` = |M axis| and e the small error M axis - length w. A point center + s axis
+// + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) + M v. The projection of
+// M v on w equals the projection of v on M' w. M' w is `length` times the old axis plus a small error. Since
+// v is perpendicular to the old axis, only the projection of v on this error is not 0. `back` bounds this
+// projection.
 Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

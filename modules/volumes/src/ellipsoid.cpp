@@ -109,9 +109,9 @@ Aabb Ellipsoid::aabb() const {
   return box_around(center_, half);
 }
 
-// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, where d_i = M'
-// a'_i - a_i and e is the rounding error of the new centre. The sum of the last two terms is at most extra_i.
-// Therefore, it suffices to multiply all radii by the factor 1 + |(extra_i / radius_i)|.
+// Let e be the rounding error of the new centre, a'_i the new axes and d_i = M' a'_i - a_i. A point center +
+// q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e. The sum of the last two terms is
+// at most extra_i. Therefore, it suffices to multiply all radii by the factor 1 + |(extra_i / radius_i)|.
 Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

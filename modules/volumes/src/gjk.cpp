@@ -23,8 +23,8 @@ Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& rotation, const Eigen::Ve
 // Tolerances of the two number types.
 //
 // `margin`: the origin is treated as inside a tetrahedron only if the determinants of any three of its
-// vertices exceed `margin`. (Coordinates are below 4 in magnitude, so the error of a determinant, a sum of
-// six products of three numbers, is at most 1e-13.)
+// vertices exceed `margin`. For double, `margin` exceeds the error of a determinant: coordinates are below 4
+// in magnitude, so the sum of six products of three numbers is off by at most 1e-13.
 //
 // `negligible_length`: shorter lengths are treated as 0.
 //
@@ -40,7 +40,8 @@ struct Precision<DoubleDouble> {
   static constexpr double margin = 0, negligible_length = 0x1p-96, rounding = 0x1p-100;
 };
 
-// Return b + delta - a. In DoubleDouble, delta + rest is the exact difference of the origins.
+// The two functions below return b + delta - a. `a` and `b` are points of the two cores. `delta` is the
+// rounded difference of the origins. delta + rest is the exact difference, which only DoubleDouble uses.
 Vector<double> difference(const Eigen::Vector3d& delta, const Eigen::Vector3d&, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& a, double) {
   return {delta[0] + (b[0] - a[0]), delta[1] + (b[1] - a[1]), delta[2] + (b[2] - a[2])};
@@ -180,11 +181,11 @@ class GjkSearch {
   Eigen::Vector3d direction_;       // initial direction, then the best direction of a search
   bool overlap_ = false;            // the bodies overlap or are nearer than bound_
   double lower_bound_ = 0;          // best proven lower bound of the distance
-  double upper_bound_ = kInfinity;  // distance of two points of the cores, up to rounding
+  double upper_bound_ = kInfinity;  // smallest distance found between points of the cores
 };
 
-// Returns numbers of one body. lower_bound() orders the bodies of a pair by these numbers, so that the order
-// of the arguments does not matter.
+// Returns the numbers by which lower_bound() orders two bodies, so that the order of its arguments does not
+// matter.
 auto key(const PosedShape& p) {
   const Eigen::Vector3d order_key = p.shape.order_key();
   return std::array{static_cast<double>(p.shape.kind),

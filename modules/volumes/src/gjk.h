@@ -34,10 +34,9 @@ enum class Goal {
   exceeds_bound,  ///< Whether the distance exceeds a bound. The search ends when this is known.
 };
 
-/// Returns a proven lower bound of the distance. If the result is 0, no positive bound was found, because the
-/// bodies overlap or their distance is within rounding errors. With Goal::exceeds_bound, the result exceeds
-/// `bound` if the distance exceeds `bound` by more than rounding errors. The order of a and b does not change
-/// the result.
+/// Returns a proven lower bound of the distance. The result is 0 if the bodies overlap or if their distance
+/// is within rounding errors. With Goal::exceeds_bound, the result exceeds `bound` if the distance exceeds
+/// `bound` by more than rounding errors. The order of a and b does not change the result.
 double lower_bound(const PosedShape& a, const PosedShape& b, Goal goal, double bound);
 
 }  // namespace pcl_bv::detail

@@ -66,8 +66,8 @@ Body body_of(const Hull& hull) {
   return body;
 }
 
-// Returns an upper bound of normal . (matrix p + shift) over all p of the hull, where `normal` is
-// plane.normal rotated by the matrix, and `transform` consists of matrix and shift. With the tiny d = matrix'
+// Returns an upper bound of normal . (matrix p + shift) over all p of the hull. `transform` consists of
+// matrix and shift. `normal` is plane.normal, rotated by the matrix and rounded. With the tiny d = matrix'
 // normal - plane.normal, the value is plane.normal . p + d . p + normal . shift. The first term is at most
 // plane.offset. The second term is at most d . middle + |d| . half_extents, where `middle` and `half_extents`
 // describe a box around the hull.

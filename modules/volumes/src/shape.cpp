@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The shapes of all kinds of volumes except k-DOPs and hulls. With U = 2^-53, three products and two sums are
-// off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum.
-// This also covers the rounding when the error bound is added. The smallest normal number covers underflow.
+// off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum,
+// which also covers the rounding when an error bound is added, plus the smallest normal number, which covers
+// underflow.
 #include "shape.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ class AabbShape final : public SupportShape {
     return ((x + y) + z) + (0x1p-50 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal);
   }
 
-  // Returns the exact distance, rounded down, from the gaps along the three axes.
+  // Computes the distance from the gaps along the three axes and rounds it down.
   Gap parallel_gap(const SupportShape& other) const override {
     const Aabb& b = static_cast<const AabbShape&>(other).box_;
     Eigen::Vector3d gap;
@@ -94,7 +95,7 @@ struct Components {
 };
 
 // Returns the dual basis q_i of the axes as columns: axis i . q_i = 1, and q_i is perpendicular to the other
-// axes. The result is the matrix of the axes after one correction of its deviation from orthonormal. This is
+// axes. Computes the basis from the axes by one correction of their deviation from orthonormal. The result is
 // accurate to 1e-24.
 Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   Eigen::Matrix3d result = axes;

@@ -46,7 +46,8 @@ class SupportShape {
   int kind = 0;       ///< index() of the AnyVolume.
 };
 
-/// Returns null for an empty volume, and for a k-DOP whose slabs are proven to have no point in common.
+/// Returns the shape of a volume. Null for an empty volume, and for a k-DOP whose slabs are proven to have no
+/// point in common.
 std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume);
 
 std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop);

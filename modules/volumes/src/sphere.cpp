@@ -41,10 +41,10 @@ Sphere around(const Sphere& big, const Sphere& small) {
   return {center, std::max(far_side(big), far_side(small))};
 }
 
-// Returns an upper limit for the computed squared distance d2 of a and b. If |a - b| <= r by exact
-// arithmetic, d2 is at most this limit, in spite of rounding. In units of 2^-53, the relative errors are 1
-// for each component of q = a - b, at most 5 for d2, and at most 3 for the limit (5 if r is itself a rounded
-// sum). The factor of 16 units covers all of them.
+// Returns an upper limit for the computed squared distance d2 of two points a and b. If the exact distance |a
+// - b| is at most r, d2 is at most this limit, in spite of rounding. In units of 2^-53, the relative errors
+// are 1 for each component of q = a - b, at most 5 for d2, and at most 3 for the limit (5 if r is itself a
+// rounded sum). The factor of 16 units covers all of them.
 double square_within_rounding(double r) {
   return r * r * (1 + 0x1p-49) + kSmallestNormal;
 }
@@ -58,7 +58,7 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 // computed in double. Let q = origin - center and U = 2^-53. The position of P is off by at most 4 U |q|, and
 // the distance h of P from the centre by another 9 U |q|. Along the line, P is at most 8 U |q|_1 from the
 // exact foot of the perpendicular. A radius that is larger by 52 U |q|_1 covers these errors. A radius that
-// is larger by 64 U |q|_1 also covers its own rounding.
+// is larger by 64 U |q|_1 also covers the rounding of this radius.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);

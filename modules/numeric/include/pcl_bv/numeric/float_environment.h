@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A guard against hosts that set flush-to-zero, which would turn a coordinate of 1e-41 into 0. Public
+// A guard against programs that set flush-to-zero, which would turn a coordinate of 1e-41 into 0. Public
 // functions that compute hold a FloatEnvironment, and so does each thread in a parallel region
 // (for_each_chunk()). Private functions hold none.
 #pragma once

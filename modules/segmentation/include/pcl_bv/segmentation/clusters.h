@@ -62,8 +62,8 @@ struct ClusterOptions {
 /// The clusters of a cloud. The largest cluster is first; clusters of equal size are ordered by their
 /// smallest point index. Within a cluster the indices are ascending. Reusing an object reuses its memory.
 struct Clusters : IndexLists {
-  std::size_t small_points = 0;  ///< Number of points in clusters with fewer than min_size points.
-  std::size_t large_points = 0;  ///< Number of points in clusters with more than max_size points.
+  std::size_t small_points = 0;  ///< Number of points in dropped clusters with fewer than min_size points.
+  std::size_t large_points = 0;  ///< Number of points in dropped clusters with more than max_size points.
   std::size_t noise_points = 0;  ///< Number of points that are neither core points nor linked to one.
   std::size_t class_points = 0;  ///< Number of points of classes that are dropped.
 };
@@ -71,10 +71,10 @@ struct Clusters : IndexLists {
 /// Finds Euclidean clusters. These are the connected components of the graph that links two points if their
 /// distance is below the tolerance.
 ///
-/// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2, where d2 = (dx*dx + dy*dy) + dz*dz
-/// and r2 = tolerance * tolerance are rounded to the scalar type of the points after each operation. So
-/// points at exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even
-/// duplicates are linked.
+/// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2. Here d2 = (dx*dx + dy*dy) + dz*dz
+/// and r2 = tolerance * tolerance, rounded to the scalar type of the points after each operation. Points at
+/// exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even duplicates
+/// are linked.
 ///
 /// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996). Linked core points are in one
 /// cluster. A border point is linked to core points but is not a core point. It belongs to the core point

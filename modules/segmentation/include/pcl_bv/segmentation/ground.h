@@ -50,13 +50,15 @@ struct SensorPosition {
   /// Whether the points lie around the position `assumed` of find_sensor(). If not, `position` is an
   /// estimate.
   bool confirmed = true;
-  double far_share = 0;  ///< Share of points that are 100 m or farther from `position`, 0 to 1.
+  /// Share of points that are 100 m or farther from `position`, 0 to 1. Computed only by find_sensor(), from
+  /// a sample of at least 100 points; otherwise 0.
+  double far_share = 0;
 };
 
 /// A cloud split into ground and other points. Reusing an object reuses its memory.
 struct GroundSplit {
   bool found = false;  ///< Whether there is a plane. If not, all valid points are in `rest`.
-  /// Unit normal of the plane, pointing up; 0 if no plane was found. The height of a point p above the plane
+  /// Unit normal of the plane, pointing up; 0 if there is no plane. The height of a point p above the plane
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
@@ -175,12 +177,12 @@ GroundSplit split_ground_by_zones(const PointView& points, const GroundZonesOpti
 ///
 /// The check uses a sample of at most 1024 valid points, without the points at (0, 0, 0), which are rays
 /// without a return. Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR
-/// are near the sensor: in recorded sweeps at least 72 % of the points are within 12.5 m of the sensor, and
-/// at most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are treated as lying
+/// are near the sensor. In recorded sweeps at least 72 % of the points are within 12.5 m of the sensor. At
+/// most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are treated as lying
 /// around `assumed` if one of these holds:
 /// - At least 5 % of the points are within 12.5 m of `assumed`.
-/// - At least 5 % are within 25 m of `assumed`, as for a sensor that is high up or looks far ahead, and no
-///   other position has half of the points within 12.5 m.
+/// - At least 5 % are within 25 m of `assumed`, and no other position has half of the points within 12.5 m.
+///   This covers a sensor that is high up or looks far ahead.
 /// - The sample has fewer than 100 points.
 ///
 /// Returns `assumed` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of

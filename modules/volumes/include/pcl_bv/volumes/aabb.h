@@ -67,9 +67,9 @@ class Aabb {
   /// Returns whether the boxes have a point in common, compared exactly. False if either box is empty.
   bool overlaps(const Aabb& other) const;
 
-  /// Returns the eight corners. Corner i has the maximum x if bit 0 of i is set, the maximum y if bit 1 is
-  /// set and the maximum z if bit 2 is set, otherwise the minimum of the coordinate. The corners of an empty
-  /// box are infinite and meaningless.
+  /// Returns the eight corners. Bits 0, 1 and 2 of i stand for x, y and z. Corner i has the maximum of a
+  /// coordinate if the bit is set, otherwise the minimum. The corners of an empty box are infinite and
+  /// meaningless.
   std::array<Eigen::Vector3d, 8> corners() const;
 
   /// Returns the box itself.
@@ -78,9 +78,9 @@ class Aabb {
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the axis-aligned box of the transformed box. The result contains every transformed point of this
-  /// box, by exact arithmetic on the stored matrix. Each max is rounded up to the next double, and each min
-  /// is rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
+  /// Returns the axis-aligned box of the transformed box. The result contains every point of this box,
+  /// transformed by the stored matrix without rounding. Each max is rounded up to the next double, and each
+  /// min is rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
   Aabb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the box to contain the point. A point with a coordinate that is not finite is ignored.

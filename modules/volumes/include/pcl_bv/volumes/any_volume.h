@@ -24,7 +24,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A volume of any kind.
 using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb, Cylinder, Capsule, Ellipsoid, Hull>;
 
-/// The functions below call the member function with the same name of the stored volume.
+/// Each function below calls the stored volume's member function of the same name.
 bool empty(const AnyVolume& volume);
 bool contains(const AnyVolume& volume, const Eigen::Vector3d& point);
 double volume(const AnyVolume& volume);

@@ -33,9 +33,10 @@ class Capsule {
   /// Returns whether the capsule has no point.
   bool empty() const { return radius_ < 0; }
 
-  /// Returns whether the capsule contains the point. Conservative: true for every point that is inside by
-  /// exact arithmetic. False for an empty capsule and for a point with a coordinate that is not finite.
-  /// Computed in double, with a tolerance of 2^-48 (|p - a|_1 + |b - a|_1 + radius) + 2^-1022 for rounding.
+  /// Returns whether the capsule contains the point. Conservative: true for every point of the capsule, in
+  /// spite of rounding errors. False for an empty capsule and for a point with a coordinate that is not
+  /// finite. Computed in double, with a tolerance of 2^-48 (|p - a|_1 + |b - a|_1 + radius) + 2^-1022 for
+  /// rounding.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;           ///< Volume in cubed units; 0 if empty.
@@ -62,9 +63,9 @@ class Capsule {
   /// are on the surface. Returns an empty mesh for an empty capsule.
   Mesh mesh() const;
 
-  /// Returns the transformed capsule. The result contains every transformed point of this capsule, by exact
-  /// arithmetic. The radius grows by the rounding error of the ends and by the scaling error of the stored
-  /// matrix.
+  /// Returns the transformed capsule. The result contains every point of this capsule, transformed by the
+  /// stored matrix without rounding. The radius grows by the rounding error of the ends and by the scaling
+  /// error of the stored matrix.
   Capsule transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -45,9 +45,9 @@ class Cylinder {
   /// Returns whether the cylinder has no point.
   bool empty() const { return radius_ < 0; }
 
-  /// Returns whether the cylinder contains the point. Conservative: true for every point that is inside by
-  /// exact arithmetic. False for an empty cylinder and for a point with a coordinate that is not finite.
-  /// Computed in double, with a tolerance of 2^-48 |p - center|_1 + 2^-1022 for rounding.
+  /// Returns whether the cylinder contains the point. Conservative: true for every point of the cylinder, in
+  /// spite of rounding errors. False for an empty cylinder and for a point with a coordinate that is not
+  /// finite. Computed in double, with a tolerance of 2^-48 |p - center|_1 + 2^-1022 for rounding.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty.
@@ -73,9 +73,9 @@ class Cylinder {
   /// surface. Returns an empty mesh for an empty cylinder.
   Mesh mesh() const;
 
-  /// Returns the transformed cylinder. The result contains every transformed point of this cylinder, by exact
-  /// arithmetic. Radius and half height grow by the rounding error of centre and axis and by the scaling
-  /// error of the stored matrix.
+  /// Returns the transformed cylinder. The result contains every point of this cylinder, transformed by the
+  /// stored matrix without rounding. Radius and half height grow by the rounding error of centre and axis and
+  /// by the scaling error of the stored matrix.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
 
   /// Returns a float copy of centre, axis and radius. The infinite cylinder of this axis and radius encloses

@@ -35,8 +35,9 @@ class Ellipsoid {
   /// Returns whether the ellipsoid has no point.
   bool empty() const { return radii_[0] < 0; }
 
-  /// Returns whether the ellipsoid contains the point. Conservative: true for every point that is inside by
-  /// exact arithmetic. False for an empty ellipsoid and for a point with a coordinate that is not finite.
+  /// Returns whether the ellipsoid contains the point. Conservative: true for every point of the ellipsoid,
+  /// in spite of rounding errors. False for an empty ellipsoid and for a point with a coordinate that is not
+  /// finite.
   ///
   /// Computed in double: each axis i . (p - center) is moved towards 0 by 2^-49 |p - center|_1 + 2^-1022, and
   /// the sum is compared with 1 + 2^-48.
@@ -57,10 +58,9 @@ class Ellipsoid {
   /// Accurate to about 1e-14 of the distance or the size, whichever is larger (Eberly 2013, with bisection).
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Both
-  /// ends of the interval lie in an ellipsoid whose radii are larger by the smaller of two numbers. Let R be
-  /// the largest radius, r the smallest radius and s = |origin - center|_1 + R. The numbers are 2^-44 * s *
-  /// R / r and 2^-21 * sqrt(s * R).
+  /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Let R
+  /// be the largest radius, r the smallest radius and s = |origin - center|_1 + R. Both ends of the interval
+  /// lie in an ellipsoid whose radii are larger by the minimum of 2^-44 * s * R / r and 2^-21 * sqrt(s * R).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns a box that encloses the ellipsoid by exact arithmetic. The box exceeds the smallest such box by
@@ -71,9 +71,9 @@ class Ellipsoid {
   /// for an empty ellipsoid.
   Mesh mesh() const;
 
-  /// Returns the transformed ellipsoid. The result contains every transformed point of this ellipsoid, by
-  /// exact arithmetic. Radii below 2^-30 of the largest radius are first raised to that value. Then all radii
-  /// grow by one factor that covers the rounding error of centre and axes.
+  /// Returns the transformed ellipsoid. The result contains every point of this ellipsoid, transformed by the
+  /// stored matrix without rounding. Radii below 2^-30 of the largest radius are first raised to that value.
+  /// Then all radii grow by one factor that covers the rounding error of centre and axes.
   Ellipsoid transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -55,11 +55,12 @@ class Hull {
   /// Returns whether this is the empty hull, without planes.
   bool empty() const { return planes_.empty(); }
 
-  /// Returns whether the hull contains the point. Conservative: true for every point that is inside by exact
-  /// arithmetic. False for an empty hull and for a point with a coordinate that is not finite. O(planes).
+  /// Returns whether the hull contains the point. Conservative: true for every point of the hull, in spite of
+  /// rounding errors. False for an empty hull and for a point with a coordinate that is not finite.
+  /// O(planes).
   ///
-  /// Computed in double: for each plane, s = (x nx + y ny) + z nz is at most the offset, with a tolerance of
-  /// 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 for rounding.
+  /// Computed in double, with s = (x nx + y ny) + z nz. The condition for each plane is s - e <= offset,
+  /// where e = 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 is the error bound.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(triangles).
@@ -92,8 +93,8 @@ class Hull {
   /// Returns vertices and triangles. The mesh of a hull of rank 2 has its polygon twice, once for each side.
   Mesh mesh() const;
 
-  /// Returns the transformed hull. Each plane moves outward by the rounding error of its normal, so that the
-  /// result contains every transformed point of this hull, by exact arithmetic on the stored matrix. If the
+  /// Returns the transformed hull. The result contains every point of this hull, transformed by the stored
+  /// matrix without rounding. For this, each plane moves outward by the rounding error of its normal. If the
   /// planes leave the hull unbounded, the result is certain to contain only the transformed points of aabb().
   /// O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;

@@ -118,11 +118,11 @@ class Kdop {
   /// Returns whether this is the empty k-DOP, with min > max.
   bool empty() const;
 
-  /// Returns whether the k-DOP contains the point. Conservative: true for every point that is inside by exact
-  /// arithmetic. False for an empty k-DOP and for a point with a coordinate that is not finite.
+  /// Returns whether the k-DOP contains the point. Conservative: true for every point of the k-DOP, in spite
+  /// of rounding errors. False for an empty k-DOP and for a point with a coordinate that is not finite.
   ///
-  /// Computed in double: for each slab, s = (x nx + y ny) + z nz lies between min and max, with a tolerance
-  /// of 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 for rounding.
+  /// Computed in double, with s = (x nx + y ny) + z nz. The conditions for each slab are s - e <= max and s +
+  /// e >= min, where e = 4 * 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022 is the error bound.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Returns the volume of the polytope in cubed units; 0 if empty or flat.
@@ -148,8 +148,8 @@ class Kdop {
   /// for a 26-DOP.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
-  /// move outward by 2^-51 of their magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
+  /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether each slab overlaps the other k-DOP's slab along the same direction, compared exactly.
@@ -182,9 +182,9 @@ class Kdop {
   /// two vertices; a point has no face.
   Mesh mesh() const;
 
-  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every
-  /// transformed point of this k-DOP, by exact arithmetic on the stored matrix. Slabs are tight to a few
-  /// units in the last place of the coordinates.
+  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every point
+  /// of this k-DOP, transformed by the stored matrix without rounding. Slabs are tight to a few units in the
+  /// last place of the coordinates.
   Kdop transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point or, if

@@ -73,8 +73,8 @@ class Obb {
   /// Returns whether the box has no point.
   bool empty() const { return half_extents_.x() < 0; }
 
-  /// Returns whether the box contains the point. Conservative: true for every point that is inside by exact
-  /// arithmetic. False for an empty box and for a point with a coordinate that is not finite.
+  /// Returns whether the box contains the point. Conservative: true for every point of the box, in spite of
+  /// rounding errors. False for an empty box and for a point with a coordinate that is not finite.
   ///
   /// Computed in double, with q = point - center and s = axis . q. The condition for each axis is |s| <= half
   /// extent + 8 * 2^-53 |q|_1 + 2^-1022.
@@ -94,14 +94,14 @@ class Obb {
   /// 0 if contains() is true for the origin.
   ///
   /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
-  /// that misses a face by less than these error bounds may be reported as a hit. Then `enter` and `exit`
-  /// move outward by 2^-51 of their magnitude plus 2^-1022.
+  /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
+  /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap by exact
-  /// arithmetic. False if either box is empty. Uses the separating axis test (Gottschalk et al. 1996). Let S
-  /// be the sum of all half extents and of |c2 - c1|_1, where c1 and c2 are the centres. A gap of at most
-  /// 4e-12 S is ignored.
+  /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap, in
+  /// spite of rounding errors. False if either box is empty. Uses the separating axis test (Gottschalk et al.
+  /// 1996). Let S be the sum of all half extents and of |c2 - c1|_1, where c1 and c2 are the centres. A gap
+  /// of at most 4e-12 S is ignored.
   bool overlaps(const Obb& other) const;
 
   /// Returns the eight corners, rounded. Corner i is on the positive side of axis 0 if bit 0 of i is set, of
@@ -115,9 +115,9 @@ class Obb {
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the transformed box. The result contains every transformed point of this box, by exact
-  /// arithmetic on the stored matrix. Half extents grow by the rounding error of axes and centre and by the
-  /// scaling error of the matrix.
+  /// Returns the transformed box. The result contains every point of this box, transformed by the stored
+  /// matrix without rounding. Half extents grow by the rounding error of axes and centre and by the scaling
+  /// error of the matrix.
   Obb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Returns a box that encloses both boxes by exact arithmetic. There are three candidates, with the axes of
@@ -125,7 +125,7 @@ class Obb {
   /// smallest volume; if volumes are equal (for example 0), the candidate with the smallest surface area. If
   /// one box encloses the other by more than rounding errors, the result is the enclosing box, unchanged. If
   /// both boxes have exactly the same third axis, as upright boxes have, the third candidate has this third
-  /// axis instead of the coordinate axes, and the axes of the result are ordered as by upright(). The order
+  /// axis instead of the coordinate axes. The axes of the result are then ordered as by upright(). The order
   /// of the two boxes does not change the result. In general, the result is not the minimum-volume box.
   Obb merged(const Obb& other) const;
 

@@ -36,10 +36,10 @@ class ConvexBody {
   bool empty() const { return !shape_; }
 
   /// Returns the body moved by `transform`. The result contains every point of this body, transformed without
-  /// rounding by the numbers in `transform`. Because of rounding errors of the coordinates, the result may be
-  /// larger than the body so transformed. If the linear part is not exactly a rotation, the result also
-  /// grows, because the radius of a round body is multiplied by an upper bound of the matrix norm. A call
-  /// takes 1.5 us for every kind of volume.
+  /// rounding by the numbers in `transform`. The result may be larger than this set of points, by the
+  /// rounding errors of the coordinates. If the linear part of `transform` is not exactly a rotation, the
+  /// radius of a round body also grows: it is multiplied by an upper bound of the matrix norm. A call takes
+  /// 1.5 us for every kind of volume.
   ///
   /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
   /// time, not the body of the previous step.
@@ -66,10 +66,10 @@ class ConvexBody {
 /// exactly. Two Kdop of equal sets are compared exactly along their directions. A Hull whose planes leave it
 /// unbounded overlaps every volume that is not empty.
 ///
-/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes these directions; see docs/numerics.md. A
-/// call for two ConvexBody takes 0.1 to 0.2 us. If one of them is a 26-DOP, the call takes 0.7 to 1.5 us; if
-/// one is a hull of 100 vertices, 1.5 to 4 us. distance() takes two to three times as long as overlaps(), and
-/// at most 4 us for round bodies.
+/// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes the directions; see docs/numerics.md. A call
+/// for two ConvexBody takes 0.1 to 0.2 us. If one of them is a 26-DOP, the call takes 0.7 to 1.5 us; if one
+/// is a hull of 100 vertices, 1.5 to 4 us. distance() takes two to three times as long as overlaps(), and at
+/// most 4 us for round bodies.
 bool overlaps(const AnyVolume& a, const AnyVolume& b);
 bool overlaps(const ConvexBody& a, const ConvexBody& b);
 

@@ -39,8 +39,9 @@ class Sphere {
   /// Returns whether the sphere has no point.
   bool empty() const { return radius_ < 0; }
 
-  /// Returns whether the sphere contains the point. Conservative: true for every point that is inside by
-  /// exact arithmetic. False for an empty sphere and for a point with a coordinate that is not finite.
+  /// Returns whether the sphere contains the point. Conservative: true for every point of the sphere, in
+  /// spite of rounding errors. False for an empty sphere and for a point with a coordinate that is not
+  /// finite.
   ///
   /// Computed in double, with q = point - center:
   /// (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 * 2^-53) + 2^-1022.
@@ -65,9 +66,9 @@ class Sphere {
   /// radius is larger by at most 2^-46 (|origin - center|_1 + radius) + 2^-510.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns whether the spheres have a point in common. Conservative: true for all spheres that overlap by
-  /// exact arithmetic. False if either sphere is empty. Tests the centre of the other sphere as contains()
-  /// tests a point, with the sum of the radii as the radius.
+  /// Returns whether the spheres have a point in common. Conservative: true for all spheres that overlap, in
+  /// spite of rounding errors. False if either sphere is empty. Tests the centre of the other sphere as
+  /// contains() tests a point, with the sum of the radii as the radius.
   bool overlaps(const Sphere& other) const;
 
   /// Returns the smallest box of doubles that encloses the sphere by exact arithmetic.
@@ -77,9 +78,9 @@ class Sphere {
   /// triangles. Returns an empty mesh for an empty sphere.
   Mesh mesh() const;
 
-  /// Returns the transformed sphere. The result contains every transformed point of this sphere, by exact
-  /// arithmetic. The radius grows by the rounding error of the centre and by the scaling error of the stored
-  /// matrix, which is rarely exactly orthonormal.
+  /// Returns the transformed sphere. The result contains every point of this sphere, transformed by the
+  /// stored matrix without rounding. The radius grows by the rounding error of the centre and by the scaling
+  /// error of the matrix, which is rarely exactly orthonormal.
   Sphere transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the sphere to the smallest sphere around this sphere and the point, plus rounding errors (the
