@@ -46,8 +46,8 @@ struct alignas(64) PointPacket {
 };
 
 /// Groups of boxes around a sequence of items, such as the packets of a PackedTree. The groups are stored
-/// level by level. On level 0, box k of group g contains item 16 g + k. On level n, it contains group 16 g +
-/// k of level n - 1. The topmost level has one group.
+/// level by level. On level 0, box k of group g contains item 16 g + k. On level n > 0, box k of group g
+/// contains group 16 g + k of level n - 1. The topmost level has one group.
 ///
 /// In the frame of the boxes, all coordinates are between -1 and 1. A point p of an item has the coordinates
 /// (p - origin) * scale in this frame. The boxes are rounded outward.
