@@ -133,7 +133,7 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   const Unsigned<Tag<float>> du;
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_REGISTER(PCL_BV_DECLARE)
-  // The first two packets may overlap, and the last two may as well. This changes no extreme.
+  // The first two packets may share points, and the last two packets as well. This changes no extreme.
   std::size_t i = 0;
   std::size_t next = second_packet<layout>(block, n);
   do {
@@ -153,7 +153,7 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   return true;
 }
 
-// Updates the lanes for doubles, whose registers always hold one axis each.
+// Updates the lanes with a block of doubles. A register of doubles always holds one axis.
 template <Layout layout>
 bool grow_over_block(const PointView& block, Lanes<double>& lanes) {
   const Tag<double> d;

@@ -49,7 +49,7 @@ inline constexpr std::size_t kBlockBounds = kBlockPoints / kBoundPoints;
 struct OctantScan {
   DistanceCenter center;
   double limit = 0;                       ///< Points with a smaller squared_distance() are ignored.
-  FloatFilter filter = FloatFilter::off;  ///< scan_octants() sets `off` if float arithmetic rejected few points.
+  FloatFilter filter = FloatFilter::off;  ///< scan_octants() sets `off` if floats rejected few points.
   float* bounds = nullptr;                ///< Null, or an array for kBlockBounds bounds (see ScanBounds).
 
   /// Result: the largest squared_distance() of the valid points in each octant around the centre. The value

@@ -80,8 +80,9 @@ double projection_lower_bound(const SupportDirections& set, std::size_t support,
 
 /// The supports of a chunk. Only the first 2 * SupportDirections::count elements of `supports` are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if all projections are below the bound.
-  std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
+  /// SupportPoint::found is false only if no valid point has a projection of at least the support's bound.
+  std::array<SupportPoint, kMaxSupports> supports{};
+  std::size_t dropped = 0;  ///< Number of points that are not valid (is_valid()).
 };
 
 /// Finds the support points of at most kChunkPoints points, which are the points with the largest exact
