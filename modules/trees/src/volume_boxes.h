@@ -42,8 +42,8 @@ class VolumeBoxes {
   /// Chooses the order of the volumes and builds the boxes. O(n log n).
   void build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy);
 
-  /// Rebuilds the boxes after the volumes have moved. The number of volumes must be the same. Their order
-  /// does not change.
+  /// Rebuilds the boxes after the volumes have moved. The number of volumes must be the same. The order of
+  /// the volumes does not change.
   void refit(const std::vector<PositionBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
