@@ -173,8 +173,8 @@ constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 /// The walk starts at the lowest level with at most 64 boxes, because testing all these boxes takes less time
 /// than testing the boxes of the levels above.
 ///
-/// The lowest set bit of visit.preferred_box(group), if any, is the box that is visited before the other
-/// boxes of the group, even if it is not near. The other boxes follow in their order.
+/// visit.preferred_box(group) returns bits. The box of the lowest set bit is visited before the other boxes
+/// of the group, even if near_boxes() excludes this box. The other boxes follow in ascending order.
 template <typename Visit>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {

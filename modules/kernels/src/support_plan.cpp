@@ -124,8 +124,8 @@ ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const Support
   center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
 
-// Tests 64 points at a time and stores the results as bits, because a branch per point costs more than its
-// arithmetic. Calls compete() for the points that pass. `address` returns the address of a point's x; y is
+// Tests 64 points at a time and stores the results as bits, because a branch per point costs more than the
+// arithmetic. Calls compete() for the points that pass. `address` returns the address of a point's x. y is
 // `gap` bytes after x, and z is `gap` bytes after y.
 template <typename T>
 template <typename Address>

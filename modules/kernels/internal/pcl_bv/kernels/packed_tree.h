@@ -60,8 +60,8 @@ struct BoxLevels {
   /// items are not the packets of a PackedTree.
   std::vector<float> min_side_radius;
   std::array<std::size_t, kMaxLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
-  /// Number of children on each level. The children are the items on level 0, and the groups of level n - 1
-  /// on level n.
+  /// Number of children of each level. The children of level 0 are the items. The children of level n > 0 are
+  /// the groups of level n - 1.
   std::array<std::size_t, kMaxLevels + 1> child_counts{};
   std::size_t levels = 0;  ///< 0 if there are no items.
   Coordinates origin{};

@@ -48,9 +48,9 @@ struct PointDistance {
 ///
 /// The points are in the order of a balanced k-d tree, 16 to a packet. Each packet has a box, each 16 boxes
 /// have a common box, and so on. Building takes about 30 ns per point on one thread, so a tree can be built
-/// for every sweep. The tree takes 18 bytes per float point or 30 bytes per double point. Its build buffers
-/// take 34 bytes per float point or 66 bytes per double point more; the tree retains them for the next
-/// assign().
+/// for every sweep. The tree takes 18 bytes per float point or 30 bytes per double point. The buffers for
+/// building take another 34 bytes per float point or 66 bytes per double point. The tree retains the buffers
+/// for the next assign().
 ///
 /// Points are identified by their index in the cloud (PointView::index()). Coordinates and distances are in
 /// the frame and unit of the points. Every query gives the result of testing all points one by one with the
