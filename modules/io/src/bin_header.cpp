@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMinFields = 3, kMaxFields = 32;
 
-// Number of floats that are checked. These are about 2000 points, which are enough and take 0.1 ms.
+// Number of floats that are checked. This is enough: about 2000 points, which take 0.1 ms.
 constexpr std::size_t kSampledFloats = 8192;
 
 // Numbers of fields that are tried in addition to the assumed number.

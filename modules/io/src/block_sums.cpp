@@ -14,12 +14,12 @@ namespace pcl_bv::detail {
 namespace {
 
 // Only the first cache line of every 4 KiB is summed. If another cloud replaces the cloud, these lines also
-// differ. The sum costs 1 % of the cheapest pass over a file in the page cache. A sum of all bytes would cost
-// half of the pass.
+// differ. Summing them costs 1 % of the cheapest pass over a file in the page cache. Summing all bytes would
+// cost half of the pass.
 constexpr std::size_t kStride = 4096;
 
-// Several lanes are computed at the same time, because each step must wait for the previous step of its lane.
-// Each step is a bijection, so a change of a single word always changes the lane.
+// Each step must wait for the previous step of its lane, so eight independent lanes are computed at the same
+// time. Each step is a bijection, so a change of a single word always changes the lane.
 std::uint16_t sum_of(const std::byte* from, std::size_t bytes) {
   constexpr std::size_t kLanes = 8;
   constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;

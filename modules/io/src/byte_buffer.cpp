@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-// Minimum size for huge pages. In a smaller block, the unused rest of the last page would be too large a
-// part.
+// Minimum size for huge pages. In a smaller block, the unused rest of the last page would be a too large part
+// of the block.
 constexpr std::size_t kMinHugeBlock = 2 * kHugePage;
 
 }  // namespace

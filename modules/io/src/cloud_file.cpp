@@ -27,7 +27,7 @@ namespace {
 // Bytes of a part of the file. When load() enters a new part, the following part is prefetched.
 constexpr std::size_t kAhead = std::size_t{8} << 20;
 
-// Maximum size in bytes of records that are used as they are, without packing their coordinates.
+// Maximum size in bytes of records that load() uses without packing their coordinates.
 constexpr std::size_t kShortRecord = 64;
 
 // Bytes of records that pack() reads at a time.

@@ -60,7 +60,7 @@ std::vector<fs::path> list_clouds(const fs::path& folder, std::size_t* subfolder
   std::error_code error;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    std::error_code ignored;  // an entry of unknown type is listed, and reading it later gives the reason
+    std::error_code ignored;  // after an error the entry is listed, and reading it gives the reason
     if (entry->path().filename().native().front() == '.') continue;
     if (entry->is_directory(ignored)) {
       ++folders;

@@ -56,7 +56,8 @@ class PointRow {
   }
 
  private:
-  // Handles value number `read` of the row (from 0), which is missing or not a number of its field's type.
+  // Handles value number `read` of the row, counted from 0. The value is missing or not a number of the
+  // field's type.
   void replace_value(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +

@@ -43,8 +43,8 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
   }
 }
 
-// Unpacks a block. Some writers store a block uncompressed if LZF does not shrink it. A block of equal packed
-// and unpacked size can also be an LZF stream that happens to have this size. Therefore LZF is tried first.
+// Unpacks a block. Some writers store a block uncompressed if LZF does not shrink it. Then the packed and the
+// unpacked size are equal. An LZF stream can have equal sizes, too. Therefore LZF is tried first.
 void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
                                       static_cast<unsigned>(unpacked.size()));

@@ -88,8 +88,8 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
     throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
                   " properties do not fit in the " + std::to_string(available) + " bytes after the header");
   }
-  // A carriage return alone also ends a row. If a line feed follows it, the text between these two characters
-  // is a blank row, which is ignored.
+  // A carriage return alone also ends a row. If a line feed follows the carriage return, the text between
+  // these two characters is a blank row, which is ignored.
   TextBody body{file, header.data_offset, true};
   for (const PlyElement& element : header.skipped)
     skip(body, element);

@@ -39,9 +39,9 @@ bool is_word(std::string_view text);
 /// is infinity or zero with the number's sign.
 double value_beyond_range(std::string_view number);
 
-/// Reads the number at the beginning of [at, end). Floating point is rounded to nearest. "nan" and "inf" are
-/// numbers. Integers must be in range. Returns the position behind the number, or null if there is no number
-/// of this type.
+/// Reads the number at the beginning of [at, end). Floating point is rounded to nearest, and "nan" and "inf"
+/// are accepted. Integers must be in range. Returns the position behind the number, or null if there is no
+/// number of this type.
 template <typename T>
 const char* parse_number(const char* at, const char* end, T& value) {
   if (end - at > 1 && at[0] == '+' && at[1] != '-') ++at;

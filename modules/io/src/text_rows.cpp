@@ -55,8 +55,8 @@ const char* read_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-// At first, a piece is read together with 1/512 of its size behind its end, because the last line of the
-// piece usually ends there.
+// At first, 1/512 of the size of a piece is read behind the end of the piece in addition, because the last
+// line of the piece usually ends there.
 constexpr std::size_t kOverhangFraction = 512;
 
 // Returns the offset behind the first line end at or after `from`, or npos.
@@ -127,9 +127,9 @@ std::size_t count_rows_one_by_one(std::string_view text) {
   return rows;
 }
 
-// Counts the rows fast, as the lines that begin with a value. If a line begins with a blank, counts byte by
-// byte instead. Counters of 8 bits, which are enough for a block of 240 bytes, let the compiler vectorise the
-// loop.
+// Counts the rows. If no line begins with a blank, these are the lines that begin with a value, which is fast
+// to count. Otherwise counts byte by byte. Counters of 8 bits, which are enough for a block of 240 bytes, let
+// the compiler vectorise the loop.
 std::size_t count_rows(std::string_view text) {
   constexpr std::size_t block = 240;
   std::size_t rows = !text.empty() && !ends_value(text[0]), others = !text.empty() && is_blank(text[0]);
@@ -152,10 +152,10 @@ std::size_t count_rows(std::string_view text) {
   return others == 0 ? rows : count_rows_one_by_one(text);
 }
 
-// Reads rows with several threads. The numbers of the rows in a piece are known only when the rows of all
-// pieces before it have been counted. Therefore the threads first count the rows of all pieces, at a tenth of
-// the cost of parsing. Then they parse each piece directly into its records. So no thread has to wait until
-// the pieces before its own have been parsed.
+// Reads rows with several threads. The number of a row is known only when the rows of all pieces before its
+// piece have been counted. Therefore the threads first count the rows of all pieces, at a tenth of the cost
+// of parsing. Then each piece is parsed directly into its records, and no thread has to wait for the parsing
+// of earlier pieces.
 class RowReader {
  public:
   RowReader(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row, std::byte* records)

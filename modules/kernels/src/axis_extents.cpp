@@ -75,12 +75,12 @@ HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, 
 // AVX-512 this increases the speed from 5.9 to 10.9 Gpt/s.
 template <Layout layout>
 std::size_t second_packet(const PointView& points, std::size_t lanes) {
-  const auto address = reinterpret_cast<std::uintptr_t>(points.data) / 4;  // in floats
+  const auto address = reinterpret_cast<std::uintptr_t>(points.data) / 4;  // in units of 4 bytes
   const std::size_t missing = (lanes - address % lanes) % lanes;
   if (reinterpret_cast<std::uintptr_t>(points.data) % 4 != 0) return lanes;
   std::size_t skipped = 0;
   if (layout == Layout::packed16 && missing % 4 == 0) skipped = missing / 4;
-  if (layout == Layout::packed12) skipped = missing * 11 % lanes;  // 11 inverts 3 modulo 4, 8 and 16
+  if (layout == Layout::packed12) skipped = missing * 11 % lanes;  // 3 * 11 = 1 modulo 4, 8 and 16
   return skipped == 0 ? lanes : skipped;
 }
 
@@ -133,7 +133,7 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   const Unsigned<Tag<float>> du;
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_REGISTER(PCL_BV_DECLARE)
-  // The first two packets may overlap, and the last two may as well. This changes no extreme.
+  // The first two packets may share points, and the last two packets as well. This changes no extreme.
   std::size_t i = 0;
   std::size_t next = second_packet<layout>(block, n);
   do {
@@ -153,7 +153,7 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   return true;
 }
 
-// Updates the lanes for doubles, whose registers always hold one axis each.
+// Updates the lanes with a block of doubles. A register of doubles always holds one axis.
 template <Layout layout>
 bool grow_over_block(const PointView& block, Lanes<double>& lanes) {
   const Tag<double> d;

@@ -23,7 +23,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Inspects the kBoundPoints points of each lane whose bound exceeds the limit of the scan.
+// Tests the kBoundPoints points of each lane whose bound exceeds the limit of the scan. Returns the number of
+// listed points.
 template <Layout layout>
 std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, const DistanceCenter& center,
                            double limit, std::uint32_t* positions) {
@@ -37,7 +38,7 @@ std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, co
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!(bounds[lane] > least)) continue;
       for (std::size_t packet = begin; packet < begin + kBoundPoints * lanes; packet += lanes) {
-        // scan_octants() loaded an incomplete last packet in order.
+        // In an incomplete last packet, scan_octants() loaded point packet + lane into the lane.
         const std::size_t i =
             packet + (packet + lanes <= block.count ? point_of_lane<layout>(lane, lanes) : lane);
         if (i >= block.count) break;

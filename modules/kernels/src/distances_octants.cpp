@@ -23,8 +23,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Tests one packet of a run that was not rejected as a whole. Returns whether no point of the packet is
-// beyond the limit in float. Always false for double points.
+// Tests one packet of a run that was not rejected as a whole. Returns true if no point of the packet is
+// beyond the limit in float. Returns false for double points.
 template <class D>
 HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D> y, V<D> z) {
   if constexpr (sizeof(hn::TFromD<D>) == 4) {

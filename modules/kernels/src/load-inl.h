@@ -193,8 +193,8 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
 }
 
 /// Same as load_packet(), but `first` may be any point. In groups, a vector that starts in the middle of a
-/// packet could extend from one coordinate into the next, so the points of such a packet are loaded one by
-/// one.
+/// packet could extend from one coordinate into the next coordinate. The points of such a packet are
+/// therefore loaded one by one.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {
@@ -265,9 +265,9 @@ HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
 }
 
 /// Loads the packet from `first` on and subtracts the centre. With `masked`, the centre replaces invalid
-/// points and fills the lanes past the end of the block. Then valid_count grows by the number of valid lanes,
-/// including the lanes past the end. Without `masked`, lanes past the end hold the centre or repeat points,
-/// which changes no extreme.
+/// points and fills the lanes past the end of the block. valid_count then grows by the number of valid points
+/// plus the number of lanes past the end. Without `masked`, lanes past the end hold the centre or repeat
+/// points, which changes no extreme.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, const T* center, V<D>& x,
                               V<D>& y, V<D>& z, [[maybe_unused]] std::size_t& valid_count) {
@@ -294,11 +294,11 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
   z = hn::Sub(z, center_z);
 }
 
-/// Prefetches the memory of a packet 8 KiB ahead. Without this, a loop with much arithmetic per packet fills
-/// the core's reorder window before its loads get far enough ahead. A 26-DOP of 1 M points on AVX-512 runs at
-/// 2.9 Gpt/s with prefetching and at 0.9 Gpt/s without. Other layouts are not prefetched. With prefetching,
-/// clouds of pcl::PointXYZI in the second-level cache would run at 0.9 instead of 1.8 Gpt/s, and clouds in
-/// memory would gain only 15 %.
+/// Prefetches the memory of a packet 8 KiB ahead. Without prefetching, a loop with much arithmetic per packet
+/// fills the core's reorder window, and loads of later packets start too late. A 26-DOP of 1 M points on
+/// AVX-512 runs at 2.9 Gpt/s with prefetching and at 0.9 Gpt/s without. Other layouts are not prefetched.
+/// With prefetching, clouds of pcl::PointXYZI in the second-level cache would run at 0.9 instead of 1.8
+/// Gpt/s, and clouds in memory would gain only 15 %.
 template <Layout layout, class D>
 HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
   if constexpr (layout == Layout::groups || layout == Layout::packed12 || layout == Layout::packed16) {

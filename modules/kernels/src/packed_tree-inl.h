@@ -166,15 +166,15 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
 constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 
 /// Walks down a tree. Calls visit.visit_packet(packet) for each packet whose box may have a point within the
-/// limit. Before the boxes of a group are visited, calls visit.test_group(group) if any of the boxes may have
-/// such a point. The groups at the start are not tested. Returns true as soon as visit_packet() or
-/// test_group() returns true, else false.
+/// limit. When the walk enters a group and any of its boxes may have such a point, first calls
+/// visit.test_group(index of the group). The groups at the start are not tested. Returns true as soon as
+/// visit_packet() or test_group() returns true, else false.
 ///
 /// The walk starts at the lowest level with at most 64 boxes, because testing all these boxes takes less time
 /// than testing the boxes of the levels above.
 ///
-/// The lowest set bit of visit.preferred_box(group), if any, is the box that is visited before the other
-/// boxes of the group, even if it is not near. The other boxes follow in their order.
+/// visit.preferred_box(group) returns bits. The box of the lowest set bit is visited before the other boxes
+/// of the group, even if near_boxes() excludes this box. The other boxes follow in ascending order.
 template <typename Visit>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {

@@ -3,10 +3,11 @@
 
 // Accumulates, in each lane, the largest projection above zero and the smallest projection below zero. Floats
 // are compared as integers. Of two positive floats, the larger float is the larger signed integer. Of two
-// negative floats, the float of larger magnitude is the larger unsigned integer. Accumulators start at zero,
-// which is inside the extent, so numbers of the other sign never win. Recent cores compute integer maxima on
-// all four vector pipes, but float maxima on only two (26-DOP, AVX-512, Zen 5: 4500 instead of 3200 Mpt/s).
-// NaN and infinity win against all numbers and so reveal an invalid point.
+// negative floats, the float of larger magnitude is the larger unsigned integer. The maximum starts at 0 and
+// the minimum at -0, so a number of the other sign never replaces them. Recent cores compute integer maxima
+// on all four vector pipes, but float maxima on only two (26-DOP, AVX-512, Zen 5: 4500 instead of 3200
+// Mpt/s). As integers, NaN and infinity exceed all finite numbers, so an invalid point is detected in the
+// result.
 
 // Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_PROJECTION_EXTREMES_INL_H_) == defined(HWY_TARGET_TOGGLE)

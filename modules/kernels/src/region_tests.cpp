@@ -48,12 +48,13 @@ void set_box(const ConvexRegion& region, RegionTest<T>& test) {
   }
 }
 
-// Returns the largest |q[k]| in the box.
+// Returns the largest |q[k]| of the points of the box, where q = p - center.
 double max_offset(const ConvexRegion& region, std::size_t k) {
   return std::max(region.center[k] - region.low[k], region.high[k] - region.center[k]);
 }
 
-// Sets the centre. Returns the part of the error of a distance that does not depend on the point.
+// Sets the centre. Returns an error bound of a distance, without the part of the error that depends on the
+// point.
 template <typename T>
 double set_center(const ConvexRegion& region, RegionTest<T>& test) {
   double lost = 0;

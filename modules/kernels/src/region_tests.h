@@ -28,7 +28,7 @@ struct RegionTest {
   bool undecidable;  ///< Coordinates are too large for sums in T, so all points in the box are unclear.
   T low[3], high[3];
   T head[3], tail[3];  ///< The centre rounded to T, and the remainder.
-  T max_offset[3];     ///< Largest |p - head| in the box, by axis.
+  T max_offset[3];     ///< Upper bound of |p - head| on each axis, for p in the box.
   SlabTest<T> slabs[3];
   T error;                       ///< Error bound of distances along axes.
   T square_inner, square_outer;  ///< For ball and rounded: squared radii, used like PlaneTest::inner.

@@ -18,9 +18,10 @@
 #include "preconditions.h"
 
 namespace pcl_bv::detail {
-// Chooses, from eight points, the one nearest to their mean. Such a point is rarely a support point. If the
-// centre were a support point, the maximum projection would be 0. Every lane would have this maximum, and all
-// points would have to be compared, which takes 0.4 us for 300 points.
+// Chooses, from up to eight valid samples, the one nearest to their mean. If no sample is valid, chooses the
+// first valid point. A sample near the mean is rarely a support point. If the centre were a support point,
+// the maximum projection would be 0. Every lane would have this maximum, and all points would have to be
+// compared, which takes 0.4 us for 300 points.
 bool central_point(const PointView& points, Coordinates& center) {
   constexpr std::size_t samples = 8;
   std::array<Coordinates, samples> sample;
@@ -62,8 +63,8 @@ SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, co
   size_ = dot3(magnitudes(scaled_), s);
   overflow_ = !(size_ <= 0.99 * greatest);  // size_ may be NaN for infinite extents
   if (set.cube) {
-    // Projections need additions only. Projections of one term keep the order of points, since x - c is
-    // monotone.
+    // Projections need additions only. Projections of one term keep the order of points, since the rounded x
+    // - c never decreases if x increases.
     const double terms = taxicab3(scaled_);
     error_ = 4 * unit * size_;
     pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size_;
@@ -123,8 +124,8 @@ ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const Support
   center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
 
-// Tests 64 points at a time and stores the results as bits, because a branch per point costs more than its
-// arithmetic. Calls compete() for the points that pass. `address` returns the address of a point's x; y is
+// Tests 64 points at a time and stores the results as bits, because a branch per point costs more than the
+// arithmetic. Calls compete() for the points that pass. `address` returns the address of a point's x. y is
 // `gap` bytes after x, and z is `gap` bytes after y.
 template <typename T>
 template <typename Address>

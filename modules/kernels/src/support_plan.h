@@ -24,9 +24,9 @@ inline double double_error(const Direction& scaled, const Coordinates& p) {
   return (0x1p-50 * dot3(magnitudes(scaled), magnitudes(p)) + 0x1p-1074 * taxicab3(p)) + kSmallestNormal;
 }
 
-/// Finds a valid point near the middle of the points. The kernels project all points relative to it. So no
-/// support is below 0, and rounding errors depend on the extent of the points, not on their position, which
-/// may be far from the origin (UTM). Returns false if no point is valid.
+/// Finds a valid point near the middle of the points. The kernels project all points relative to this point.
+/// So no maximum projection is below 0. Rounding errors then depend on the extent of the points, not on their
+/// position, which may be far from the origin (UTM). Returns false if no point is valid.
 bool central_point(const PointView& points, Coordinates& center);
 
 /// The centre and the extent of the points that a pass has projected.

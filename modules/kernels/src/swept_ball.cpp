@@ -24,8 +24,8 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
     const double position = (from[k] - boxes.origin[k]) * boxes.scale;
     size += std::abs(position);
     origin[k] = static_cast<float>(std::clamp(position, -kFar, kFar));
-    // A slope below 2^-40 in magnitude is replaced by 2^-40 or -2^-40. This moves a position by less than the
-    // margin.
+    // A slope below 2^-40 in magnitude is replaced by 2^-40 or -2^-40. Inside the boxes, this moves the ball
+    // by less than the margin.
     inverse[k] =
         static_cast<float>(1 / (slope[k] < 0 ? std::min(slope[k], -0x1p-40) : std::max(slope[k], 0x1p-40)));
   }

@@ -5,9 +5,9 @@
 // Include this header before any Highway header.
 #pragma once
 
-// SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference. The specialised targets (AVX3_DL to
-// AVX3_SPR, SVE_256 and SVE2_128) repeat the general targets. In Highway 1.0.5 or later, the NEON target
-// requires AES instructions, which a Raspberry Pi 4 lacks and no kernel uses.
+// SSE2 and SSSE3 are disabled, because they gain nothing over SSE4 and the scalar reference. The specialised
+// targets (AVX3_DL to AVX3_SPR, SVE_256 and SVE2_128) only repeat the general targets. In Highway 1.0.5 or
+// later, the NEON target requires AES instructions. No kernel uses them, and a Raspberry Pi 4 lacks them.
 #define HWY_DISABLED_TARGETS                                                                                \
   (HWY_SSE2 | HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3_ZEN4 | HWY_AVX3_SPR | PCL_BV_NEON_WITH_AES | HWY_SVE_256 | \
    HWY_SVE2_128)

@@ -19,8 +19,8 @@ namespace {
 // Number of queries that a thread takes at a time. 256 queries take about 20 us.
 constexpr std::size_t kBlock = 256;
 
-// Returns the largest useful number of threads, which is one per four blocks. To start a thread takes about
-// as long as four blocks of queries, so a thread with less work is not worth its start.
+// Returns the largest useful number of threads, which is one per four blocks. Starting a thread takes about
+// as long as four blocks of queries, so starting a thread for less work gains nothing.
 std::size_t threads_for_queries(std::size_t count) {
   return count / (4 * kBlock);
 }

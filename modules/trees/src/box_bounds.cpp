@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // All sums in this file are in double, and their terms are below a few times 1 + |point|. So the errors of
-// the sums are below 2^-45 (1 + |point|). They are negligible against the margin of 2^-20 (1 + |point|), so
-// no bound adds another margin for them.
+// the sums are below 2^-45 (1 + |point|). These errors are negligible against VolumeBoxes::margin(), which is
+// 2^-20 (1 + |point|). So no bound adds another margin for them.
 
 #include "box_bounds.h"
 

@@ -69,8 +69,9 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bou
   };
   boxes.origin = {middle(bounds.low.x, bounds.high.x), middle(bounds.low.y, bounds.high.y),
                   middle(bounds.low.z, bounds.high.z)};
-  // Clouds with a half extent of at most 2^-400 are not scaled, because the square of a larger scale would
-  // leave the range of double. So all boxes of such a cloud are nearly the same.
+  // Clouds with a half extent of at most 2^-400 are not scaled, because the square of their scale could leave
+  // the range of double. All boxes of such a cloud are nearly the same, because rounding_error_bound() is at
+  // least 2^-126.
   boxes.scale = std::ldexp(1.0, half > 0x1p-400 ? -std::ilogb(half) - 1 : 0);
 }
 

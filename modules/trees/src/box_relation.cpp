@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of three terms may be added in any order here, because the margins are a thousand times the rounding
-// errors.
+// The terms of a sum may be added in any order in this file, because the margins are a thousand times the
+// rounding errors.
 
 #include "box_relation.h"
 

@@ -35,8 +35,8 @@ bool walk(const BoxLevels& boxes, const Pick& pick, const Visit& visit) {
 
 /// Calls visit(item) for the items whose lower bound is at most limit(). visit() may lower the limit. In each
 /// group, boxes are entered in ascending order of their bounds. bounds(group) returns the bounds of the 16
-/// boxes of a group, where infinity excludes a box. If the last group has fewer boxes, the bounds of missing
-/// boxes are ignored.
+/// boxes of a group. A box with an infinite bound is never entered. If the last group has fewer boxes, the
+/// bounds of missing boxes are ignored.
 template <typename Bounds, typename Limit, typename Visit>
 void visit_nearest_first(const BoxLevels& boxes, std::size_t level, std::size_t group, const Bounds& bounds,
                          const Limit& limit, const Visit& visit) {

@@ -43,7 +43,7 @@ struct Prepared {
 };
 
 // Returns whether a point may be within `margin` of a moved volume. The result is never wrongly false. This
-// test comes before is_within() because it takes a fiftieth of the time.
+// test comes before is_within(), because it takes a fiftieth of the time of is_within().
 bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
                    double stretch, double margin) {
   if (volume.body.empty()) return false;
@@ -122,8 +122,8 @@ bool each_within(const PointTree& points, const MovingVolumes& volumes, const Ei
   return false;
 }
 
-// Calls found(i, j) for each pair of volumes within `margin` of each other, in the order of j. Stops and
-// returns true when found() returns true.
+// Calls found(i, j) for each pair of volumes within `margin` of each other, in ascending order of j and any
+// order of i. Stops and returns true when found() returns true.
 template <typename Found>
 bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                double margin, const Found& found) {

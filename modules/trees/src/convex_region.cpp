@@ -18,7 +18,7 @@ Direction direction(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Returns a margin along an axis that is larger than that of contains() of any volume type.
+// Returns a margin along an axis. It is larger than the margin of contains() of any volume type.
 double margin(double coordinate) {
   return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
 }
@@ -74,8 +74,9 @@ class Planes {
   const ConvexRegion& region() const { return region_; }
 
  private:
-  // Uses only normals exactly along the axis. A nearly aligned normal has another small component. That
-  // component matters in n . p if the coordinate of p along it is 10^16 times the other coordinates.
+  // Uses only normals exactly along the axis. A nearly aligned normal has a small component along another
+  // axis. This component matters in n . p if the coordinate of p along that axis is 10^16 times the other
+  // coordinates.
   static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) return;
     if (n[axis] == 1) high = std::min(high, offset + margin(offset));

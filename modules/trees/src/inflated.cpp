@@ -80,8 +80,8 @@ struct Inflate {
     return Hull(hull.vertices(), hull.triangles(), planes, hull.rank());
   }
 
-  // Returns the m of a nearly minimal volume. At the minimum, m^2 is the mean of the r^2 with the weights
-  // 1/R^2. Any m > 0 gives a volume that holds the inflated ellipsoid.
+  // Returns an m with which the volume is nearly minimal. At the minimum, m^2 is the mean of the r^2 with the
+  // weights 1/R^2. With any m > 0 the volume contains all points within `padding` of the ellipsoid.
   double nearly_minimal_m(const Eigen::Vector3d& radii) const {
     const double largest = radii.maxCoeff();
     if (largest == 0) return 0;

@@ -24,7 +24,7 @@ void require_rigid(const Eigen::Isometry3d& pose) {
 }
 
 // Inverts a near-rotation, with one Newton step from the transpose. The step squares the deviation from a
-// rotation, so for axes orthonormal to 1e-8 only rounding errors remain.
+// rotation. If the axes are orthonormal to 1e-8, the deviation becomes 1e-16, which is only rounding.
 Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d axes = pose.linear(), transposed = axes.transpose();
   Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
@@ -34,7 +34,7 @@ Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
 }
 
 // Returns an upper bound of |back (pose p) - p| for |p|_1 <= max_norm. The first term is for the deviation of
-// back times pose from the identity, the second for rounding.
+// the product back * pose from the identity. The second term is for rounding.
 double round_trip_error(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double max_norm) {
   const Eigen::Matrix3d deviation = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
   const double translations = taxicab3(pose.translation()) + taxicab3(back.translation());

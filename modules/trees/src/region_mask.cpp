@@ -49,8 +49,8 @@ std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volume
   return boxes;
 }
 
-// Returns the largest useful number of threads. It is one for each two chunks, which take about 50 us.
-// Starting a thread for less work is not worth it.
+// Returns the largest useful number of threads, which is one per two chunks. Two chunks take about 50 us, and
+// starting a thread for less work gains nothing.
 std::size_t threads_for_chunks(std::size_t chunks) {
   return chunks / 2;
 }

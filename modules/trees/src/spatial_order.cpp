@@ -59,7 +59,7 @@ struct Cuts {
 template <typename T>
 void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
   std::fill_n(counts, bins, 0U);
-  // Rounding may move the last item to the end of the last bin, but not beyond it.
+  // The factor is slightly too small, so that rounding cannot move an item beyond the last bin.
   const double per_length = (static_cast<double>(bins) - 0x1p-20) / side.length;
   for (std::size_t i = 0; i < run.count; ++i) {
     const double along = static_cast<double>(run.items[i].position[side.axis]) - side.low;
@@ -69,8 +69,8 @@ void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::u
   }
 }
 
-// Groups the bins into buckets. Each bin that a cut divides is a bucket by itself. All bins between two such
-// bins form one bucket. `begin` holds the first position of each bucket.
+// Groups the bins into buckets. Each bin that contains a cut position is a bucket by itself. All bins between
+// two such bins form one bucket. `begin` holds the first position of each bucket.
 struct Buckets {
   std::array<std::uint8_t, kMaxBins> of_bin;
   std::array<std::size_t, 2 * kMaxParts> begin{};
@@ -140,8 +140,9 @@ void sort_run(const ItemRun<T>& run) {
   cut_run(run, [](const ItemRun<T>& part) { sort_run(part); });
 }
 
-// Returns the number of runs that threads take. A thread takes at least 8192 items, because fewer are sorted
-// before another thread has started. Four runs per thread balance the load.
+// Returns the number of runs into which the items are cut for the threads. A thread gets at least 8192 items,
+// because one thread sorts fewer items before another thread has started. Four runs per thread balance the
+// load.
 std::size_t runs_for(std::size_t threads, std::size_t items) {
   threads = std::min(threads, items / 8192);
   return threads > 1 ? 4 * threads : 1;

@@ -70,11 +70,12 @@ struct ItemRun {
 /// Items with equal coordinates are ordered by index. A run of at most 16 items, or with all items at the
 /// same position, is not cut.
 ///
-/// Which items are in a run that is not cut depends only on the set of items. The order of the items within
-/// this run depends on their order before the sort. Neither depends on the policy.
+/// The set of items in each run that is not cut depends only on the set of all items. The order of the items
+/// within such a run also depends on their order before the sort. The set and the order do not depend on the
+/// policy.
 ///
 /// A cut takes three passes over a run. These passes find the longest side, count the items of each bin and
-/// move the items. In addition the cut partitions each bin that it divides, which is cheap for fewer than
+/// move the items. Then each bin that contains a cut position is partitioned. This is cheap for fewer than
 /// 1000 items per bin.
 template <typename T>
 class SpatialOrder {

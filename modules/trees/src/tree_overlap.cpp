@@ -10,8 +10,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Descends into those boxes of the moved tree that are near a point of the other tree, and tests the points
-// in their packets.
+// Descends into the boxes of the moved tree that are near a point of the other tree. Tests the points in the
+// packets of these boxes.
 class TreeOverlap {
  public:
   TreeOverlap(const PointTree& points, const PackedTree& moving, const Eigen::Isometry3d& pose, double margin)
@@ -53,9 +53,9 @@ class TreeOverlap {
 
 }  // namespace
 
-// The factor 1 + 2^-48 covers ten roundings, 2^-49 in all. Six are in Neighbor::squared_distance, two are in
-// this function, and two are in the argument `distance`. The square does not underflow because the error of a
-// transformed point is at least 2^-500.
+// The factor 1 + 2^-48 covers ten roundings, which together are at most 2^-49. Six are in
+// Neighbor::squared_distance, two are in this function, and two are in the argument `distance`. The square
+// does not underflow, because the error of a transformed point is at least 2^-500.
 bool any_within(const PointTree& points, const TransformedPoint& point, double distance) {
   const double limit = distance + point.error;
   return any_in_ball(points.isa(), packed_tree(points), point.position, limit * limit * (1 + 0x1p-48));

@@ -50,8 +50,8 @@ void VolumeBoxes::build(const std::vector<PositionBounds>& extents, const Parall
   const PositionBounds all = around(extents);
   SpatialOrder<double> order;
   PositionedItem<double>* const items = order.reset(extents.size());
-  // Returns the position at which volumes without a box are sorted. The position is valid even if no volume
-  // has a box, when all.low is infinite.
+  // Returns the position at which volumes without a box are sorted. If no volume has a box, all.low is
+  // infinite, but the position is still valid.
   const auto anywhere = [&](std::size_t axis) { return std::min(all.low[axis], kMaxCoordinate); };
   for (std::size_t i = 0; i < extents.size(); ++i) {
     items[i].index = static_cast<std::int64_t>(i);

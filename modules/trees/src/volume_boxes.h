@@ -42,8 +42,8 @@ class VolumeBoxes {
   /// Chooses the order of the volumes and builds the boxes. O(n log n).
   void build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy);
 
-  /// Rebuilds the boxes after the volumes have moved. The number of volumes must be the same. Their order
-  /// does not change.
+  /// Rebuilds the boxes after the volumes have moved. The number of volumes must be the same. The order of
+  /// the volumes does not change.
   void refit(const std::vector<PositionBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
@@ -56,8 +56,9 @@ class VolumeBoxes {
 
   /// Returns the margin by which queries at a coordinate x, in the frame of the boxes, extend the boxes. If a
   /// point or a ray misses the extended box of a volume, the volume cannot change the result. Rounding errors
-  /// in double are below 2^-40 of the distance and the sizes. Flat ellipsoids and sharp hulls amplify them by
-  /// less than 2^20. Volumes with a larger factor are tested without a box (see volume_tree.cpp).
+  /// in double are below 2^-40 of the distance and the sizes. Flat ellipsoids and sharp hulls amplify these
+  /// errors by less than 2^20. Ellipsoids that may amplify them more are tested for every ray (see
+  /// is_too_flat_for_rays()).
   static double margin(double x) { return 0x1p-20 * (1 + std::abs(x)); }
 
   double to_frame(double coordinate, std::size_t axis) const {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The data of a VolumeTree, which are its volumes and the bounds of its nodes.
+// The data of a VolumeTree: its volumes, the boxes around them, and the list too_flat_for_rays.
 #pragma once
 
 #include <array>

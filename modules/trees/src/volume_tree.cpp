@@ -15,7 +15,8 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Returns whether the errors of `enter` and `exit` of intersect() may exceed VolumeBoxes::margin().
+// Returns whether the rounding errors of the interval that intersect() computes may exceed
+// VolumeBoxes::margin().
 bool is_too_flat_for_rays(const AnyVolume& volume) {
   const auto* const ellipsoid = std::get_if<Ellipsoid>(&volume);
   return ellipsoid != nullptr && !ellipsoid->empty() &&

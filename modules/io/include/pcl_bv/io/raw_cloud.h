@@ -135,13 +135,13 @@ std::array<std::string_view, 3> coordinate_names(const Fields& fields) {
   return names;
 }
 
-/// Returns a view of the coordinates of `count` records, which are `point_step` bytes apart, as in a message
-/// of type sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4; FLOAT64 is 'F', 8). Nothing is copied. The view is
-/// valid as long as the data. The fields x, y and z (or X, Y and Z, see coordinate_names()) must be adjacent
-/// in this order, all float32 or all float64, in this machine's byte order. They may be anywhere in the
-/// record and need no alignment. Other fields are ignored. If `count` is 0, the view is empty. Throws
-/// std::invalid_argument for any other layout, for coordinates beyond the end of the record, and if `data` is
-/// null but `count` is not 0.
+/// Returns a view of the coordinates of `count` records, which are `point_step` bytes apart, for example the
+/// records of a sensor_msgs/PointCloud2 message. (Its FLOAT32 fields have type 'F' and size 4, its FLOAT64
+/// fields type 'F' and size 8.) Nothing is copied. The view is valid as long as the data. The fields x, y and
+/// z (or X, Y and Z, see coordinate_names()) must be adjacent in this order, all float32 or all float64, in
+/// this machine's byte order. They may be anywhere in the record and need no alignment. Other fields are
+/// ignored. If `count` is 0, the view is empty. Throws std::invalid_argument for any other layout, for
+/// coordinates beyond the end of the record, and if `data` is null but `count` is not 0.
 PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t point_step,
                          const std::vector<PointField>& fields);
 

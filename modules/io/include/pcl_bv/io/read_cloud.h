@@ -28,9 +28,9 @@ struct ReadOptions {
 };
 
 /// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() for .bin, read_las() for
-/// .las and .laz, and read_pcd() for all others. The readers of text use the threads of `execution`. No
-/// reader uses its instruction set. Throws IoError with the reason. For extensions of other known formats
-/// (meshes, recordings) the reason includes advice.
+/// .las and .laz, and read_pcd() for all others. Text files are read by the threads of `execution`;
+/// execution.isa is not used. Throws IoError with the reason. For extensions of other known formats (meshes,
+/// recordings) the reason includes advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
                     const Execution& execution = {Serial{}, Isa::scalar});
 
@@ -62,14 +62,14 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptio
 ///   becomes 0 or NaN, and RawCloud::note reports it.
 /// - Rows after the last point are an error.
 ///
-/// Further points after the last point of a binary file are not read, and RawCloud::note reports them.
-/// Further points are an error if the header says 0 points. This happens if a recorder stopped before it
-/// updated the header. RawCloud::note also reports a VIEWPOINT other than the identity, which is never
+/// Further points after the last point of a binary file are not read, and RawCloud::note reports them. If the
+/// header says 0 points but points follow, this is an error, because a recorder may have stopped before it
+/// updated the header. RawCloud::note also reports a VIEWPOINT other than the identity. A viewpoint is never
 /// applied.
 ///
-/// The threads of the execution read the rows of text. The cloud and the error are the same for any number of
-/// threads. In addition to the memory of the cloud, ascii needs 0.3 MiB per thread, or more if a row is
-/// longer. binary_compressed needs the size of the points once more.
+/// Ascii files are read by the threads of `execution`. The cloud and the error are the same for any number of
+/// threads. In addition to the memory of the cloud, an ascii file needs 0.3 MiB per thread, or more if a row
+/// is longer. A binary_compressed file needs the size of the points once more.
 ///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent or
 /// of an unsupported type.

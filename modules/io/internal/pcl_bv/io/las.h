@@ -23,11 +23,11 @@ namespace [[gnu::visibility("default")]] detail {
 /// All other values of the points are left out, such as scan angles, user data, near infrared, extra bytes
 /// and waveforms. Variable length records are not read.
 ///
-/// Files of version 1.4 or later have a 64-bit count and a legacy count of points. The 64-bit count decides.
-/// The legacy count is used only if the 64-bit count is 0 and the format is 0 to 5. A legacy count that is
-/// neither 0 nor the 64-bit count is reported in RawCloud::note. Bytes after the last point that could be
-/// further points are reported in the note, too. They are an error if the header says 0 points. The bounding
-/// box of the header is ignored.
+/// Files of version 1.4 or later have a 64-bit count and a legacy count of points. The 64-bit count is used,
+/// unless it is 0 and the format is 0 to 5. Then the legacy count is used. A legacy count that is neither 0
+/// nor the 64-bit count is reported in RawCloud::note. Bytes after the last point that could be further
+/// points are reported in the note, too. They are an error if the header says 0 points. The bounding box of
+/// the header is ignored.
 ///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent
 /// (points overlap extended records), compressed (LAZ), or of another version or point format.

@@ -17,7 +17,7 @@ namespace [[gnu::visibility("default")]] detail {
 /// type. Every property except lists becomes a field, in the order of the file, with little-endian values.
 /// Lists and other elements are left out. The cloud has height 1 and the identity as viewpoint.
 ///
-/// The header may have at most 1 MiB. The sizes in it are checked against the size of the file before
+/// The header may have at most 1 MiB. Sizes in the header are checked against the size of the file before
 /// anything is allocated. Data after the vertices is ignored, with two exceptions for files whose last
 /// element is `vertex`. Further rows of an ascii file are an error. Further vertices of a binary file are
 /// reported in RawCloud::note, unless vertices have lists. Numbers, threads and errors are as in read_pcd().

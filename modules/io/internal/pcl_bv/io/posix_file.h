@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// POSIX files, namely a class that owns a file descriptor, and a class for positional reads.
+// Classes for POSIX files. One owns a file descriptor, the other reads bytes at a given offset.
 #pragma once
 
 #include <sys/stat.h>

@@ -17,8 +17,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// x y z. Throws std::invalid_argument if the number of floats is not a multiple of three.
 RawCloud make_cloud(const std::vector<float>& xyz);
 
-/// Sets the uint32 field `name` of every point. The field replaces an existing field of this name, whatever
-/// its type. A new field is appended to the record. All other fields keep their values and order.
+/// Sets the uint32 field `name` of every point. If the cloud has a field of this name, of any type, the new
+/// field replaces it. Otherwise the new field is appended to the record. All other fields keep their values
+/// and order.
 ///
 /// Throws std::invalid_argument if there is not one value per point, or if the name is empty, contains white
 /// space, or is "_" (padding) or a coordinate (x, y, z, X, Y, Z).

@@ -51,8 +51,8 @@ inline const UntrustedJson& member(const UntrustedJson& object, const char* key)
 }
 
 /// Returns a value as text for an error message. The text is the value as JSON, cut to 40 characters. An
-/// array or object that has more than 8 elements, or an element that is a string, array or object, becomes
-/// its number of elements.
+/// array or object becomes its number of elements if it has more than 8 elements, or if one of its elements
+/// is a string, array or object.
 inline std::string abbreviated(const UntrustedJson& value) {
   constexpr std::size_t few = 8;
   const auto is_long = [](const UntrustedJson& part) { return part.is_structured() || part.is_string(); };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the axis-aligned bounding box of a cloud, but not the points that touch it.
+// Finds the axis-aligned bounding box of a cloud, but not the points that touch the box.
 #pragma once
 
 #include <array>

@@ -30,10 +30,10 @@ struct DistanceCenter {
 double squared_distance(const Coordinates& p, const DistanceCenter& center);
 
 /// Whether float arithmetic rejects points before double arithmetic decides. The choice changes the speed and
-/// OctantScan::bounds, but no other result. `reject` is faster if most blocks are clearly within the limit.
-/// It is not faster if nearly all points have about the same distance from the centre. Use `reject` for
-/// extents from 1e-30 to 1e18. For other extents, squares of floats underflow or overflow, and double
-/// arithmetic decides about every point anyway.
+/// OctantScan::bounds, but no other result. `reject` is faster if most blocks are clearly within the limit,
+/// but not if nearly all points have about the same distance from the centre. Use `reject` for extents from
+/// 1e-30 to 1e18. For other extents, squares of floats underflow or overflow, and double arithmetic decides
+/// about every point anyway.
 enum class FloatFilter : std::uint8_t { off, reject };
 
 /// Returns the number of blocks of a cloud. The last block may be shorter than kBlockPoints.
@@ -49,7 +49,7 @@ inline constexpr std::size_t kBlockBounds = kBlockPoints / kBoundPoints;
 struct OctantScan {
   DistanceCenter center;
   double limit = 0;                       ///< Points with a smaller squared_distance() are ignored.
-  FloatFilter filter = FloatFilter::off;  ///< scan_octants() sets it to `off` if floats rejected few points.
+  FloatFilter filter = FloatFilter::off;  ///< scan_octants() sets `off` if floats rejected few points.
   float* bounds = nullptr;                ///< Null, or an array for kBlockBounds bounds (see ScanBounds).
 
   /// Result: the largest squared_distance() of the valid points in each octant around the centre. The value
@@ -76,10 +76,10 @@ struct ScanBounds {
 /// kBlockPoints.
 ///
 /// All such points are listed, with two exceptions. Points whose squared_distance() from the centre of the
-/// scan is below scanned.limit and points with an infinite coordinate may be missing. The function is fast if
-/// only a small number of the bounds exceeds scanned.limit. `isa` must be the one with which the bounds were
-/// written. Throws like scan_octants(). Also throws std::invalid_argument for double points and for null
-/// bounds.
+/// scan is below scanned.limit may be missing. Points with an infinite coordinate may be missing, too. The
+/// function is fast if only a small number of the bounds exceeds scanned.limit. `isa` must be the instruction
+/// set with which scan_octants() wrote the bounds. Throws like scan_octants(). Also throws
+/// std::invalid_argument for double points and for null bounds.
 std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
 

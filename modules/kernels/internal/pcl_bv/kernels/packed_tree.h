@@ -46,8 +46,8 @@ struct alignas(64) PointPacket {
 };
 
 /// Groups of boxes around a sequence of items, such as the packets of a PackedTree. The groups are stored
-/// level by level. On level 0, box k of group g contains item 16 g + k. On level n, it contains group 16 g +
-/// k of level n - 1. The topmost level has one group.
+/// level by level. On level 0, box k of group g contains item 16 g + k. On level n > 0, box k of group g
+/// contains group 16 g + k of level n - 1. The topmost level has one group.
 ///
 /// In the frame of the boxes, all coordinates are between -1 and 1. A point p of an item has the coordinates
 /// (p - origin) * scale in this frame. The boxes are rounded outward.
@@ -60,8 +60,8 @@ struct BoxLevels {
   /// items are not the packets of a PackedTree.
   std::vector<float> min_side_radius;
   std::array<std::size_t, kMaxLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
-  /// Number of children on each level. The children are the items on level 0, and the groups of level n - 1
-  /// on level n.
+  /// Number of children of each level. The children of level 0 are the items. The children of level n > 0 are
+  /// the groups of level n - 1.
   std::array<std::size_t, kMaxLevels + 1> child_counts{};
   std::size_t levels = 0;  ///< 0 if there are no items.
   Coordinates origin{};

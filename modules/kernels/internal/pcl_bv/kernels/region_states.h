@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tests which points are inside at least one of several convex regions, in the scalar type of the points. A
-// point stays undecided only if it is within the error bound of a surface, or if it is in the box of a region
-// whose coordinates are too large to be summed without overflow.
+// Tests which points are inside at least one of several convex regions, in the scalar type of the points.
+// Most points are decided. A point stays undecided only if it is within the error bound of a surface, or if
+// it is in the box of a region whose coordinates are too large to be summed without overflow.
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@ struct ConvexRegion {
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// Error bound of the other members. The surface that they describe may be off the true surface by at most
-  /// surface_error + 2^-43 (|q|_1 + radius).
+  /// Error bound of the other members. The surface that these members describe may be off the true surface by
+  /// at most surface_error + 2^-43 (|q|_1 + radius).
   double surface_error = 0;
 
   std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11, like the normals of planes.

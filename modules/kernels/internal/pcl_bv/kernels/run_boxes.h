@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// Number of points in a run. One coordinate of a run of floats fills four AVX-512 vectors.
 inline constexpr std::size_t kRunPoints = 64;
 
-/// Minimum and maximum of each coordinate of a run, rounded outward to float for double points. low is
-/// +infinity and high -infinity if all values of a coordinate are NaN.
+/// Minimum and maximum of each coordinate of a run. For double points they are rounded outward to float. low
+/// is +infinity and high -infinity if all values of a coordinate are NaN.
 struct RunBox {
   float low[3], high[3];
 };

@@ -26,8 +26,8 @@ inline constexpr std::size_t kMaxSupports = 2 * kMaxSupportDirections;
 
 /// The directions of chunk_supports(). Each direction k has two supports. Support 2k belongs to the minimum
 /// projection on direction k, and support 2k + 1 to the maximum projection. The minimum is computed as the
-/// maximum projection on the opposite direction. So each support is the maximum projection on its
-/// support_direction().
+/// maximum projection on the opposite direction. So each support is the point with the maximum projection on
+/// its support_direction().
 struct SupportDirections {
   std::size_t count = 0;
   std::array<Direction, kMaxSupportDirections> exact{};
@@ -62,9 +62,9 @@ struct SupportPoint {
 /// or if both projections are equal and the index of `other` is smaller.
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best);
 
-/// Known lower bounds of a cloud's supports, one per support. A point of the cloud is already known whose
-/// projection on the scaled_support_direction() is certainly at least the bound. So points with smaller
-/// projections need not be found. The bound is -infinity if no point is known.
+/// Known lower bounds of a cloud's supports, one per support. If the bound of a support is finite, the cloud
+/// has a known point whose projection on the scaled_support_direction() is certainly at least the bound.
+/// Points with smaller projections need not be found. The bound is -infinity if no such point is known.
 using SupportBounds = std::array<double, kMaxSupports>;
 
 /// Returns -infinity for each support, which means that no bound is known.
@@ -80,14 +80,15 @@ double projection_lower_bound(const SupportDirections& set, std::size_t support,
 
 /// The supports of a chunk. Only the first 2 * SupportDirections::count elements of `supports` are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found only if no valid point reaches the bound.
-  std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
+  /// SupportPoint::found is false only if no valid point has a projection of at least the support's bound.
+  std::array<SupportPoint, kMaxSupports> supports{};
+  std::size_t dropped = 0;  ///< Number of points that are not valid (is_valid()).
 };
 
 /// Finds the support points of at most kChunkPoints points, which are the points with the largest exact
 /// projections. If several points have the largest projection, the one with the smallest index is the support
-/// point. A support that is at least its bound in `bounds` is found and is the same for every `isa`. Whether
-/// a support below its bound is found depends on `isa`.
+/// point. If the projection of the support point is at least the support's element of `bounds`, the support
+/// point is found and is the same for every `isa`. Otherwise, whether it is found depends on `isa`.
 ///
 /// O(n * count). If floats overflow or underflow, all points are compared exactly, which is slow. Floats
 /// overflow for extents above 1e38. Without SupportDirections::cube, they underflow for extents below 1e-43.

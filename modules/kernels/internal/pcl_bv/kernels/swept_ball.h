@@ -36,7 +36,7 @@ struct SweptBall {
   float latest_entry(double t) const { return static_cast<float>(t * time * (1 + 0x1p-16)) + margin; }
 };
 
-/// Receives the points that visit_along() finds.
+/// The interface through which visit_along() passes the points that it finds.
 class PacketVisitor {
  public:
   /// Called with the index of a packet and with one bit per point of the packet. The bit is set if the ball

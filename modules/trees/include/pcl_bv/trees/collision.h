@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Collision checks between two point clouds, a cloud and volumes, or two lists of volumes. A pose moves one
-// of the two.
+// Collision checks between two point clouds, a cloud and volumes, or two lists of volumes. A pose moves the
+// second argument of each check.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -48,15 +48,15 @@ struct PointDistance {
 ///
 /// The points are in the order of a balanced k-d tree, 16 to a packet. Each packet has a box, each 16 boxes
 /// have a common box, and so on. Building takes about 30 ns per point on one thread, so a tree can be built
-/// for every sweep. The tree takes 18 bytes per float point or 30 bytes per double point. Its build buffers
-/// take 34 bytes per float point or 66 bytes per double point more; the tree retains them for the next
-/// assign().
+/// for every sweep. The tree takes 18 bytes per float point or 30 bytes per double point. The buffers for
+/// building take another 34 bytes per float point or 66 bytes per double point. The tree retains the buffers
+/// for the next assign().
 ///
 /// Points are identified by their index in the cloud (PointView::index()). Coordinates and distances are in
 /// the frame and unit of the points. Every query gives the result of testing all points one by one with the
-/// double expression that its documentation states. Boxes only skip points that cannot change the result. So
-/// the result is the same for every Execution, and no point is missed. Queries of a tree without points find
-/// nothing.
+/// double expression that the documentation of the query states. Boxes only skip points that cannot change
+/// the result. So the result is the same for every Execution, and no point is missed. Queries of a tree
+/// without points find nothing.
 ///
 /// Const member functions may be called from several threads at the same time.
 class PointTree {
@@ -79,8 +79,8 @@ class PointTree {
   /// unchanged. If memory runs out, the tree is empty.
   void assign(const PointView& points, const Execution& execution = {});
 
-  /// Moves the points, i.e. reads the new coordinates of the same indices from `cloud` (a view without
-  /// indices). O(n), without allocation.
+  /// Moves the points: reads their new coordinates from `cloud`, at the same indices. `cloud` must not have
+  /// an index list. O(n), without allocation.
   ///
   /// Queries give the same results as on a new tree. A new tree is faster to query if the points have moved
   /// far. A point that is not valid in `cloud` is not found by any query until a later refit() gives it valid
@@ -115,8 +115,8 @@ class PointTree {
   /// errors are as for nearest().
   bool any_near(const Eigen::Vector3d& point, double distance) const;
 
-  /// Returns whether contains() of the volume holds for any point. Returns false for an empty volume. For a
-  /// view frustum, frustum.h makes a Hull.
+  /// Returns whether contains() of the volume holds for any point. Returns false for an empty volume.
+  /// frustum.h converts a view frustum to a Hull.
   bool any_inside(const Sphere& sphere) const;
   bool any_inside(const AnyVolume& volume) const;
 
@@ -138,9 +138,9 @@ class PointTree {
   /// direction, t >= 0.
   ///
   /// The point has the smallest `enter` of Sphere(point, radius).intersect(origin, direction), and among
-  /// equals the smallest index. For a ray, use a small radius. If the direction is zero, the sphere stays at
-  /// the origin. Returns nothing if the origin or the direction is not finite. Throws std::invalid_argument
-  /// unless the radius is from 0 to 1e100.
+  /// equals the smallest index. For a ray, use a small radius. If the direction is zero, returns the point
+  /// with the smallest index in the sphere at the origin, with t = 0. Returns nothing if the origin or the
+  /// direction is not finite. Throws std::invalid_argument unless the radius is from 0 to 1e100.
   std::optional<PointHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     double radius) const;
 

@@ -19,7 +19,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// The inflated volume has the same type. It contains every point within `padding` of the volume. Rounding
 /// excludes no such point, because the inflated sizes are rounded up. An empty volume stays empty.
-/// - Sphere and Capsule: the radius grows by the padding. The result holds no other points.
+/// - Sphere and Capsule: the radius grows by the padding. Except for rounding, no point of the inflated
+///   volume is farther from the volume than the padding.
 /// - Aabb and Obb: the half extents grow by the padding, so corners stay sharp.
 /// - Cylinder: the radius and the half height grow by the padding.
 /// - Kdop and Hull: each plane moves outward by the padding. The edge between two planes at an interior angle
@@ -44,8 +45,8 @@ class RegionMask {
   explicit RegionMask(const std::vector<Region>& regions);
 
   /// Returns whether contains() holds for any of the inflated volumes. With padding 0 these are the volumes
-  /// themselves. Points within rounding of a surface may be treated as inside, as contains() of each type
-  /// documents. Returns false if is_valid() does not hold for the point.
+  /// themselves. A point outside that is nearer to a surface than the rounding error may be treated as
+  /// inside, as contains() of each type documents. Returns false if is_valid() does not hold for the point.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Resizes `inside` to points.count. Sets inside[i] to 1 if contains() holds for the i-th visited point,

@@ -46,9 +46,9 @@ struct Ray {
 /// ascending order of index. Empty volumes are never found.
 ///
 /// The volumes are in the order of a balanced k-d tree of their centres. Each 16 volumes have a common box,
-/// each 16 boxes have a common box, and so on. Volumes without a known box, such as hulls whose planes bound
-/// no body, are tested in every query. Ellipsoids with a radius more than 2^20 times another are tested for
-/// every ray.
+/// each 16 boxes have a common box, and so on. Some volumes have no known box, namely a Kdop or Hull that
+/// lacks, for one of the six sides, a plane perpendicular to the axis. These volumes are tested in every
+/// query. Ellipsoids with a radius more than 2^20 times another are tested for every ray.
 ///
 /// Const member functions may be called from several threads at the same time. Copies are independent.
 class VolumeTree {
