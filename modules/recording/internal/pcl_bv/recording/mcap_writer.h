@@ -34,7 +34,7 @@ class McapWriter final : public RecordingWriter {
   McapWriter(const std::filesystem::path& file, const Options& options);
 
   /// Calls close() if a message or attachment was written, and ignores errors of close(). If nothing was
-  /// written, an existing file keeps its old content, and a file that this object created is removed.
+  /// written, a file that this object created is removed, and a file that existed before keeps its content.
   ~McapWriter() override;
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;

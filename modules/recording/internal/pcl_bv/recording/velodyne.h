@@ -27,7 +27,7 @@ struct VelodynePoint {
 struct VelodyneSweep {
   std::int64_t stamp_ns = 0;  ///< Capture time of the first packet, nanoseconds since 1970.
   std::vector<VelodynePoint> points;
-  std::size_t sensor = 0;  ///< Number of the sensor, counted from 0 in the order of the first packets.
+  std::size_t sensor = 0;  ///< Number of the sensor, from 0, in the order of the sensors' first packets.
 };
 
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns.
@@ -45,9 +45,9 @@ bool is_capture(const std::filesystem::path& file);
 /// Sensors are distinguished by source address, destination port and model. If several sensors have all three
 /// in common, their packets are distinguished by azimuth: the azimuth of each sensor advances steadily.
 ///
-/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth. Only in a VLP-16, the
-/// azimuth of a block's second firing is interpolated between two blocks. Sources: the sensors' manuals
-/// (63-9243, 63-9113, 63-9325).
+/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth. There are two
+/// additions. The second firing of a VLP-16's block is half the rotation per block further. Each beam of a
+/// VLP-32C has a constant azimuth offset. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
   /// Opens a capture. `sensor` (source address and destination port, such as "192.168.1.201:2368") restricts
