@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of partial results. A file has the contribution of a part of a cloud (a share) to the volumes of the
-// whole cloud. All files are merged on one machine.
+// Files of partial results. The points of a cloud are divided into shares. A file has the contribution of one
+// share to the volumes of the whole cloud. All files are merged on one machine.
 #pragma once
 
 #include <Eigen/Core>
