@@ -36,7 +36,7 @@ class Scan {
         loose_ = false;
         index_.parts.push_back(known->second);
         remaining_chunks_.erase(at);
-        at = std::max(end_of_chunk(*known), at + kRecordStart);  // `at` must increase even for a wrong summary
+        at = std::max(end_of_chunk(*known), at + kRecordStart);  // must exceed the old `at`
         previous = at - 1;
         continue;
       }

@@ -195,7 +195,7 @@ struct VelodyneReader::State {
   std::map<std::uint64_t, Address> addresses;
   std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;              // about packets; rewind() keeps them, because a new pass finds no others
+  WarningList warnings;              // about packets; rewind() keeps them, so that no pass adds one twice
   std::uint64_t warnings_added = 0;  // number of warnings of `packets` that are in `warnings`
   std::optional<std::size_t> warnings_before_note;  // number of `warnings` that precede sensors_note
   std::string sensors_note;

@@ -15,7 +15,7 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Writes an MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) chunk by chunk. Each chunk
+/// Writes an MCAP file chunk by chunk (https://mcap.dev/spec, profile "ros2", messages in CDR). Each chunk
 /// has a CRC and is followed by its message indexes. If the process ends unexpectedly, all chunks except the
 /// unfinished one can be read. close() adds the summary, which has schemas, channels, statistics, and an
 /// index of chunks and attachments.

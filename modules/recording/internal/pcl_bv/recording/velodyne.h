@@ -50,10 +50,11 @@ bool is_capture(const std::filesystem::path& file);
 /// VLP-32C has a constant azimuth offset. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
-  /// Opens a capture. `sensor` (source address and destination port, such as "192.168.1.201:2368") restricts
-  /// the reader to the packets of one sensor. Throws IoError if the file is not a capture or has no packet of
-  /// a supported sensor. Throws std::invalid_argument if the capture has packets of other sensors but not of
-  /// `sensor`. The message names these other sensors.
+  /// Opens a capture. If `sensor` is empty, reads the packets of all sensors. Otherwise `sensor` is a source
+  /// address and destination port, such as "192.168.1.201:2368", and other packets are skipped. Throws
+  /// IoError if the file is not a capture or has no packet of a supported sensor. Throws
+  /// std::invalid_argument if the capture has packets of other sensors but not of `sensor`. The message names
+  /// these other sensors.
   explicit VelodyneReader(const std::filesystem::path& file, const std::string& sensor = {});
   ~VelodyneReader();
   VelodyneReader(const VelodyneReader&) = delete;
