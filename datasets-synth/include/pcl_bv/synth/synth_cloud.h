@@ -20,7 +20,7 @@ struct SynthCloud {
   std::vector<std::uint32_t> ground;      ///< 1 for a return from the ground, else 0.
   std::vector<std::uint32_t> vegetation;  ///< 1 for a return from grass, else 0. Rural road only.
   std::vector<std::uint32_t> kind;        ///< 1 + the SynthObjectKind; 0: no object. Rural road only.
-  std::size_t height = 1;                 ///< Number of rows, stored row by row. A sweep has one per beam.
+  std::size_t height = 1;                 ///< Number of rows. A sweep has one row per beam, stored row by row.
 
   std::size_t size() const { return xyz.size() / 3; }  ///< Number of points.
 };
