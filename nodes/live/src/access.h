@@ -20,8 +20,8 @@ struct Address {
 /// free port. Throws std::invalid_argument for any other text.
 Address parse_address(const std::string& text);
 
-/// Returns whether a request's header Host ("localhost:8765") can mean this server. The host must be a
-/// numeric address, localhost, this machine's name (also with ".local") or the host that the server was
+/// Returns whether a request's header Host, such as "localhost:8765", can mean this server. The host must be
+/// a numeric address, localhost, this machine's name (also with ".local") or the host that the server was
 /// started with. Other names are refused to prevent DNS rebinding. In this attack a foreign name resolves to
 /// this machine, so that a browser treats the foreign page and this server as one site.
 bool is_server_host(std::string_view header, const Address& server);
