@@ -74,9 +74,10 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
   /// Builds the tree of the cloud's valid points, or of those at `indices`. The tree holds a copy of the
-  /// points, so the cloud may change afterwards. Both pointers are stored, because queries by index read the
-  /// cloud. If the cloud is null or has no valid point, all results are empty. O(n log n). Throws
-  /// std::out_of_range for an index outside the cloud, and then changes nothing.
+  /// points, so the cloud may change afterwards. The search also stores `cloud` and `indices`, because
+  /// queries by index read the query point from the cloud. If the cloud is null or has no valid point, all
+  /// results are empty. O(n log n). Throws std::out_of_range for an index outside the cloud, and then changes
+  /// nothing.
   void setInputCloud(const PointCloudConstPtr& cloud,
                      const IndicesConstPtr& indices = IndicesConstPtr()) override {
     tree_.assign(!cloud    ? PointView()
