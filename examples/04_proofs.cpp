@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Proves by exact arithmetic that no point is outside a volume, and that no enclosing sphere is smaller than
-// the fitted sphere by more than 1e-12 of the radius.
+// Proves by exact arithmetic that no point is outside a volume. Also proves that no enclosing sphere is
+// smaller than the fitted sphere by more than 1e-12 of the radius.
 #include <pcl_bv/core.h>
 
 #include <iostream>
