@@ -37,7 +37,7 @@ struct VolumeEntry {
 /// A tracked object.
 struct TrackEntry {
   std::uint32_t id = 0;  ///< Unique. It is never reused for another object.
-  std::size_t age = 0;   ///< Number of frames from the first detection until now, both included.
+  std::size_t age = 0;   ///< Number of frames from the first detection until now, both frames included.
   /// Velocity in units of the points per second. It is in the fixed frame if the sensor's pose is known.
   /// Otherwise it is relative to the sensor, in the sensor's frame.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();

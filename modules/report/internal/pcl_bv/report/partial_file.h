@@ -28,7 +28,7 @@ struct PartialFile {
   /// Value of `inputs_hash` for a cloud without inputs. It is the offset basis of FNV-1a.
   static constexpr std::uint64_t kEmptyInputsHash = 0xcbf29ce484222325;
 
-  /// FNV-1a hash of the names and numbers of points of the inputs (see add_input()).
+  /// FNV-1a hash of each input's name and number of points (see add_input()).
   std::uint64_t inputs_hash = kEmptyInputsHash;
   std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
