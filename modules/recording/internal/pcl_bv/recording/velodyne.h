@@ -45,9 +45,9 @@ bool is_capture(const std::filesystem::path& file);
 /// Sensors are distinguished by source address, destination port and model. If several sensors have all three
 /// in common, their packets are distinguished by azimuth: the azimuth of each sensor advances steadily.
 ///
-/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth. There are two
-/// additions. The second firing of a VLP-16's block is half the rotation per block further. Each beam of a
-/// VLP-32C has a constant azimuth offset. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
+/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth, with two exceptions.
+/// For the second firing of a VLP-16's block, half the rotation per block is added. For each beam of a
+/// VLP-32C, the beam's azimuth offset is added. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
   /// Opens a capture. If `sensor` is empty, reads the packets of all sensors. Otherwise `sensor` is a source
