@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Proves by exact arithmetic that no point is outside a volume, and that no enclosing sphere is smaller than
-// the fitted sphere by more than 1e-12 of the radius.
+// Proves by exact arithmetic that no point is outside a volume. Also proves that no enclosing sphere is
+// smaller than the fitted sphere by more than 1e-12 of the radius.
 #include <pcl_bv/core.h>
 
 #include <iostream>
@@ -25,7 +25,7 @@ int main() {
   }
 
   const auto sphere = pcl_bv::fit_smallest_sphere(points);
-  const double least = sphere.certificate.lower_bound;  // needed to enclose only one to four of the points
+  const double least = sphere.certificate.lower_bound;  // radius for certain points, at most four
   std::cout << "radius " << sphere->radius() << "; no enclosing sphere has a radius below " << least << "\n";
   return outside == 0 && sphere->radius() <= least * (1 + 1e-12) ? 0 : 1;
 }

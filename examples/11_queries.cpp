@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Five queries of one sweep: the nearest point, the points in view, a collision along a path, the hit of a
-// ray and the contact of a robot arm.
+// Makes five queries of one sweep: the nearest point, the points in view, a collision along a path, the hit
+// of a ray and the contact of a robot arm.
 #include <pcl_bv/trees/collision.h>
 #include <pcl_bv/trees/point_tree.h>
 #include <pcl_bv/volumes/frustum.h>

@@ -12,7 +12,8 @@ namespace pcl_bv::detail {
 SplitMix64::SplitMix64(std::initializer_list<std::uint64_t> keys) : state_(0) {
   for (const std::uint64_t key : keys)
     state_ = next() ^ key;
-  // Mix the last key too, because initial states that differ by one would give overlapping streams.
+  // Mix the last key, too. Otherwise keys that differ by a multiple of the increment in next() could give
+  // overlapping streams.
   state_ = next();
 }
 

@@ -127,8 +127,8 @@ Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, doub
   if (grass > 0 && random.uniform() < kGrassProbability) {
     const double blade = grass * random.uniform(0.2, 1);
     double back = std::min(blade / std::max(descent_rate, 0.02), 1.5);
-    // Where the ground falls towards the sensor, as in a ditch, the ray may be above the grass at the range
-    // hit.range - back.
+    // `back` assumes level ground. Where the ground falls towards the sensor, as in a ditch, the ray may be
+    // above the grass at the range hit.range - back. Then reduce `back`.
     while (back > 0.01 && above(hit.range - back) > grass)
       back *= 0.5;
     return {hit.range - back + noise, ReturnKind::grass};

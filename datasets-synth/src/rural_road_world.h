@@ -53,7 +53,7 @@ double driven_distance(std::uint64_t seed, double seconds);
 
 class World {
  public:
-  /// Creates the world around the distance `along`, for points within 100 m of the road's point there.
+  /// Creates the world for points within 100 m of the road's point at the distance `along`.
   World(std::uint64_t seed, double along);
 
   Road road;

@@ -90,8 +90,9 @@ PlacedObject place(std::uint64_t seed, double seconds, std::size_t row_number, s
   const double along = (static_cast<double>(slot) + 0.5) * row.spacing + row.shift +
                        random.uniform(-row.jitter, row.jitter) + (row.speed - ego_speed) * seconds;
   const double across = road_center + row.side;
-  // A moving object faces its direction of motion. Other objects face forward right of the road's middle and
-  // backward left of it, so that parked cars point in their lane's direction and houses face the road.
+  // A moving object faces its direction of motion. Static objects on the right side of the road face forward,
+  // and those on the left side face backward. Parked cars then point in their lane's direction. The fronts of
+  // houses, which are on the left of their forward axis, face the road.
   const bool backward = row.speed != 0 ? row.speed < 0 : row.side > 0;
   const double yaw = backward ? std::numbers::pi : 0;
   PlacedObject object;

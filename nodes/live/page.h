@@ -9,8 +9,8 @@
 namespace pcl_bv::detail {
 
 /// Returns the page as one HTML file, which page/bundle.cmake assembles from the files in page/. The page
-/// connects to the server that it was loaded from. If the text kPageData in the page is replaced by an
-/// element with the id "data" that contains one frame, the page shows this frame and does not connect.
+/// connects to the server that it was loaded from. To show one frame without a connection, replace the
+/// text kPageData in the page by an element with the id "data" that contains this frame.
 std::string_view live_page();
 
 inline constexpr std::string_view kPageData = "<!-- data -->";

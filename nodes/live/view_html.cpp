@@ -42,8 +42,8 @@ class PagePoints {
   PagePoints(const Frame& frame, const std::vector<std::uint32_t>& labels, const Eigen::Vector3d& origin)
       : frame_(frame), labels_(labels), origin_(origin) {}
 
-  /// Adds at most `max_points` points, chosen evenly by index. Reads the cloud in chunks, because it may be
-  /// in a file.
+  /// Adds at most `max_points` points, chosen evenly by index. Reads the cloud in chunks, because the
+  /// cloud may be in a file.
   void add_all(std::size_t max_points) {
     const std::size_t count = frame_.points.count, wanted = std::min(count, max_points);
     std::size_t number = 0;

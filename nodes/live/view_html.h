@@ -19,8 +19,8 @@ namespace pcl_bv::detail {
 inline constexpr std::size_t kMaxPagePoints = 500'000;
 
 /// Returns the page as HTML. `labels` is the result of labels_of(). If it is empty, all points belong to
-/// cluster 0. Coordinates are stored as float32 relative to the middle of all volumes, which is rounded to
-/// whole numbers.
+/// cluster 0. Coordinates are stored as float32 relative to an origin. The origin is the centre of the
+/// axis-aligned box of all volumes, rounded to whole numbers.
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
                       const std::vector<std::uint32_t>& labels, std::size_t max_points = kMaxPagePoints);
 

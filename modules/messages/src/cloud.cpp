@@ -157,8 +157,8 @@ struct Selection {
 
 Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) {
   Selection selection;
-  // Limits the new record to twice the size of the old record. Overlapping fields are allowed, because a
-  // colour often has two names, but a damaged message could repeat the whole record many times.
+  // Limits the new record to twice the size of the old record. Fields may overlap, because a colour often has
+  // two names. Without a limit, each field of a damaged message could repeat the whole record.
   const std::size_t max_bytes = 2 * std::size_t{cloud.point_step};
   const std::uint32_t size = coordinate_size(xyz);
   std::size_t bytes = 0, offset = 0;

@@ -38,7 +38,8 @@ struct BagRecordLocation {
   std::uint64_t data = 0, size = 0;
 };
 
-// Maximum bytes of any header (a topic's name, a few numbers), and of a chunk's header (compression, size).
+// Maximum bytes of a header. Most headers have a topic's name and a few numbers. The header of a chunk has
+// only the compression and the size.
 constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
 
 class BagReader final : public ChunkedReader {
@@ -198,7 +199,8 @@ class BagReader final : public ChunkedReader {
   }
 
   // Returns the position of the chunk whose header contains the bytes [begin, end). The search goes backwards
-  // to `from`. Returns the file's end if there is no such chunk.
+  // from `begin` by at most kMaxChunkHeader bytes and stops at `from`. Returns the file's end if there is no
+  // such chunk.
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
     const std::uint64_t lowest = std::max(from, begin - std::min(begin, kMaxChunkHeader));
     for (std::uint64_t at = begin; at-- > lowest;) {

@@ -57,8 +57,8 @@ ChunkedReader::LoadedPart* ChunkedReader::earliest() const {
   return std::min_element(loaded_.begin(), loaded_.end(), before)->get();
 }
 
-// Releases the parts without further messages. next() calls this first, because the message of the previous
-// call is then no longer valid.
+// Releases the parts without further messages. next() calls release() first, because the caller may use the
+// message of the previous call until then.
 void ChunkedReader::release() {
   for (auto loaded = loaded_.begin(); loaded != loaded_.end();) {
     if ((*loaded)->next < (*loaded)->messages.size()) {

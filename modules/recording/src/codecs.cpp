@@ -17,7 +17,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A fast level, because recording must not slow down a stream.
+// Level 1 is fast. Recording must not slow down a stream.
 constexpr int kZstdLevel = 1;
 [[noreturn]] void refuse(const char* library, const std::string& what) {
   throw IoError(std::string(library) + ": " + what);
@@ -115,8 +115,8 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
                                    std::size_t max_bytes) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
-  // Limit the memory of zstd's window, because a frame of a few bytes can request 128 MiB. For less than
-  // 1 MiB of data the limit is 8 MiB, which is enough for level 19. For more data it is 128 MiB.
+  // Limit the memory of zstd's window, because a frame of a few bytes can request 128 MiB. For less than 1
+  // MiB of compressed data the limit is 8 MiB, which is enough for level 19. Otherwise the limit is 128 MiB.
   ZSTD_DCtx_setParameter(contexts_->zstd.get(), ZSTD_d_windowLogMax, size < (1U << 20U) ? 23 : 27);
   ZSTD_inBuffer in{data, size, 0};
   std::size_t made = 0, rest = 1;

@@ -57,7 +57,7 @@ class Database {
         std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned>(c));
       uri += code;
     }
-    sqlite3* database = nullptr;  // set even if opening fails, to provide the reason
+    sqlite3* database = nullptr;  // set even if opening fails; then it has the reason
     const int status = sqlite3_open_v2((uri + '?' + options).c_str(), &database,
                                        SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     database_.reset(database);

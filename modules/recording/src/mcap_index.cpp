@@ -60,8 +60,8 @@ void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   }
 }
 
-// Returns whether the index has all channels and their schemas. These are the channels that occur in the
-// summary's channel, statistics and chunk index records.
+// Returns whether the index has all channels that occur in the summary's channel, statistics and chunk index
+// records, and the schemas of these channels.
 bool describes_channels(const Summary& summary, const Index& index) {
   const auto known = [&](std::uint16_t id) {
     const auto channel = index.channels.find(id);

@@ -36,7 +36,7 @@ class Scan {
         loose_ = false;
         index_.parts.push_back(known->second);
         remaining_chunks_.erase(at);
-        at = std::max(end_of_chunk(*known), at + kRecordStart);  // moves forward even if the summary is wrong
+        at = std::max(end_of_chunk(*known), at + kRecordStart);  // must exceed the old `at`
         previous = at - 1;
         continue;
       }
@@ -60,8 +60,8 @@ class Scan {
   }
 
  private:
-  // Returns the end of a chunk that the summary describes. The message indexes behind the chunk are skipped,
-  // too, if they end before the next chunk.
+  // Returns the end of the message indexes behind a chunk that the summary describes. If these indexes would
+  // overlap the next chunk, returns the end of the chunk itself.
   std::uint64_t end_of_chunk(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
@@ -186,7 +186,7 @@ class Scan {
   UnindexedCounts found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;
-  bool loose_ = false;  // whether the last record was a message outside of chunks; it is in the last part
+  bool loose_ = false;  // whether the last record was a message outside of chunks, which is in the last part
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Summary {
   std::optional<Statistics> statistics;
 };
 
-/// Numbers of chunks, and of messages outside of chunks, that are not in the summary.
+/// Number of messages outside of chunks, and number of chunks that the summary does not describe.
 struct UnindexedCounts {
   std::uint64_t loose_messages = 0, chunks = 0;
 };

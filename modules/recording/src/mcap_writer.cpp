@@ -66,7 +66,7 @@ class McapWriter::State {
     open.schema = {schema_id, topic.type, "ros2msg", topic.definition};
     open.channel = {id, schema_id, topic.name, "cdr", topic.metadata};
     open.channel.metadata.try_emplace("offered_qos_profiles");
-    Buffer records;  // written outside of chunks, so that other chunks need no record in a damaged chunk
+    Buffer records;  // written outside of chunks, because a damaged chunk would lose them
     Writer writer(records);
     put(writer, open.schema);
     put(writer, open.channel);
@@ -145,8 +145,8 @@ class McapWriter::State {
     }
   }
 
-  // Truncates the file and writes the header and the first topics. EINVAL is ignored, because pipes cannot be
-  // truncated.
+  // Truncates the file and writes the header and the first topics. Truncating a pipe fails with EINVAL, which
+  // is ignored.
   void begin() {
     if (has_begun()) return;
     if (::ftruncate(file_.get(), 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
@@ -154,8 +154,8 @@ class McapWriter::State {
     start_.clear();
   }
 
-  // Appends all bytes, or none if writing fails, because later records (at least the summary) must stay
-  // readable.
+  // Appends all bytes. If writing fails, removes the part that was written, so that later records, such as
+  // the summary, stay readable.
   void append(const Buffer& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t wrote = ::write(file_.get(), bytes.data() + done, bytes.size() - done);
@@ -250,7 +250,8 @@ class McapWriter::State {
     append(summary);
   }
 
-  // Appends the footer. The CRC in it covers the summary and the footer's fields before the CRC.
+  // Appends the footer and the magic number. The footer's CRC covers the summary and the footer up to the
+  // CRC.
   static void put_footer(const Buffer& summary, Writer& writer, std::uint64_t start,
                          std::uint64_t offset_start) {
     writer.begin(Op::footer);

@@ -18,7 +18,8 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow in nanoseconds
 // Maximum bytes of a pcap packet, and of a pcapng block in a search for the next block.
 constexpr std::uint32_t kMaxPacket = 1U << 20U;
-// Maximum seconds between two packets. A larger jump is accepted only if the following packets confirm it.
+// Maximum seconds between two packets. A larger jump is accepted only if the times of the next two packets
+// are this close to each other.
 constexpr std::int64_t kMaxTimeGap = 24 * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
@@ -104,7 +105,8 @@ bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const 
 
 // Moves at_ to the next position where a run of packets can begin, and adds a warning. If there is none, adds
 // a warning that the file is cut, and returns false. The search begins within the previous packet, because
-// its length may be damaged.
+// the length of this packet may be damaged. If the previous packet is unknown or longer than kLookBehind, the
+// search begins after at_.
 bool PacketFile::resynchronise() {
   const std::uint64_t damage = at_;
   const bool back = previous_ && damage - *previous_ <= kLookBehind;
@@ -170,7 +172,8 @@ bool PacketFile::next(Payload& payload) {
 
 bool PacketFile::next_pcap(Payload& payload) {
   while (at_ < file_.size()) {
-    // A jump of the time, as in merged captures, is accepted if the next packet confirms it.
+    // A jump of the time, as in merged captures, is accepted if the packet after the jump and its successor
+    // have close times.
     if (next_bytes(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
       if (!resynchronise()) return false;
       continue;
@@ -203,8 +206,8 @@ bool PacketFile::next_block(Payload& payload) {
   return false;
 }
 
-// Returns the length of the pcapng block at at_, or 0 for a damaged block. The length is also stored at the
-// block's end. Both are compared before the block is read.
+// Returns the length of the pcapng block at at_, or 0 for a damaged block. A block stores its length at its
+// beginning and at its end. The two lengths must be equal.
 std::uint32_t PacketFile::block_length() {
   const std::byte* const head = next_bytes(12);
   if (head == nullptr || (u32(head) == kSection && !begin_section(head))) return 0;

@@ -19,9 +19,9 @@ namespace pcl_bv::detail {
 /// Returns whether a file with this beginning is a pcap or pcapng file.
 bool is_packet_file(std::string_view start);
 
-/// Reads the UDP packets over IPv4 of a .pcap (any byte order, micro- or nanoseconds) or .pcapng file.
-/// Supported link types are Ethernet (also with VLAN tags), Linux' "any" (SLL, SLL2), raw IP and BSD's
-/// loopback. IP fragments and packets of other protocols are skipped.
+/// Reads the UDP packets over IPv4 of a .pcap or .pcapng file. A .pcap file may have any byte order, and its
+/// times may be in micro- or nanoseconds. Supported link types are raw IP, BSD's loopback, Linux' "any" (SLL,
+/// SLL2) and Ethernet (also with VLAN tags). IP fragments and packets of other protocols are skipped.
 class PacketFile {
  public:
   /// Opens the file. Throws IoError if it is neither pcap nor pcapng.

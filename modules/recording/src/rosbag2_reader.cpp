@@ -36,8 +36,8 @@ void require_recording_file(const fs::path& file) {
     throw IoError("no .db3 or .mcap file");
 }
 
-// Reads several files one after another as one recording. This is the order of time, because a recorder
-// begins a file where the previous file ends.
+// Reads several files one after another as one recording. The messages then come in the order of time,
+// because a recorder begins a file when it has ended the previous file.
 class JoinedReader final : public RecordingReader {
  public:
   /// `folder_warnings` are the warnings about the folder.
@@ -110,7 +110,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
     const YAML::Node root = YAML::Load(read_untrusted_text(metadata, kMaxMetadataBytes));
     for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
       files.push_back(folder /
-                      fs::path(file.as<std::string>()).filename());  // old versions include the folder
+                      fs::path(file.as<std::string>()).filename());  // old versions write the folder, too
   } catch (const YAML::Exception& error) {
     throw IoError("metadata.yaml: " + yaml_error_message(error));
   } catch (const IoError& error) {

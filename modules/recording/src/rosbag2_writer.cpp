@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Schema version 3 of Humble. Writes are not synchronous. A power failure can therefore lose more than the
-// last transaction, but a crash of the process cannot.
+// The tables have Humble's schema version 3. Writes are not synchronous. A crash of the process loses at most
+// the last transaction, but a power failure can lose more.
 constexpr const char* kBegin = R"(
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = OFF;
@@ -74,7 +74,7 @@ class Rosbag2Writer::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // Replaces an existing recording. It is called at the first message, attachment or close(), so that a
+  // Replaces an existing recording. open() is called at the first message, attachment or close(), so that a
   // writer that is never used leaves the old recording unchanged.
   void open() {
     if (database_ != nullptr) return;
@@ -231,7 +231,7 @@ class Rosbag2Writer::State {
   fs::path folder_;
   std::string file_;
   bool closed_ = false;
-  sqlite3* database_ = nullptr;  // null before the first message
+  sqlite3* database_ = nullptr;  // null before open()
   sqlite3_stmt *topic_ = nullptr, *message_ = nullptr;
   std::vector<Topic> topics_;
   Clock::time_point begun_{};

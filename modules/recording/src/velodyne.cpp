@@ -195,9 +195,9 @@ struct VelodyneReader::State {
   std::map<std::uint64_t, Address> addresses;
   std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;              // about packets; kept by rewind(), because a second pass finds the same
+  WarningList warnings;              // about packets; rewind() keeps them, so that no pass adds one twice
   std::uint64_t warnings_added = 0;  // number of warnings of `packets` that are in `warnings`
-  std::optional<std::size_t> warnings_before_note;  // number of warnings before sensors_note
+  std::optional<std::size_t> warnings_before_note;  // number of `warnings` that precede sensors_note
   std::string sensors_note;
   bool done = false;
 };

@@ -157,9 +157,9 @@ bool VelodyneSensor::expects(const Payload& packet) const {
   return std::abs(rotation_since_last(packet) - speed_ * passed) <= kMaxPredictionError;
 }
 
-// Estimates the rotation speed. The first estimate is from the first packet alone. Each later packet and its
-// predecessor update the estimate with a smoothing factor of 1/8, so that jitter of a single packet or
-// another firing rate has little effect.
+// Estimates the rotation speed. The first estimate is from the first packet alone and assumes the model's
+// block_ns. Each later packet and its predecessor update the estimate with a smoothing factor of 1/8, so that
+// the jitter of a single packet has little effect.
 void VelodyneSensor::update_speed(const Payload& packet, double rotation) {
   const std::size_t firings = kBlocks / step_of(packet) - 1;
   if (speed_ == 0) speed_ = rotation_within(packet) / (static_cast<double>(firings) * model_->block_ns);

@@ -60,14 +60,14 @@ class VelodyneSensor {
   std::size_t number_;
   std::array<std::uint32_t, kVelodyneLasers> ring_{};
   std::array<double, kVelodyneLasers> sine_{}, cosine_{};
-  // Azimuth offset of each beam plus 360 degrees (not negative), in hundredths of a degree.
+  // Azimuth offset of each beam plus 360 degrees, so that the sum is not negative. Hundredths of a degree.
   std::array<std::size_t, kVelodyneLasers> azimuth_offset_{};
   bool started_ = false;
   double speed_ = 0;    // hundredths of a degree per nanosecond; negative if azimuths decrease
   double azimuth_ = 0;  // unwrapped azimuth of the newest packet's first block, hundredths of a degree
   // Capture time of the newest packet, and number of the current sweep's revolution.
   std::int64_t last_time_ns_ = 0, revolution_ = 0;
-  VelodyneSweep sweep_, previous_;      // the current sweep, and the one before, which waits for late packets
+  VelodyneSweep sweep_, previous_;      // current sweep, and previous sweep, which may get late packets
   unsigned packets_in_revolution_ = 0;  // packets since the beginning of the revolution
 };
 

@@ -81,8 +81,8 @@ class JsonText {
   void value(bool yes) { literal(yes ? "true" : "false"); }
   void value(std::nullptr_t) { literal("null"); }
 
-  /// Appends a string. Each invalid UTF-8 sequence, which is the longest prefix of a character or a single
-  /// byte, is replaced by U+FFFD.
+  /// Appends a string. Each invalid UTF-8 sequence is replaced by U+FFFD. An invalid sequence is the longest
+  /// beginning of a character or, if there is none, a single byte.
   void value(std::string_view text) {
     separate();
     text_ += '"';

@@ -82,7 +82,7 @@ void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, co
 /// Returns the brightness of a sample, from 0 to 1. It is lower if neighbours are closer to the viewer.
 float eye_dome_brightness(const Raster& raster, int x, int y) {
   constexpr int step = 3;
-  constexpr float max_depth_step = 40;  // in samples; larger depth differences are treated as this one
+  constexpr float max_depth_step = 40;  // in samples; larger depth differences have the same effect
   constexpr int around[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
   const float here = raster.depth[static_cast<std::size_t>(y) * raster.width + x];
   float covered = 0;

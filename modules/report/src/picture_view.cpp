@@ -14,9 +14,9 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
-// Direction of the viewer in ViewFrom::iso. The elevation is that of an isometric drawing. The azimuth is
-// not half-way between x and y as in an isometric drawing. In most clouds, streets run along x or y, and they
-// would then run diagonally through the picture and use its width badly.
+// Direction of the viewer in ViewFrom::iso. The elevation is that of an isometric drawing, but the azimuth is
+// not half-way between x and y. Most streets run along x or y. In an isometric drawing, a street would run
+// diagonally through the picture and would not use the picture's width.
 constexpr double elevation = 35 * degree;
 constexpr double azimuth = -114 * degree;
 constexpr double margin_part = 0.04;  // margin at each side, relative to the picture's size
@@ -26,9 +26,8 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Returns the interval from the lowest `low` to the highest `high` of all parts. The `outliers` lowest
-/// values of `low` and highest values of `high` are ignored. Returns [infinity, -infinity] if there are no
-/// parts.
+/// Returns the interval from the lowest `low` to the highest `high` of all parts. At each end, the `outliers`
+/// most extreme values are ignored. Returns [infinity, -infinity] if there are no parts.
 Interval robust_interval(std::vector<Interval>& parts, std::size_t outliers) {
   if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;

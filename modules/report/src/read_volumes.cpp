@@ -143,11 +143,8 @@ void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
   refuse(path.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : abbreviated(entry)));
 }
 
-// Appends all volumes in a JSON value. Entries that may have been meant as volumes must be volumes or contain
-// volumes, because skipping a volume silently would be unsafe. These entries are
-// - all entries of a list or object "volumes",
-// - all entries of a list that has a volume, and
-// - all objects next to a volume in an object.
+// Appends all volumes in a JSON value. Throws an error for an entry that may have been meant as a volume but
+// has none, because skipping this entry silently would be unsafe. read_volumes.h lists these entries.
 Found collect(const Json& json, const EntryPath* path, std::vector<AnyVolume>& volumes) {
   if (json.is_object() && json.contains("shape")) {
     try {

@@ -16,8 +16,8 @@ namespace pcl_bv::dds {
 
 /// A serialized sample, reference-counted by Cyclone DDS.
 struct CdrSample : ddsi_serdata {
-  std::unique_ptr<std::byte[]> bytes;  // padded to a multiple of 4, the protocol's unit
-  std::size_t size = 0;                // with the encapsulation header (4 bytes), without the padding
+  std::unique_ptr<std::byte[]> bytes;  // `size` bytes, then zeros up to a multiple of 4
+  std::size_t size = 0;                // includes the encapsulation header (4 bytes), but not the zeros
 };
 
 /// Allocates a sample of `size` uninitialised bytes and zeroed padding, with one reference. Returns null if

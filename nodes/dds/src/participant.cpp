@@ -53,10 +53,10 @@ std::string peers_of(const std::string& text) {
 }
 
 // Returns Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. The
-// peers are the addresses in ROS_STATIC_PEERS (not with the range SYSTEM_DEFAULT). If only the loopback
-// interface is used, 127.0.0.1 is a peer, too, because this interface usually has no multicast. Discovery
-// probes each peer at the ports of the participant indices 0 to 32. With the range OFF, there are no peers
-// and no multicast.
+// peers are the addresses in ROS_STATIC_PEERS. If only the loopback interface is used, 127.0.0.1 is a peer,
+// too, because this interface usually has no multicast. Discovery probes each peer at the ports of the
+// participant indices 0 to 32. Two values of ROS_AUTOMATIC_DISCOVERY_RANGE are exceptions. With
+// SYSTEM_DEFAULT, ROS_STATIC_PEERS is ignored. With OFF, there are no peers and no multicast.
 std::string cyclone_config() {
   const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
@@ -155,7 +155,7 @@ Participant::Participant() {
 std::shared_ptr<Participant> Participant::shared() {
   static std::mutex mutex;
   static std::weak_ptr<Participant> existing;
-  const auto remove = [](const Participant* last) {  // locked: another thread may be creating one
+  const auto remove = [](const Participant* last) {  // locked, because another thread may be in shared()
     const std::lock_guard lock(mutex);
     delete last;
   };

@@ -63,7 +63,7 @@ export function readPointCloud2(view) {
   return { bytes, count, stride, intensity: has("intensity", 16, FLOAT32), origin: [0, 0, 0] };
 }
 
-// Uses Uint8Array.fromBase64() if the browser has it (since 2025), because it takes a tenth of the time.
+// Uses Uint8Array.fromBase64() if the browser has it (since 2025), because it takes a tenth of atob()'s time.
 function bytesOfBase64(text) {
   return Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 }

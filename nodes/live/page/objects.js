@@ -86,7 +86,8 @@ function fillRow(row, cluster, colour, isPicked) {
   speed.firstChild.data = cluster.moving ? fixed(speedOf(cluster), 1) : "";
 }
 
-// Does not use navigator.clipboard, which is not allowed in pages loaded by http or from a file.
+// Does not use navigator.clipboard, because browsers do not offer it in pages loaded by http from another
+// machine.
 function copyText(text) {
   const area = element("textarea", { value: text });
   document.body.append(area);

@@ -108,8 +108,9 @@ const TESTS = {
 };
 
 // Returns the cluster whose volume the ray hits first. If the ray enters other volumes before it leaves the
-// first one, the smallest of all these volumes is chosen. Returns null if the ray hits no volume. `from` is
-// in absolute coordinates. padAt(distance) returns the pad at a distance from the eye.
+// first one, returns the cluster of the smallest of all these volumes, the first one included. Returns null
+// if the ray hits no volume. `from` is in absolute coordinates. padAt(distance) returns the pad at a distance
+// from the eye.
 export function pickCluster(clusters, hidden, from, direction, padAt) {
   const met = [];
   for (const cluster of clusters) {

@@ -34,7 +34,7 @@ export class Plots {
     if (this.frames.length > MAX_FRAMES) this.frames.shift();
   }
 
-  // Must be called for a new connection, because it may begin with any `seq`.
+  // Must be called for a new connection, whose first `seq` can be any number.
   restart() {
     this.lastSeq = null;
   }

@@ -20,15 +20,15 @@ struct Address {
 /// free port. Throws std::invalid_argument for any other text.
 Address parse_address(const std::string& text);
 
-/// Returns whether a request's header Host ("localhost:8765") can mean this server. The host must be a
-/// numeric address, localhost, this machine's name (also with ".local") or the host that the server was
+/// Returns whether a request's header Host, such as "localhost:8765", can mean this server. The host must be
+/// a numeric address, localhost, this machine's name (also with ".local") or the host that the server was
 /// started with. Other names are refused to prevent DNS rebinding. In this attack a foreign name resolves to
 /// this machine, so that a browser treats the foreign page and this server as one site.
 bool is_server_host(std::string_view header, const Address& server);
 
-/// Returns whether a page of this origin may connect. These are the server's own page, pages from localhost
-/// or a loopback address, local files and Foxglove's page. An empty origin may also connect, because programs
-/// that are not browsers send no origin.
+/// Returns whether a page of this origin may connect. The server's own page, pages from localhost or a
+/// loopback address, local files and Foxglove's page may connect. Programs that are not browsers send no
+/// origin. Therefore the empty origin may connect, too.
 bool may_connect(std::string_view origin, std::string_view host_header);
 
 }  // namespace pcl_bv::live

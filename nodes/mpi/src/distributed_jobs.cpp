@@ -20,8 +20,8 @@ std::size_t size_of_input(const Job& job) {
   return unknown ? 1 : std::max<std::size_t>(1, bytes);
 }
 
-// Returns the rank of each job. In order of descending file size, each job goes to the rank that has the
-// fewest bytes so far.
+// Returns the rank of each job. The jobs are assigned in order of descending file size. Each job goes to the
+// rank whose jobs have the fewest bytes until then.
 std::vector<std::size_t> assign_ranks(const std::vector<Job>& jobs, std::size_t ranks) {
   std::vector<std::size_t> sizes, order(jobs.size()), owner(jobs.size()), load(ranks);
   for (const Job& job : jobs)

@@ -33,9 +33,9 @@ class InterruptAction {
   std::function<void()> finish_;
 };
 
-/// A collective call. Processes all jobs. In order of descending file size, each job goes to the rank that
-/// has the fewest bytes so far. The first rank writes the results in the order of the jobs and returns the
-/// status of the run. The other ranks return Status::done.
+/// A collective call. Processes all jobs. The jobs are assigned to ranks in order of descending file size.
+/// Each job goes to the rank whose jobs have the fewest bytes until then. The first rank writes the results
+/// in the order of the jobs and returns the status of the run. The other ranks return Status::done.
 Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
                     InterruptAction& interrupted);
 

@@ -97,8 +97,8 @@ class Attempt {
   std::vector<const Method*> methods_;
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
-  // The partial result of this rank's points. After merge(), that of all points, but only on the first rank
-  // or, with --check, on all ranks.
+  // Before merge(), the partial result of this rank's points. After merge(), the first rank has the partial
+  // result of all points. With --check, all ranks have it.
   PartialFile merged_;
   std::vector<Fitted<AnyVolume>> fitted_;
   std::vector<std::size_t> outside_;

@@ -21,9 +21,8 @@ namespace pcl_bv::detail {
 ///   ranks.
 /// - Each method that needs all points is fitted on one rank, which reads all points.
 ///
-/// If an input fails on any rank, all ranks start again without this input. `report` and the
-/// returned status are meaningful on the first rank only. Throws IoError on all ranks if no input can be
-/// read.
+/// If an input fails on any rank, all ranks start again without this input. `report` and the returned status
+/// are meaningful on the first rank only. Throws IoError on all ranks if no input can be read.
 Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
 
 }  // namespace pcl_bv::detail

@@ -55,7 +55,8 @@ class Ranks {
   /// nothing.
   std::optional<std::string> receive_any(bool wait);
 
-  // What this rank has sent by send(), broadcast() and merge_farthest(). Other calls are not counted.
+  // The following functions count what this rank has sent by send(), broadcast() and merge_farthest(). Other
+  // calls are not counted.
 
   std::size_t bytes_sent() const { return bytes_sent_; }
   std::size_t messages_sent() const { return messages_sent_; }

@@ -3,10 +3,11 @@
 
 // Synthetic LiDAR sweeps of a rural road with ground truth for each point and object.
 //
-// The scene is harder than the street (street.h). The road winds over hills with slopes of up to 16 %. Beside
-// it are kerbs, rough verges with grass, ditches, low walls and hedges. Tree crowns and bridges extend over
-// the road. Cars are parked or move; there are cyclists and groups of people. The car that carries the sensor
-// drives at up to 12 m/s, brakes to a standstill, and turns at up to 31 degrees per second.
+// The scene is harder to segment than the street (street.h). The road winds over hills with slopes of up to
+// 16 %. The roadsides have kerbs, rough verges with grass, ditches, low walls and hedges. Tree crowns and
+// bridges extend over the road. The objects include parked and moving cars, cyclists and groups of people.
+// The car that carries the sensor drives at up to 12 m/s, brakes to a standstill, and turns at up to 31
+// degrees per second.
 //
 // The fixed frame has x along the road's mean direction, y left, z up, metres. The road is infinite. The
 // shape of an object depends only on the seed and the object's id.

@@ -79,9 +79,9 @@ struct StreetObject {
 /// and the azimuths run clockwise as seen from above, so the middle column points forward. Curb faces are
 /// labelled as ground.
 ///
-/// A ray without a return gives a point at (0, 0, 0). The rays without a return are the rays into the sky,
-/// the rays that hit nothing within street_max_range, 1.5 % of all other rays at random, and one third of the
-/// rays that hit a car's cabin (glass).
+/// A ray without a return gives a point at (0, 0, 0). Rays into the sky and rays that hit nothing within
+/// street_max_range have no return. One third of the rays that hit a car's cabin (glass) and 1.5 % of all
+/// other rays have no return, at random.
 ///
 /// One ground return in 700 is replaced by a false return below the ground. Mirrors and puddles cause such
 /// returns. The labels `object` and `ground` of a false return are 0.

@@ -15,12 +15,12 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Points and their ground-truth labels. A vector of labels is empty if the scene does not have these labels.
 /// The simple shapes have no labels.
 struct SynthCloud {
-  std::vector<float> xyz;                 ///< Three per point, metres.
+  std::vector<float> xyz;                 ///< Three per point, row by row, metres.
   std::vector<std::uint32_t> object;      ///< Id (>= 1) of the object that returned the ray; 0: none.
   std::vector<std::uint32_t> ground;      ///< 1 for a return from the ground, else 0.
   std::vector<std::uint32_t> vegetation;  ///< 1 for a return from grass, else 0. Rural road only.
   std::vector<std::uint32_t> kind;        ///< 1 + the SynthObjectKind; 0: no object. Rural road only.
-  std::size_t height = 1;                 ///< Number of rows, stored row by row. A sweep has one per beam.
+  std::size_t height = 1;                 ///< Number of rows. A sweep has one row per beam.
 
   std::size_t size() const { return xyz.size() / 3; }  ///< Number of points.
 };

@@ -16,7 +16,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace msg {
 
-/// A non-owning view of a field of type uint8[]. It saves the copy of a cloud's points that a vector needs.
+/// A non-owning view of a field of type uint8[]. With a vector instead, a cloud's points would be copied.
 struct Bytes {
   const std::byte* data = nullptr;
   std::size_t size = 0;

@@ -29,8 +29,8 @@ std::optional<PointView> view_points(const msg::PointCloud2& cloud);
 /// intensity, or if view_points() returns nullopt. Throws as view_points().
 std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud);
 
-/// Returns a line for the user that names the fields (at most three) that raw_cloud_of() leaves out, and why.
-/// Returns an empty text if no field is left out. Throws as view_points().
+/// Returns a line for the user that names at most three of the fields that raw_cloud_of() leaves out, with
+/// the reasons. Returns an empty text if no field is left out. Throws as view_points().
 std::string skipped_fields_note(const msg::PointCloud2& cloud);
 
 /// Returns a copy of the cloud, row by row without padding, little-endian. X, Y and Z are renamed to x, y and

@@ -90,8 +90,8 @@ class MessageWriter {
   std::size_t begin_ = 0;
 };
 
-/// Reads a message. Never reads beyond the end of the message, and allocates no list that is longer than the
-/// remaining bytes.
+/// Reads a message. Never reads beyond the end of the message. A list grows element by element, so that a
+/// wrong length cannot cause a large allocation.
 template <MessageEncoding encoding>
 class MessageReader {
  public:

@@ -56,8 +56,8 @@ class RecordingReader {
  public:
   virtual ~RecordingReader() = default;
 
-  /// Returns all topics of the recording. If the file has no index (because the recorder was killed), the
-  /// topics are found by scanning the file.
+  /// Returns all topics of the recording. If the file has no index, for example because the recorder was
+  /// killed, the topics are found by scanning the file.
   virtual const std::vector<RecordedTopic>& topics() const = 0;
 
   /// Restricts next() to these topics (indices in topics()) and restarts next() at the beginning of the
@@ -70,8 +70,8 @@ class RecordingReader {
   /// warning_lines()).
   virtual bool next(RecordedMessage& message) = 0;
 
-  /// Returns the warnings found until now, at most eleven lines. They do not name the recording. If the
-  /// recording is a folder, they name the file in the folder.
+  /// Returns the warnings found until now, at most eleven lines. The lines do not name the recording itself.
+  /// If the recording is a folder, a line about one of its files names this file.
   const std::vector<std::string>& warning_lines() const { return warnings_.lines(); }
   /// Returns the same warnings as a list that WarningList::append_new() can add to another list.
   const WarningList& warnings() const { return warnings_; }
@@ -96,8 +96,8 @@ std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& fil
 /// Returns whether the path is a recording of a known format. Returns false if the path cannot be read.
 ///
 /// The first bytes of a file decide, with two exceptions. A compressed file must also have the extension
-/// .zstd. A file with the extension .db3 is a recording whatever its first bytes are, because they may be
-/// damaged, but it must not be empty.
+/// .zstd. A file with the extension .db3 is a recording unless it is empty. The first bytes of a .db3 file
+/// may be damaged and do not matter.
 ///
 /// A folder is a recording if it has rosbag2's metadata.yaml. Without metadata.yaml, it is a recording if it
 /// has .db3 or .mcap files (compressed or not) and no clouds.

@@ -15,7 +15,7 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Writes an MCAP file (https://mcap.dev/spec, profile "ros2", messages in CDR) chunk by chunk. Each chunk
+/// Writes an MCAP file chunk by chunk (https://mcap.dev/spec, profile "ros2", messages in CDR). Each chunk
 /// has a CRC and is followed by its message indexes. If the process ends unexpectedly, all chunks except the
 /// unfinished one can be read. close() adds the summary, which has schemas, channels, statistics, and an
 /// index of chunks and attachments.
@@ -34,7 +34,7 @@ class McapWriter final : public RecordingWriter {
   McapWriter(const std::filesystem::path& file, const Options& options);
 
   /// Calls close() if a message or attachment was written, and ignores errors of close(). If nothing was
-  /// written, an existing file keeps its old content, and a file that this object created is removed.
+  /// written, a file that this object created is removed, and a file that existed before keeps its content.
   ~McapWriter() override;
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;

@@ -27,7 +27,7 @@ struct VelodynePoint {
 struct VelodyneSweep {
   std::int64_t stamp_ns = 0;  ///< Capture time of the first packet, nanoseconds since 1970.
   std::vector<VelodynePoint> points;
-  std::size_t sensor = 0;  ///< Number of the sensor, counted from 0 in the order of the first packets.
+  std::size_t sensor = 0;  ///< Number of the sensor, from 0, in the order of the sensors' first packets.
 };
 
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns.
@@ -45,15 +45,16 @@ bool is_capture(const std::filesystem::path& file);
 /// Sensors are distinguished by source address, destination port and model. If several sensors have all three
 /// in common, their packets are distinguished by azimuth: the azimuth of each sensor advances steadily.
 ///
-/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth. Only in a VLP-16, the
-/// azimuth of a block's second firing is interpolated between two blocks. Sources: the sensors' manuals
-/// (63-9243, 63-9113, 63-9325).
+/// Azimuths are as in PCL's grabbers: all returns of a block have the block's azimuth, with two exceptions.
+/// For the second firing of a VLP-16's block, half the rotation per block is added. For each beam of a
+/// VLP-32C, the beam's azimuth offset is added. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
-  /// Opens a capture. `sensor` (source address and destination port, such as "192.168.1.201:2368") restricts
-  /// the reader to the packets of one sensor. Throws IoError if the file is not a capture or has no packet of
-  /// a supported sensor. Throws std::invalid_argument if the capture has packets of other sensors but not of
-  /// `sensor`. The message names these other sensors.
+  /// Opens a capture. If `sensor` is empty, reads the packets of all sensors. Otherwise `sensor` is a source
+  /// address and destination port, such as "192.168.1.201:2368", and other packets are skipped. Throws
+  /// IoError if the file is not a capture or has no packet of a supported sensor. Throws
+  /// std::invalid_argument if the capture has packets of other sensors but not of `sensor`. The message names
+  /// these other sensors.
   explicit VelodyneReader(const std::filesystem::path& file, const std::string& sensor = {});
   ~VelodyneReader();
   VelodyneReader(const VelodyneReader&) = delete;

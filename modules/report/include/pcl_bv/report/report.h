@@ -37,11 +37,12 @@ struct VolumeEntry {
 /// A tracked object.
 struct TrackEntry {
   std::uint32_t id = 0;  ///< Unique. It is never reused for another object.
-  std::size_t age = 0;   ///< Number of frames from the first detection until now, both included.
+  std::size_t age = 0;   ///< Number of frames from the first detection until now, both frames included.
   /// Velocity in units of the points per second. It is in the fixed frame if the sensor's pose is known.
   /// Otherwise it is relative to the sensor, in the sensor's frame.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  /// Whether the object moves over ground. If the sensor's motion is unknown: relative to the sensor.
+  /// Whether the object moves over ground. If the sensor's motion is unknown, whether the object moves
+  /// relative to the sensor.
   bool moving = false;
   /// x, y, z of the centre, and the heading (yaw) in radians, in the frame of `velocity`. The yaw is the
   /// direction of motion over ground. Before the object has moved, the yaw is the direction of the longer

@@ -14,8 +14,8 @@ namespace [[gnu::visibility("default")]] detail {
 
 /// Names of the columns of every volume.
 /// - cx, cy, cz: the center().
-/// - sx, sy, sz: the full size along the shape's own axes. For an upright box (obb-yaw, obb-lshape) they are
-///   its length, width and height. The axis of a cylinder or capsule is its own z axis.
+/// - sx, sy, sz: the full size along the shape's own axes. For an upright box (obb-yaw, obb-lshape), this
+///   size is the length, width and height. The axis of a cylinder or capsule is its own z axis.
 /// - qx, qy, qz, qw: the unit quaternion that rotates the world's axes to the shape's axes.
 /// - radius: the radius of a sphere, cylinder or capsule. A sphere has no size.
 ///

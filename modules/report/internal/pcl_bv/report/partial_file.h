@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of partial results. A file has the contribution of a part of a cloud (a share) to the volumes of the
-// whole cloud. All files are merged on one machine.
+// Files of partial results. The points of a cloud are divided into shares. A file has the contribution of one
+// share to the volumes of the whole cloud. All files are merged on one machine.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ struct PartialFile {
   /// Value of `inputs_hash` for a cloud without inputs. It is the offset basis of FNV-1a.
   static constexpr std::uint64_t kEmptyInputsHash = 0xcbf29ce484222325;
 
-  /// FNV-1a hash of the names and numbers of points of the inputs (see add_input()).
+  /// FNV-1a hash of each input's name and number of points (see add_input()).
   std::uint64_t inputs_hash = kEmptyInputsHash;
   std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.

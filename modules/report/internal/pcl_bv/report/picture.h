@@ -27,9 +27,10 @@ struct PictureVolume {
 };
 
 /// Directions of view. All projections are parallel. If z is up, the horizontal axes are x and y. For another
-/// `up`, the first horizontal axis is the projection of x onto the horizontal plane (of y if x is within 26
-/// degrees of `up`). The second horizontal axis is 90 degrees to the left of the first, seen from above. For
-/// example, in a camera's frame (y down) the second horizontal axis is z.
+/// `up`, the first horizontal axis is the projection of x onto the horizontal plane. If x is within 26
+/// degrees of the line along `up`, y is projected instead. The second horizontal axis is 90 degrees to the
+/// left of the first, seen from above. For example, in a camera's frame (y down) the second horizontal axis
+/// is z.
 enum class ViewFrom {
   iso,    ///< Looks down at 35 degrees, from the front left.
   top,    ///< Looks down. The first horizontal axis points right, the second up.

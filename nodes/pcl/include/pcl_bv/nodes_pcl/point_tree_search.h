@@ -39,9 +39,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// - Neighbours are also found in clouds whose squared distances are outside the range of float (coordinates
 ///   of 1e-23 or 1e20). A distance above this range is returned as infinity.
 /// - Equally near points are ordered by index. If the number of neighbours is limited, the points with the
-///   smaller indices are returned. A sorted tree therefore also works with pcl::EuclideanClusterExtraction,
-///   which skips the first neighbour as the query point itself. Of several points at the same position, the
-///   skipped one is always in the cluster already.
+///   smaller indices are returned. A sorted tree also works with pcl::EuclideanClusterExtraction. That class
+///   assumes that the first neighbour is the query point itself and skips this neighbour. If several points
+///   have the same position, the skipped point is always in the cluster already.
 /// - The result is empty where PCL has an assertion: for a query point that is not finite, an index out of
 ///   range, a radius that is not above 0, a k below 1, or a search without a cloud.
 ///
@@ -74,9 +74,10 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
   /// Builds the tree of the cloud's valid points, or of those at `indices`. The tree holds a copy of the
-  /// points, so the cloud may change afterwards. Both pointers are stored, because queries by index read the
-  /// cloud. If the cloud is null or has no valid point, all results are empty. O(n log n). Throws
-  /// std::out_of_range for an index outside the cloud, and then changes nothing.
+  /// points, so the cloud may change afterwards. The search also stores `cloud` and `indices`, because
+  /// queries by index read the query point from the cloud. If the cloud is null or has no valid point, all
+  /// results are empty. O(n log n). Throws std::out_of_range for an index outside the cloud, and then changes
+  /// nothing.
   void setInputCloud(const PointCloudConstPtr& cloud,
                      const IndicesConstPtr& indices = IndicesConstPtr()) override {
     tree_.assign(!cloud    ? PointView()
