@@ -57,8 +57,8 @@ struct Frame {
   std::int64_t recorded_ns = 0;
 
   /// Time from which the latency of the frame is measured. A paced replay sets it to the time at which the
-  /// frame is due. A live source whose stamps are times of the system clock sets it to steady_time(stamp_ns).
-  /// If unset, StreamRunner::push() sets it to the time of its call.
+  /// frame is due. A live source sets it to the arrival of the message, or to steady_time(stamp_ns) if stamps
+  /// are times of the system clock. If unset, StreamRunner::push() sets it to the time of its call.
   std::chrono::steady_clock::time_point taken{};
 };
 
