@@ -111,7 +111,7 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   return result.points_after_filter(cloud);
 }
 
-// Uses ground.sensor without a check, but Frame::sensor only if the points lie around it.
+// Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
 void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PipelineConfig& config = now.config;
   result.sensor = {};
@@ -144,7 +144,7 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
   return select_points(points, result.ground.rest);
 }
 
-// Makes all points one object, if the object is neither too small nor too large.
+// Makes all points one cluster. If this cluster is too small or too large, makes none.
 void make_one_cluster(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
