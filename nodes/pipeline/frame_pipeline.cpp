@@ -177,8 +177,8 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
                             now.classes.class_options(), result.clusters, result.class_of, now.execution);
   }
-  // Frees the memory of the clustering before the fits. For a million clusters of four points, the clustering
-  // needs 550 MB and the volumes need 300 MB, and both would be in memory at the same time.
+  // Frees the memory of the clustering before the fits. Otherwise the clustering and the volumes would be in
+  // memory at the same time: 550 MB and 300 MB for a million clusters of four points.
   constexpr std::size_t many = 250'000;
   if (result.clusters.size() >= many) {
     clusterer = EuclideanClusterer();

@@ -34,7 +34,7 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-// Returns the message of an exception that `what` throws, or nullopt if it throws none.
+// Returns the message of the exception that `what` throws. If `what` throws nothing, returns nullopt.
 template <typename Do>
 std::optional<std::string> exception_message(Do&& what) {
   try {

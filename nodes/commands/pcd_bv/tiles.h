@@ -27,7 +27,7 @@ struct TileHeader {
   std::size_t points = 0;
   ScalarType scalar = ScalarType::float32;
   bool random_access = false;          ///< Whether parts are read by position (CloudHeader).
-  std::optional<std::string> error{};  ///< Why the input is excluded. It then has no points.
+  std::optional<std::string> error{};  ///< Why the input is excluded; excluded inputs have no points.
   std::string note{};                  ///< As RawCloud::note, but from the header only.
 };
 

@@ -47,7 +47,8 @@ class BoxFilter {
   /// With `grow`, the filter stores a length and a width that approach the largest measured ones. In the
   /// first five detections, the stored sizes grow without a limit, later by at most 0.15 m per frame. The
   /// limit is needed because a cluster that contains two objects in one frame is larger, too. The box gets
-  /// the stored or the measured size, whichever is larger. It is extended on the side away from the sensor.
+  /// the stored or the measured size, whichever is larger. The box is extended on the side away from the
+  /// sensor.
   ///
   /// A merged cluster changes neither the mean yaw nor the stored sizes. A separated cluster restarts the
   /// stored sizes.

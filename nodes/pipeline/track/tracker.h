@@ -46,8 +46,8 @@ class Tracker {
     /// That track has an id but no box in this frame.
     bool merged = false;
     /// A split of this track is confirmed in this frame: earlier boxes of this track contained two objects. A
-    /// split begins when the centre of a new track's first box is inside the expected box of this track. It
-    /// is confirmed when the new track has had five detections since its start or its last occlusion.
+    /// split begins when the centre of a new track's first box is inside the expected box of this track. The
+    /// split is confirmed when the new track has had five detections since its start or its last occlusion.
     bool separated = false;
   };
 

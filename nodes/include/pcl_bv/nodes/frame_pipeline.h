@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The complete pipeline from a point cloud to the bounding volumes of its objects. FramePipeline::process()
-// does no I/O. It runs in one thread unless PipelineConfig::threads says otherwise.
+// does no I/O. The number of threads is PipelineConfig::threads, by default 1.
 #pragma once
 
 #include <memory>

@@ -144,7 +144,7 @@ std::string track_warning(const FrameResult& result);
 std::vector<ClusterEntry> cluster_entries(const FrameResult& result);
 
 /// Returns a source of the entries of cluster_entries(). The source makes one entry at a time, so that a
-/// million entries are never in memory together. It refers to `result`.
+/// million entries are never in memory together. The source refers to `result`.
 ClusterSource cluster_source(const FrameResult& result);
 
 /// Returns the report of a frame with its clusters.
@@ -154,10 +154,10 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
 /// Returns the report of a lost frame; `reason` tells why it was lost.
 FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
-/// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, it shows the
-/// points that passed the filter in the colours of `labels` (from labels_of()) and the id of each cluster.
-/// Without clustering, it shows the points that passed the filter and are not ground. The picture refers to
-/// `frame`, `result` and `labels`.
+/// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, the picture shows
+/// the points that passed the filter in the colours of `labels` (from labels_of()) and the id of each
+/// cluster. Without clustering, the picture shows the points that passed the filter and are not ground. The
+/// picture refers to `frame`, `result` and `labels`.
 detail::Picture picture_of(const Frame& frame, const FrameResult& result,
                            const std::vector<std::uint32_t>& labels);
 

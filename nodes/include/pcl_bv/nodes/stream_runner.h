@@ -26,7 +26,7 @@ enum class QueuePolicy : std::uint8_t {
   automatic,    ///< "auto" in files; resolved_policy() tells what it means.
   drop_oldest,  ///< The frame that has waited longest is dropped, so that results are recent.
   drop_newest,  ///< The new frame is dropped.
-  block         ///< The sender waits, so that no frame is lost. For files.
+  block         ///< The sender waits, so that no frame is lost. Suits files.
 };
 
 /// Resolves `automatic`. If a sensor or a schedule determines when frames come (`paced`), returns

@@ -72,8 +72,8 @@ VolumeShape viewer_shape(const AnyVolume& volume);
 /// all messages, because computing the edges of a k-DOP costs as much as fitting the k-DOP.
 std::vector<VolumeShape> viewer_shapes(const FrameResult& result);
 
-/// Returns the first volume of a cluster that is a box. If there is none, returns the axis-aligned box of the
-/// cluster's first volume. A cluster without volumes gives `lines` without points.
+/// Returns a box of a cluster as a shape: the first volume that is a box or, if no volume is a box, the
+/// axis-aligned box of the first volume. A cluster without volumes gives `lines` without points.
 VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
 /// Returns the colour of a cluster (red, green, blue, alpha), 0 to 1. A tracked object keeps its colour.
