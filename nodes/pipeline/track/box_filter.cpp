@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kVoteDecay = 0.9;          // per frame; decay of the votes for axis 0
-constexpr double kVoteLead = 2;             // lead in votes that makes another direction axis 0
-constexpr double kMovingDecay = 0.5;        // per frame; decay of the mean yaw of a moving object
-constexpr double kStaticDecay = 0.97;       // per frame; decay of the mean yaw of a static object
+constexpr double kVoteDecay = 0.9;          // factor per frame of older votes
+constexpr double kVoteLead = 2;             // lead over axis 0 with which another direction becomes axis 0
+constexpr double kMovingDecay = 0.5;        // factor per frame of older yaws in the mean yaw, moving object
+constexpr double kStaticDecay = 0.97;       // factor per frame of older yaws in the mean yaw, static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 

@@ -41,7 +41,7 @@ std::int64_t stamp_of(const ParsedTime& time);
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
   bool sort = false;                 ///< Whether the files must be sorted by time, not by name.
-  std::string warning{};             ///< Warning that the times do not ascend; usually empty.
+  std::string warning{};             ///< Warning about the order of the times; usually empty.
 };
 
 /// Returns the stamps of names, which are given in natural order. Prefers a format whose times ascend.
