@@ -158,7 +158,7 @@ class StreamRunner {
 
   /// Reports a frame that its source could not read. The frame gets the next FrameHeader::number and is
   /// counted as lost (Loss::error). The frame needs no capacity in the queue. While 1000 lost frames wait for
-  /// `on_lost`, report_unreadable() waits, too. A call from a callback or after stop() never waits.
+  /// `on_lost`, report_unreadable() waits. A call from a callback or after stop() never waits.
   void report_unreadable(Frame frame, std::string reason);
 
   /// Waits until no frame is queued or being processed, and returns true. If the time `until` comes first,
