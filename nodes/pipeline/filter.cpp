@@ -63,7 +63,7 @@ bool PointFilter::keeps_all() const {
 }
 
 // Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,
-// not on regions. Distances are compared without a branch.
+// not on regions. The loop compares distances without a branch.
 template <typename T, typename Take>
 void PointFilter::each_distance(const PointView& points, const Take& take) const {
   const double min2 = min2_, max2 = max2_;  // copies, because members would be read again after each store

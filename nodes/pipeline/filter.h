@@ -19,8 +19,9 @@
 
 namespace pcl_bv::detail {
 
-/// Whether a point is kept, or the reason why it is dropped. `region` means that the point is inside a region
-/// to drop, or outside all regions to keep.
+/// Whether a point is kept, or the reason why it is dropped. `range` means that the distance is out of range
+/// or that the point is in the box of the own vehicle. `region` means that the point is inside a region to
+/// drop, or outside all regions to keep.
 enum class Verdict : std::uint8_t { kept, nonfinite, range, region };
 
 /// Memory that calls of PointFilter::classify() reuse.

@@ -21,10 +21,10 @@ struct FilteredView {
   std::shared_ptr<const PointSource> owner;  ///< Source of `points`; null if `points` is the input.
 };
 
-/// Returns a view of `points` that filters them as FramePipeline does, whenever they are loaded. The view
-/// refers to the input, which must outlive it. Makes one pass over the points to count the dropped ones, or
-/// no pass if the filter keeps all points. Throws std::invalid_argument if `points` has an index list, and
-/// IoError if a region file cannot be read.
+/// Returns a view of `points` that filters the points whenever they are loaded, as FramePipeline does. The
+/// input must outlive the view. Makes one pass over the points to count the dropped ones. If the filter keeps
+/// all points, makes no pass. Throws std::invalid_argument if `points` has an index list, and IoError if a
+/// region file cannot be read.
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution);
 
 }  // namespace detail

@@ -109,7 +109,7 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   return result.points_after_filter(cloud);
 }
 
-// Uses ground.sensor without a check, but Frame::sensor only if the points lie around it.
+// Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
 void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PipelineConfig& config = now.config;
   result.sensor = {};
@@ -142,7 +142,7 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
   return select_points(points, result.ground.rest);
 }
 
-// Makes all points one object, if the object is neither too small nor too large.
+// Makes all points one cluster. If this cluster is too small or too large, makes none.
 void make_one_cluster(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
@@ -175,8 +175,8 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
                             now.classes.class_options(), result.clusters, result.class_of, now.execution);
   }
-  // Frees the memory of the clustering before the fits. For a million clusters of four points, the clustering
-  // needs 550 MB and the volumes need 300 MB, and both would be in memory at the same time.
+  // Frees the memory of the clustering before the fits. Otherwise the clustering and the volumes would be in
+  // memory at the same time: 550 MB and 300 MB for a million clusters of four points.
   constexpr std::size_t many = 250'000;
   if (result.clusters.size() >= many) {
     clusterer = EuclideanClusterer();

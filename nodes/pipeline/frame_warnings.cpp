@@ -17,12 +17,12 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Smallest share of points beyond 100 m that gives a warning. On a motorway, a tenth of the points may be
-// there without a problem.
+// Smallest share of points beyond 100 m that gives a warning. On a motorway, a tenth of the points may be so
+// far away without a problem.
 constexpr double kMinFarShare = 0.2;
 
-// With a smaller share of ground, another up direction is searched for. In streets, 30 % to 60 % of the
-// points are ground; in cluttered streets, 13 %.
+// If the share of ground is smaller, other_up() searches for another up direction. In streets, 30 % to 60 %
+// of the points are ground; in cluttered streets, 13 %.
 constexpr double kLittleGround = 0.15;
 
 struct Found {
@@ -67,8 +67,8 @@ std::string no_ground(const Found& f) {
 std::string little_ground(const Found& f) {
   const double share = f.ground_share();
   if (f.config().ground.method == GroundMethod::none || share == 0 || share >= kLittleGround) return {};
-  // Search only once, because a cluttered stream has little ground in every frame and a search takes
-  // milliseconds.
+  // Searches only once per configuration. A cluttered stream has little ground in every frame, and each
+  // search takes milliseconds.
   if (std::exchange(f.searched, true)) return {};
   const auto other = f.other_up();
   if (!other) return {};

@@ -9,7 +9,7 @@
 
 namespace pcl_bv::detail {
 
-/// Smallest number of points that can cause a warning about settings.
+/// Smallest number of points for which warnings about the ground settings are given.
 inline constexpr std::size_t kFewPoints = 100;
 
 /// Returns the settings of split_ground() for one plane.

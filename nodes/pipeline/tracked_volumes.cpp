@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
 
-// Returns the axis-aligned box of a cluster, whichever volumes are requested, because tracks must not depend
-// on the requested volumes.
+// Returns the axis-aligned box of a cluster. If the configuration does not request this box, computes it,
+// because tracks must not depend on the requested volumes.
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
@@ -43,11 +43,12 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   }
 }
 
-// After a stamp that did not advance, the next difference of stamps is not used either, if the recording
-// times advance.
+// The step is the difference of the stamps or, if the stamp did not advance, of the recording times. A stamp
+// that did not advance is not trusted. Therefore the step after it is again the difference of the recording
+// times, if that is positive.
 //
-// The sum of all steps must not overflow if a driver sometimes writes 0. Therefore each step is limited to
-// two seconds, and the first time to half of the largest number. The limit of steps does not change tracks,
+// The time must not overflow, not even if a driver sometimes writes the stamp 0. Therefore the first time is
+// at most INT64_MAX / 2, and each step is at most two seconds. The limit of steps does not change tracks,
 // because the tracker treats all steps above one second in the same way.
 std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   const auto passed = [](std::int64_t from, std::int64_t to) {

@@ -13,8 +13,8 @@
 
 namespace pcl_bv::detail {
 
-/// The clock of the tracks. It follows the stamps if they advance, otherwise the recording times. Both cases
-/// occur, because some drivers write the same stamp into every message or set their clock back.
+/// The clock of the tracks. It follows the stamps. If the stamps do not advance, it follows the recording
+/// times, because some drivers write the same stamp into every message or set their clock back.
 class TrackClock {
  public:
   /// Returns the time of the next frame, nanoseconds. The time begins at the first stamp. It never decreases,

@@ -33,8 +33,8 @@ class MessageSender {
   /// the other member functions.
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
-  /// Returns whether there is a receiver for the next message of a topic. If not, the caller need not make
-  /// this message.
+  /// Returns whether the next message of a topic has a receiver. Without a receiver, the caller need not make
+  /// the message.
   virtual bool has_subscribers(std::size_t /*topic*/) const { return true; }
 
   /// Sends a message, which is plain CDR with its encapsulation header, or JSON text. Throws as
@@ -101,7 +101,7 @@ class Middleware {
 ///   messages.
 ///
 /// The module is the file pcl_bv/pcl_bv_NAME.so in the library folder next to the program or next to this
-/// library. Throws IoError if it is not installed or has another version.
+/// library. Throws IoError if the module is not installed or has another version.
 Middleware& middleware(const std::string& name);
 
 /// Functions that a module exports as `extern "C"`. They return the module's version, which must equal the

@@ -34,7 +34,7 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-// Returns the message of an exception that `what` throws, or nullopt if it throws none.
+// Returns the message of the exception that `what` throws. If `what` throws nothing, returns nullopt.
 template <typename Do>
 std::optional<std::string> exception_message(Do&& what) {
   try {
@@ -98,7 +98,7 @@ struct StreamRunner::State {
   std::mutex join_mutex;
 };
 
-// Runs a callback. Counts its exceptions in callback_errors and drops no frame for them.
+// Runs a callback. If the callback throws, counts the exception in callback_errors and drops no frame.
 template <typename Do>
 void StreamRunner::State::call_guarded(Do&& callback) {
   if (!exception_message(callback)) return;
@@ -190,7 +190,7 @@ void StreamRunner::State::run() {
     worker_id = std::this_thread::get_id();
   }
   for (;;) {
-    const Task task = take();  // declared here, so that its points are freed before the next wait
+    const Task task = take();  // declared in the loop: its points are freed before the next wait
     if (const auto* queued = std::get_if<QueuedFrame>(&task)) {
       work_on(*queued);
     } else if (const auto* lost = std::get_if<Lost>(&task)) {
@@ -249,7 +249,7 @@ bool StreamRunner::push(Frame frame) {
           "StreamRunner::push: the frame has points but no owner");
   State& s = *state_;
   if (frame.taken == Clock::time_point()) frame.taken = Clock::now();
-  State::QueuedFrame oldest;  // declared before `lock`, so that it is freed after unlocking
+  State::QueuedFrame oldest;  // declared before `lock`: its points are freed after unlocking
   std::unique_lock lock(s.mutex);
   s.count_arrival();
   const bool block = s.config.policy == QueuePolicy::block;
@@ -301,7 +301,7 @@ void StreamRunner::stop(End end) {
   }
   s.arrived.notify_all();
   s.not_full.notify_all();
-  if (from_callback) return;  // the worker cannot join itself; it ends after the callback
+  if (from_callback) return;  // the worker cannot join itself
   const std::lock_guard joining(s.join_mutex);
   if (s.worker.joinable()) s.worker.join();
 }

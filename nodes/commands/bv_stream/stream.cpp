@@ -43,7 +43,8 @@ class Progress {
   }
 
  private:
-  // Progress is not shown if results go to the terminal, too, because both would mix.
+  // Progress is not shown if standard output is a terminal, too, because printed results would mix with the
+  // progress.
   const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
 
@@ -121,8 +122,8 @@ class Reader {
   bool paced() const { return options_.rate == Rate::fixed || options_.rate == Rate::recorded; }
 
   // Waits until the frame is processed, but at most until the time `until` at which the next frame must be
-  // read. Reading the next file earlier would take a core and caches from the processing, unlike a live
-  // sensor.
+  // read. Reading the next file earlier would take a core and cache from the processing, which a live sensor
+  // does not do.
   void leave_the_worker_alone(Clock::time_point until) {
     while (wanted() && Clock::now() < until &&
            !runner_.wait_idle(std::min(until, Clock::now() + kPollInterval)))
@@ -156,7 +157,8 @@ class Reader {
   double seconds_ = 0, step_ = 0;
 };
 
-// Prints the numbers of dropped frames and of frames without a pose. Each error has been printed before.
+// Prints the numbers of dropped frames and of frames without a pose. Frames with an error are not included,
+// because each of them has been reported before.
 void report_dropped_frames(const FrameTotals& frames, std::uint64_t without_pose) {
   const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
   const std::string all = " of " + std::to_string(frames.in) + " frames";
@@ -220,7 +222,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   config.policy = resolved_policy(config.policy, options.rate != Rate::max);
   FrameResult reserved;
   if (options.rate != Rate::max)
-    pipeline.reserve(points_of_a_sweep, reserved);  // not at maximum rate: would delay the first frame
+    pipeline.reserve(points_of_a_sweep, reserved);  // skipped at maximum rate: would delay the first frame
   StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config,
                       std::move(reserved));
   Reader reader(options, runner, sinks, interrupted);
@@ -231,7 +233,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   RunnerStats stats = runner.stats();
   stats.sinks = sinks.times();
   report_dropped_frames(stats.frames, reader.without_pose);
-  if (errors_go_to_a_terminal()) report(stats);  // scripts get no report
+  if (errors_go_to_a_terminal()) report(stats);  // scripts do not get the report
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {

@@ -11,8 +11,8 @@
 
 namespace pcl_bv::detail {
 
-/// Copies the coordinates of the points, which must be in memory, to `to`: without gaps, as numbers of type
-/// `scalar`. Only float32 points can be copied as float32.
+/// Copies the coordinates of the points to `to`, without gaps and as numbers of type `scalar`. The points
+/// must be in memory. Only float32 points can be copied as float32.
 inline void copy_points(const PointView& points, ScalarType scalar, std::byte* to) {
   const auto copy = [&](auto example, const auto& load) {
     decltype(example) xyz[3];

@@ -122,7 +122,7 @@ Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<
 }
 
 std::string stem(const std::string& input) {
-  const std::size_t number = input.rfind('#');  // of a recording: FILE.mcap#3 becomes FILE-3
+  const std::size_t number = input.rfind('#');  // a recorded cloud: FILE.mcap#3 becomes FILE-3
   if (!is_synth(input) && number != std::string::npos &&
       input.find_first_not_of("0123456789", number + 1) == std::string::npos)
     return fs::path(input.substr(0, number)).stem().string() + '-' + input.substr(number + 1);

@@ -27,8 +27,8 @@ class LoadedCloud {
   /// Returns the origin that was subtracted; nullopt if no origin was requested.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
-  /// Throws IoError if a file of a tiled cloud, or the file of another cloud that is not in memory, has been
-  /// changed.
+  /// Throws IoError if a file has been changed. For a tiled cloud, checks all files. For any other cloud,
+  /// checks the file only if the cloud is not in memory.
   void require_unchanged() const;
 
   /// Moves the cloud in memory to the caller. Must be the last access to the points.
@@ -43,7 +43,8 @@ class LoadedCloud {
   PointView xyz_;  // refers to the points in another member
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  // Copies of a tiled cloud's points before the origin was subtracted, and of `xyz_`. Empty if not copied.
+  // Copies of points, or empty. `points_` has the points of `xyz_`. `points_before_shift_` has the points of
+  // a tiled cloud before the origin is subtracted.
   std::vector<std::byte> points_before_shift_, points_;
 };
 

@@ -29,8 +29,8 @@ struct Result {
   Status status = Status::done;
 };
 
-/// Takes the next part of a long report. If it is the report's turn, writes the part, empties `text` and
-/// returns true. Otherwise returns false and leaves `text` unchanged.
+/// Takes the next part of a long report. If all earlier reports are written, writes the part, empties `text`
+/// and returns true. Otherwise returns false and leaves `text` unchanged.
 using WriteEarly = std::function<bool(std::string& text)>;
 
 /// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the status
@@ -66,11 +66,12 @@ class OrderedResults {
  public:
   OrderedResults(const Options& options, std::size_t jobs, std::size_t workers);
 
-  /// Returns the number of the next job, or nullopt if there is none or stop() was called. Waits while too
-  /// many results cannot be written because an earlier job is not finished.
+  /// Returns the number of the next job, or nullopt if there is none or stop() was called. Waits while an
+  /// earlier job is not finished and too many later results wait for it.
   std::optional<std::size_t> next();
 
-  /// Takes the result of a job. Writes all results whose earlier jobs are all written.
+  /// Stores the result of a job. Then writes the stored results in order, up to the first job that has no
+  /// result yet.
   void add_result(std::size_t job, Result result);
 
   /// If all earlier jobs are written, prints the messages, writes the text, clears both and returns true.

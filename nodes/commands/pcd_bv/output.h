@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes reports, either to standard output when each is ready, or to one file at the end.
+// Writes reports: each to standard output as soon as it is ready, or all to one file at the end.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@
 namespace pcl_bv::detail {
 
 /// Renders one report without the separators between reports, so that several threads can render reports at
-/// the same time. `take` gets the text in pieces that are not empty. It gets no piece for a failed input if
-/// the format does not show failed inputs.
+/// the same time. `take` gets the text in pieces that are not empty. `take` gets no piece for a failed input
+/// if the format does not show failed inputs.
 void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
 
 /// Writes rendered reports. Member functions return false if standard output has no reader any more, and

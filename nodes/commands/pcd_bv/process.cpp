@@ -78,7 +78,8 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
   return Status::failed;
 }
 
-/// Writes the requested files other than the report. The labels are written into the records of the cloud.
+/// Writes the requested files other than the report. The file of labels is the loaded cloud with an added
+/// field.
 Status write_files(const Job& job, const Options& options, const Frame& frame, const Outcome& outcome,
                    LoadedCloud& loaded) {
   const FrameResult& result = *outcome.result;

@@ -31,8 +31,8 @@ struct Outcome {
 };
 
 /// Processes a job. Loads, segments, fits, verifies, and writes the labels, the mesh, the picture and the
-/// page. Problems with inputs or files are not thrown. They are reported on standard error and change the
-/// status. For a failed input, `report.error` is set, too.
+/// HTML page. Problems with inputs or files are not thrown. They are reported on standard error and change
+/// the status. For a failed input, `report.error` is set, too.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
 /// Reports failed fits and points outside of volumes on standard error. Returns the resulting status.

@@ -154,7 +154,7 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
     const std::optional<PartialFile> merged = merge_files(job.partials);
     return merged ? write_or_report(*options.partial, *merged) : Status::failed;
   }
-  // Without an excluded input, this share and the other shares would belong to different clouds.
+  // No input may be excluded: the other shares contain it, so they would belong to a different cloud.
   if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
   const Execution execution = execution_of(options);
   PartialFile file = describe_cloud(*job.tiles, options.origin.at, options);

@@ -23,7 +23,7 @@ bool is_file(const Job& job) {
   return !job.recording && !is_synth(job.input);
 }
 
-// Returns the result of work(). Its exceptions, except std::bad_alloc, become a TileError.
+// Returns the result of work(). An exception of work() becomes a TileError, except std::bad_alloc.
 template <typename Work>
 auto of_tile(std::size_t tile, const Work& work) {
   try {

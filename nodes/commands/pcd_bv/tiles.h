@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud tiled over several inputs. Points are numbered through all inputs and loaded when they are needed.
+// A cloud tiled over several inputs. The points of all inputs are numbered consecutively and loaded when they
+// are needed.
 #pragma once
 
 #include <atomic>
@@ -26,7 +27,7 @@ struct TileHeader {
   std::size_t points = 0;
   ScalarType scalar = ScalarType::float32;
   bool random_access = false;          ///< Whether parts are read by position (CloudHeader).
-  std::optional<std::string> error{};  ///< Why the input is excluded. It then has no points.
+  std::optional<std::string> error{};  ///< Why the input is excluded; excluded inputs have no points.
   std::string note{};                  ///< As RawCloud::note, but from the header only.
 };
 
@@ -68,7 +69,7 @@ class Tiles final : public PointSource {
   /// Returns the warnings about an input that are known so far, as in RawCloud::note.
   std::string note(std::size_t tile) const;
 
-  /// Excludes an input from the cloud. The points after it are renumbered.
+  /// Excludes an input from the cloud. The points of later inputs are renumbered.
   void exclude(std::size_t tile, const std::string& reason);
 
   /// Returns share `number` of `shares` shares. The shares cover the cloud and have about the same number of

@@ -59,7 +59,7 @@ void Interruption::watch() const {
   do {
     sigwait(&handled_signals_, &signal);
     if (signal == stop_signal() && stop_flag_ != nullptr) return;
-  } while (signal == stop_signal());  // the thread of start_finishing() ends the process
+  } while (signal == stop_signal());  // ignored: the thread of start_finishing() ends the process
   end_with(signal);
 }
 

@@ -16,8 +16,8 @@ namespace pcl_bv::detail {
 /// a thread.
 ///
 /// On the first signal, the thread calls `finish`, removes temporary files and ends the process with status
-/// 128 + signal. With `stop_flag`, it sets that flag instead, and the work must end by itself. On a second
-/// signal, the thread does not wait: it removes temporary files and ends the process with status 128 +
+/// 128 + signal. With `stop_flag`, the thread sets this flag instead, and the work must end by itself. On a
+/// second signal, the thread does not wait: it removes temporary files and ends the process with status 128 +
 /// signal. Signals that the caller of the program has ignored (nohup) stay ignored.
 ///
 /// Create the object in the main thread before any other thread, because threads inherit the blocked signals.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes each line by one system call, so that lines of several threads never mix.
+// Writes each line by one system call while a mutex is locked, so that lines never mix.
 
 #include "messages.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Uses POSIX calls, so that the call that fails reports the failure.
+// Uses POSIX calls without a buffer, so that a failed write is reported by this write, not by a later one.
 
 #include "standard_streams.h"
 
@@ -22,7 +22,8 @@ void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-    // /dev/null is opened in the wrong direction, so that writing to a closed standard output fails.
+    // /dev/null is opened for the wrong direction, so that writing to a standard output that was closed at
+    // the start fails.
     const int mode = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
     if (open("/dev/null", mode) != descriptor) _exit(EXIT_FAILURE);
   }

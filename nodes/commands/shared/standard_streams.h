@@ -9,7 +9,7 @@
 
 namespace pcl_bv::detail {
 
-/// Must be called before any file is opened. Afterwards, to write to a closed pipe is an error that does not
+/// Must be called before any file is opened. Afterwards, writing to a closed pipe gives an error and does not
 /// end the program. If the program was started with a standard stream closed, no file that is opened later
 /// gets the descriptor of this stream.
 void prepare_standard_streams();

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Reserves more than needed now. If a sequence is replayed, the tracks of its end are still active when the
-// tracks of its beginning start again. Then there are more rows (tracks), and still nothing may be allocated.
+// Reserves four times the needed capacity. If a sequence is replayed, the tracks of its end are still active
+// when the tracks of its beginning start again. The replay then has more rows (tracks) than the first pass,
+// but must not allocate.
 template <typename T>
 void refill(std::vector<T>& values, std::size_t count, T value) {
   if (values.capacity() < count) values.reserve(4 * count);
@@ -60,8 +61,8 @@ void SparseAssignment::relax(std::size_t row, std::size_t column, double cost) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-// Dijkstra's search from a row to the nearest free column. The potentials keep the distances of all later
-// searches non-negative.
+// Dijkstra's search from a row to the nearest free column. The potentials keep the reduced costs (see
+// relax()) of all later searches non-negative, as Dijkstra's algorithm requires.
 void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair>& pairs) {
   heap_.clear();
   touched_.clear();

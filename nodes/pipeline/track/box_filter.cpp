@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kVoteDecay = 0.9;          // per frame; decay of the votes for axis 0
-constexpr double kVoteLead = 2;             // lead in votes that makes another direction axis 0
-constexpr double kMovingDecay = 0.5;        // per frame; decay of the mean yaw of a moving object
-constexpr double kStaticDecay = 0.97;       // per frame; decay of the mean yaw of a static object
+constexpr double kVoteDecay = 0.9;          // factor per frame of older votes
+constexpr double kVoteLead = 2;             // lead over axis 0 with which another direction becomes axis 0
+constexpr double kMovingDecay = 0.5;        // factor per frame of older yaws in the mean yaw, moving object
+constexpr double kStaticDecay = 0.97;       // factor per frame of older yaws in the mean yaw, static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 
@@ -40,8 +40,8 @@ Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
   return result;
 }
 
-// Finds the slabs that contain all valid points. Widens them by slightly more than the rounding error of the
-// comparisons.
+// Finds the slabs that contain all valid points. Widens the slabs slightly, so that Obb::contains() is true
+// for every point in spite of rounding errors.
 void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
               Eigen::Vector3d& low, Eigen::Vector3d& high) {
   double farthest = 0;
@@ -102,7 +102,7 @@ double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& state) {
       Obb(box.center(), orthonormal_axes(state.sensor.linear() * box.axes()), box.half_extents()).yaw();
   if (!state.merged) {
     const double decay = state.moving ? kMovingDecay : kStaticDecay;
-    // Longer sides have more weight, since their direction is more accurate.
+    // Longer boxes have more weight, because the direction of a long side is more accurate.
     const double weight = box.half_extents().head<2>().maxCoeff();
     cosine_ = decay * cosine_ + weight * std::cos(4 * yaw);
     sine_ = decay * sine_ + weight * std::sin(4 * yaw);

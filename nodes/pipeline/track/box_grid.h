@@ -29,11 +29,11 @@ class BoxGrid {
   }
 
   /// Calls visit(index) for all boxes whose centres are within one side length of a position in x and y. Also
-  /// calls it for some boxes whose centres are at most two side lengths away.
+  /// calls visit(index) for some boxes whose centres are at most two side lengths away.
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& position, const Visit& visit) const {
     const double x = square(position.x()), y = square(position.y());
-    // The loop counts offsets, because adding 1 does not change a double above 2^53.
+    // Above 2^53, adding 1 does not change a double. An offset that does not change `x` is skipped.
     for (const double offset : {-1.0, 0.0, 1.0}) {
       const double column = x + offset;
       if (offset != 0 && column == x) continue;

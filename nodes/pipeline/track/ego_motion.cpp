@@ -10,8 +10,8 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double kMaxShift = 4;      // metres per frame; 40 m/s at 10 Hz
-constexpr double kAgreement = 0.35;  // metres; centres of partial views jump by decimetres
-constexpr double kMaxSize = 6;       // metres; longer boxes, such as walls, are only partly visible
+constexpr double kAgreement = 0.35;  // metres; partial views move centres by decimetres
+constexpr double kMaxSize = 6;       // metres; longer objects, such as walls, are only partly visible
 constexpr std::size_t kMinPairs = 6;
 constexpr double kBin = 0.5;
 constexpr int kBins = 17;  // 2 kMaxShift / kBin + 1
@@ -77,8 +77,8 @@ std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vect
   return pairs_.size();
 }
 
-// Rotates the expected boxes by motion.yaw. Then sets motion.shift to the shift between boxes that occurs
-// most often.
+// Rotates the expected boxes by motion.yaw. Then sets motion.shift to the most frequent shift from an
+// expected to a measured box.
 void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion) {
   const auto bin = [](int x, int y) {
     return std::size_t{kBins} * static_cast<std::size_t>(y) + static_cast<std::size_t>(x);

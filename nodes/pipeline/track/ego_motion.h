@@ -37,11 +37,14 @@ class EgoMotion {
   /// Finds the motion that maps the `expected` boxes to the measured boxes `seen`. All boxes are in the
   /// sensor's frame.
   ///
-  /// Starts from `guess` and alternates between pairing nearest neighbours, within ever smaller radii, and
-  /// least squares. Only expected boxes shorter than 6 m are used and counted. If fewer than 40 % of them get
-  /// a pair, the search is repeated for each of five yaw angles, starting from the shift that most pairs vote
-  /// for. Returns true and sets `motion` if it brings at least six expected boxes, and 30 % of them, to
-  /// within 0.35 m of a measured box. Otherwise returns false.
+  /// Starts from `guess`. Alternately pairs each expected box with the nearest measured box of similar size,
+  /// within ever smaller radii, and fits the motion to the pairs by least squares. Only expected boxes
+  /// shorter than 6 m are used and counted. If fewer than 40 % of them get a pair, the search is repeated for
+  /// each of five yaw angles. Each repetition starts from the most frequent shift from an expected to a
+  /// measured box.
+  ///
+  /// Returns true and sets `motion` if the found motion brings at least six expected boxes, and at least 30 %
+  /// of them, to within 0.35 m of a measured box. Otherwise returns false.
   bool estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& guess,
                 PlanarMotion& motion);
 

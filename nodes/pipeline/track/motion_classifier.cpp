@@ -15,11 +15,11 @@ constexpr double kMinTime = 0.15;  // seconds; shortest time that allows a decis
 constexpr double kMinShift = 0.3;  // metres; smallest displacement of a moving object
 constexpr double kStartSpeed = 0.7,
                  kStopSpeed = 0.5;  // m/s; moving starts above kStartSpeed and ends below kStopSpeed
-// Smallest dot product of the velocities in the two halves of the window, divided by the larger squared
-// velocity.
+// The velocities in the two halves of the window have the same direction if their dot product, divided by the
+// larger squared velocity, is above this value.
 constexpr double kMinAlignment = 0.25;
 
-// Returns the smaller displacement of the two opposite faces along the sensor's x and y, or 0 if the faces
+// Along the sensor's x and y, returns the smaller displacement of the two opposite faces, or 0 if the faces
 // move apart or towards each other. If a part of the object comes into or goes out of view, only one face
 // moves, so the result is 0.
 Eigen::Vector2d smallest_shift(const Eigen::Vector3d& displacement, const Eigen::Vector3d& before,

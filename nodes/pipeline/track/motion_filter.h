@@ -17,7 +17,8 @@ struct AxisFilter {
   double position_variance = 1, covariance = 0, velocity_variance = 1;
 
   /// Predicts with a constant velocity and a white-noise acceleration of spectral density `density`
-  /// (m^2/s^3). Many small steps give the same as one large step, so stamps a millisecond apart do no harm.
+  /// (m^2/s^3). Many small steps give the same result as one large step, so stamps a millisecond apart do no
+  /// harm.
   void predict(double seconds, double density) {
     position += seconds * velocity;
     position_variance += seconds * (2 * covariance + seconds * (velocity_variance + seconds * density / 3));
@@ -44,8 +45,8 @@ struct AxisFilter {
         std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / position_variance + 1e-12);
   }
 
-  /// Initialises the state by the second of two measurements. Both measurements have this variance, and they
-  /// are `seconds` apart. Uses no prior.
+  /// Sets position and velocity from the first two measurements, without a prior. Must be called for the
+  /// second measurement. Both measurements have this variance and are `seconds` apart.
   void start(double innovation, double variance, double seconds) {
     position += innovation;
     velocity += innovation / seconds;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kFaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
 constexpr double kFirstSpeed = 8;            // m/s; standard deviation of an unknown velocity
-constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise density: random 1.7 m/s^2 every 0.1 s
-constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed: 57 degrees/s every 0.1 s
+constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise density of 1.7 m/s^2 every 0.1 s
+constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed, 57 degrees/s every 0.1 s
 constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
 constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
 
@@ -21,8 +21,9 @@ Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::
   return rotation.cwiseAbs2() * variances;
 }
 
-// Returns the innovation. It is the shift of the centre if the size changes by at most 0.05 m, and the
-// smallest shift of the faces if it changes by 0.25 m or more. In between, it is a blend of both shifts.
+// Returns the innovation. If the size changes by at most 0.05 m, the innovation is the shift of the centre.
+// If the size changes by 0.25 m or more, it is the smaller shift of the two faces. In between, it is a
+// weighted mean of both shifts.
 double innovation_of(const BoxDifference& difference, int axis) {
   const double part = std::clamp((std::abs(difference.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
   return (1 - part) * difference.centre[axis] + part * difference.shift[axis];
@@ -102,8 +103,8 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
     low[i] += part * (seen_box.min()[i] - expected_position[i] - low[i]);
     high[i] += part * (seen_box.max()[i] - expected_position[i] - high[i]);
   }
-  // Make the centre of the box the tracked position. A position off the centre would rotate with the sensor
-  // and seem to move. For 1.5 m off the centre and 30 degrees/s, it would seem to move at 0.8 m/s.
+  // Moves the tracked position to the centre of the box. A position off the centre would rotate with the
+  // sensor and seem to move: at 0.8 m/s for 1.5 m off the centre and 30 degrees/s.
   const Eigen::Vector3d offset = (low + high) / 2, fixed_offset = rotation * offset;
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)].position += fixed_offset[i];

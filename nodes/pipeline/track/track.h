@@ -21,8 +21,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct BoxDifference {
   Eigen::Vector3d centre, size;
-  /// The smaller displacement of the two opposite faces; 0 if the faces move apart or towards each other. If
-  /// a part of the object comes into or goes out of view, only one face moves, so the shift is 0.
+  /// Along each axis, the smaller displacement of the two opposite faces; 0 if the faces move apart or
+  /// towards each other. If a part of the object comes into or goes out of view, only one face moves, so the
+  /// shift is 0.
   Eigen::Vector3d shift;
 };
 
@@ -62,8 +63,8 @@ struct Track {
   void classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
 };
 
-/// Returns how unlikely it is that the box belongs to the track, in squared standard deviations. `gate`, in
-/// metres, is four standard deviations for a track whose state is known exactly.
+/// Returns how unlikely it is that the box belongs to the track, in squared standard deviations. For a track
+/// whose state is known exactly, `gate` metres are about four standard deviations.
 double cost_of(const Track& track, const Aabb& box, double gate);
 
 }  // namespace detail

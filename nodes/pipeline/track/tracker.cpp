@@ -89,7 +89,8 @@ void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes)
   PlanarMotion motion = guess;
   const bool found = ego.estimate(expected, boxes, guess, motion);
   sensor = after_motion(sensor, motion);
-  // In less than 20 ms, the sensor moves less than the noise of positions, so the step is not stored.
+  // A step of less than 20 ms is not stored as the last motion, because the sensor moves less than the noise
+  // of positions in this time.
   if (!found || seconds < 0.02) return;
   step = motion;
   step_seconds = seconds;
@@ -224,7 +225,7 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.last_stamp_ns = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
   // Reserves more capacity than this frame needs. If a sequence is replayed, the tracks of its end are still
-  // active when the tracks of its beginning start again, and even then update() must not allocate.
+  // active when the tracks of its beginning start again. Even then update() must not allocate.
   if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
   s.track_taken.reserve(s.tracks.capacity());
   s.free.reserve(s.tracks.capacity());

@@ -29,9 +29,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// plausible. For a track whose position is well known, the displacement is at most about TrackConfig::gate.
 /// All boxes are assigned jointly at minimum total cost (Kuhn 1955).
 ///
-/// A track gets its id when it has TrackConfig::birth detections. It is deleted after TrackConfig::death
-/// frames in a row without a detection. A frame in which the track is occluded (its expected centre is inside
-/// the box of another object) is counted as a quarter of a frame.
+/// A track gets its id when it has TrackConfig::birth detections. A track is deleted after TrackConfig::death
+/// frames in a row without a detection. A track is occluded if its expected centre is inside the box of
+/// another object. Four frames in which a track is occluded are counted as one.
 class Tracker {
  public:
   /// The track to which a box is assigned.
@@ -46,8 +46,8 @@ class Tracker {
     /// That track has an id but no box in this frame.
     bool merged = false;
     /// A split of this track is confirmed in this frame: earlier boxes of this track contained two objects. A
-    /// split begins when the centre of a new track's first box is inside the expected box of this track. It
-    /// is confirmed when the new track has had five detections since its start or its last occlusion.
+    /// split begins when the centre of a new track's first box is inside the expected box of this track. The
+    /// split is confirmed when the new track has had five detections since its start or its last occlusion.
     bool separated = false;
   };
 
@@ -60,7 +60,7 @@ class Tracker {
   /// frame, metres, measured at `stamp_ns`. If the time does not advance, or advances by more than a second,
   /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. Takes
   /// O(n log n) time, plus the time of the assignment. Computes one cost for each pair of a track and a box
-  /// near it (BoxGrid with sides of three gates).
+  /// near the track (BoxGrid with cells of three times TrackConfig::gate).
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
 

@@ -15,7 +15,8 @@
 namespace pcl_bv::detail {
 
 /// A text file, or standard output for "-". Each write() is one system call if the system takes the whole
-/// text. The first call of write() or close() empties an existing file. Without such a call, it is unchanged.
+/// text. The first call of write() or close() empties an existing file. Without such a call, an existing file
+/// is unchanged.
 class LineFile {
  public:
   /// Throws IoError if the file cannot be opened.

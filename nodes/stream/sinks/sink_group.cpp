@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the outermost folder of `path` (or `path` itself) that does not exist, or an empty path if all
-// exist.
+// Returns the outermost part of `path` that does not exist: a folder, or `path` itself. If all parts exist,
+// returns an empty path.
 fs::path first_missing(const fs::path& path) {
   std::error_code unknown;
   fs::path missing;
@@ -27,8 +27,8 @@ fs::path first_missing(const fs::path& path) {
   return missing;
 }
 
-// Removes empty folders from `path` outwards to `outermost`. Sinks remove the files that they created
-// themselves, because several sinks may write into one folder.
+// Removes empty folders from `path` outwards to `outermost`. Does not remove files: each sink removes the
+// files that it created, because several sinks may write into one folder.
 void remove_empty_folders(const fs::path& path, const fs::path& outermost) {
   std::error_code unknown;
   for (fs::path at = path;; at = at.parent_path()) {
@@ -52,7 +52,7 @@ SinkGroup::SinkGroup(std::function<void(const std::string&)> report) : report_(s
   if (!report_) throw std::invalid_argument("SinkGroup: the function `report` is empty");
 }
 
-// Leaves no file or folder behind if nothing was written because another sink could not be opened.
+// If nothing was written, for example because a sink could not be opened, no created file or folder remains.
 SinkGroup::~SinkGroup() {
   members_.clear();
   if (used_) return;
@@ -90,7 +90,8 @@ void SinkGroup::report_failure(Member& member, const std::string& problem) {
   if (problem != std::exchange(member.last_problem, problem)) report_(member.name + ": " + problem);
 }
 
-// Runs `what`. Returns false if nothing more can be written. A closed pipe is no failure and is not reported.
+// Runs `what` and returns true. If the sink can write nothing more, returns false. A closed pipe is no
+// failure and is not reported.
 template <typename Do>
 bool SinkGroup::attempt(Member& member, const Do& what) {
   try {

@@ -41,12 +41,12 @@ std::int64_t stamp_of(const ParsedTime& time);
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
   bool sort = false;                 ///< Whether the files must be sorted by time, not by name.
-  std::string warning{};             ///< Warning that the times do not ascend; usually empty.
+  std::string warning{};             ///< Warning about the order of the times; usually empty.
 };
 
-/// Returns the stamps of names, which are given in natural order. Prefers a format whose times ascend. If
-/// fractions have different lengths, they are read as decimals (12.5 before 12.75) or as whole milli-, micro-
-/// or nanoseconds without leading zeros, whichever fits.
+/// Returns the stamps of names, which are given in natural order. Prefers a format whose times ascend.
+/// Fractions are usually decimals: 12.5 means 12.500 s. If fractions have different lengths, they may also be
+/// whole milli-, micro- or nanoseconds without leading zeros: 12.5 then means 12.005 s.
 NameTimes times_of_names(const std::vector<std::string>& stems);
 
 }  // namespace pcl_bv::detail

@@ -141,8 +141,8 @@ ParsedTime of_nanoseconds(std::int64_t stamp) {
   return {TimeKind::epoch, stamp / kSecond, std::string(9 - rest.size(), '0') + rest};
 }
 
-// Interprets a whole number as a time. It may be seconds of 2001 to 2033, milli- or microseconds of 2001 to
-// 2262 (the end of 64-bit nanoseconds), or nanoseconds of at least 1e16. Other numbers are frame numbers.
+// Interprets a whole number as a time. Times are seconds of 2001 to 2033, milli- or microseconds of 2001 to
+// 2262, and nanoseconds of at least 1e16. 64-bit nanoseconds end in 2262. Other numbers are frame numbers.
 std::optional<ParsedTime> epoch_of(std::int64_t value) {
   constexpr std::int64_t e9 = 1'000'000'000, e12 = 1000 * e9, e15 = 1000 * e12;
   if (value >= 10 * e15) return of_nanoseconds(value);

@@ -119,7 +119,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
 
 std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (poses_.empty()) return std::nullopt;
-  if (!by_stamp_) {  // a recording can have more clouds than its index tells
+  if (!by_stamp_) {  // no pose if the recording has more clouds than its index tells
     return number < poses_.size() ? std::optional(poses_[number].second) : std::nullopt;
   }
   const auto after =

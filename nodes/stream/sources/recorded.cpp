@@ -55,7 +55,8 @@ class Recorded final : public FrameSource {
   }
 
  private:
-  // Returns the number of clouds. Takes it from the index if there is one, otherwise reads all messages.
+  // Returns the number of clouds, as the index tells. Without an index, reads all messages to count the
+  // clouds.
   std::size_t count() {
     std::size_t messages = reader_->topics()[topic_].messages;
     if (messages > 0) return messages;

@@ -97,8 +97,8 @@ void check_recording_content(const std::filesystem::path& file) {
       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
 }
 
-// Number of skipped clouds that are stored. Several threads that together load the clouds in order ask for
-// some clouds late. These are then still stored.
+// Maximum number of skipped clouds that are stored. If several threads share the clouds of a file, some
+// clouds are requested shortly after later ones. Such clouds are then still stored.
 constexpr std::size_t kMaxSkipped = 16;
 
 struct RecordedClouds::State {
@@ -211,7 +211,8 @@ std::vector<std::string> RecordedClouds::warnings() const {
   return state_->warnings();
 }
 
-// Compares warnings by their texts, because damage is found again when a part of the file is read again.
+// Compares warnings by their texts, because the same damage is found again when its part of the file is read
+// again.
 std::vector<std::string> RecordedClouds::take_warnings() {
   const std::lock_guard lock(state_->mutex);
   std::vector<std::string> fresh;

@@ -17,8 +17,8 @@ struct RecordedTopic;
 
 namespace [[gnu::visibility("default")]] detail {
 
-/// Returns the index of the topic with this name. If `name` is empty, returns that of the only topic with
-/// clouds (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding).
+/// Returns the index of the topic with this name. If `name` is empty, returns the index of the only topic
+/// with clouds (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding).
 ///
 /// Throws std::invalid_argument if the named topic does not exist or has no clouds, or if `name` is empty and
 /// several topics have clouds. The message lists the topics that have clouds. Throws IoError if `name` is

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of sources, which are files of clouds, synthetic frames, recordings and topics.
+// The table of sources: files of clouds, synthetic frames, recordings and topics.
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Poses and replays, which several sources use, and the functions that open sources.
+// Functions that open sources, and the poses and replays that several sources use.
 #pragma once
 
 #include <filesystem>

@@ -49,10 +49,12 @@ double unevenness(std::vector<std::int64_t> stamps) {
   return static_cast<double>(steps.back()) / std::max(1.0, static_cast<double>(steps[steps.size() / 2]));
 }
 
-// Returns whether fractions are whole numbers without leading zeros, not decimals. Returns false if all
-// fractions have the same length or if one has more than 9 digits. Returns false, too, if a fraction begins
-// with a zero, because such whole numbers do not. Returns true if a fraction ends with a zero, because
-// decimals of different lengths have no trailing zeros. Otherwise chooses the reading with more even steps.
+// Returns whether fractions are whole numbers without leading zeros, not decimals. The first rule that
+// applies decides:
+// - false, if all fractions have the same length or a fraction has more than 9 digits;
+// - false, if a fraction begins with a zero, because whole numbers have no leading zeros;
+// - true, if a fraction ends with a zero, because decimals of different lengths have no trailing zeros;
+// - otherwise, the reading with the more even time steps is chosen.
 bool are_unpadded(const Times& times) {
   const auto any = [&](auto holds) { return std::any_of(times.begin(), times.end(), holds); };
   const std::size_t size = times.front().fraction.size();

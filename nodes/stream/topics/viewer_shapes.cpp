@@ -28,8 +28,8 @@ VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const E
       kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
 }
 
-// Returns the rotation from z to a unit axis. For a downward axis, it first computes the rotation to the
-// opposite axis, which is better conditioned. Does not use Eigen's FromTwoVectors(), because its singular
+// Returns the rotation from z to a unit axis. For a downward axis, computes the rotation to the opposite axis
+// first, because that is better conditioned. Does not use Eigen's FromTwoVectors(), because its singular
 // value decomposition for opposite vectors took half of this file's compile time.
 Eigen::Quaterniond rotation_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;

@@ -45,20 +45,21 @@ struct Frame {
   std::string note;      ///< Warning of the source about this frame; usually empty.
   /// Class of each point, by point number; null if points have no classes.
   std::shared_ptr<const std::vector<std::int64_t>> classes;
-  /// Intensity of each point, by point number, to be displayed. `owner` keeps its memory alive. Not set if
-  /// the source has no intensities.
+  /// Intensity of each point, by point number, to be displayed. `owner` keeps the memory of the intensities
+  /// alive. Not set if the source has no intensities.
   std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Pose of the sensor in a fixed frame, if known.
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
   /// Time of recording or sending, nanoseconds of the clock of the recording or sending machine. 0: unknown.
-  /// Tracking uses it if the stamps do not advance.
+  /// Tracking uses this time if the stamps do not advance.
   std::int64_t recorded_ns = 0;
 
-  /// Time from which the latency of the frame is measured. A paced replay sets it to the time at which the
-  /// frame is due. A live source whose stamps are times of the system clock sets it to steady_time(stamp_ns).
-  /// If unset, StreamRunner::push() sets it to the time of its call.
+  /// Time from which the latency of the frame is measured. A paced replay sets `taken` to the time at which
+  /// the frame is due. A live source sets `taken` to the arrival of the message, or to steady_time(stamp_ns)
+  /// if stamps are times of the system clock. If `taken` is unset, StreamRunner::push() sets it to the time
+  /// of the call.
   std::chrono::steady_clock::time_point taken{};
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The complete pipeline from a point cloud to the bounding volumes of its objects. FramePipeline::process()
-// does no I/O. It runs in one thread unless PipelineConfig::threads says otherwise.
+// does no I/O. The number of threads is PipelineConfig::threads, by default 1.
 #pragma once
 
 #include <memory>
@@ -15,21 +15,21 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Processes frames of any point type: filter, ground removal, clustering, volume fitting and tracking.
 ///
-/// The stages pass lists of indices into the frame's cloud to each other, not copies of points. Exception: a
-/// large cloud that is only filtered has no lists (FrameResult::filtered). The results do not depend on the
-/// instruction set or the number of threads. FramePipeline reuses its memory. A second pass over the same
-/// sequence allocates nothing with the methods aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw.
+/// Each stage gives the next stage a list of indices into the frame's cloud, not a copy of the points. A
+/// large cloud that is only filtered has no such list (FrameResult::filtered). The results do not depend on
+/// the instruction set or the number of threads. FramePipeline reuses its memory. With the methods aabb,
+/// dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw, a second pass over the same sequence allocates nothing.
 class FramePipeline {
  public:
-  /// Throws std::invalid_argument if PipelineConfig::validate() returns any lines; its message has all of
-  /// them. Throws IoError if a region file (filter.regions) cannot be read.
+  /// Throws std::invalid_argument if PipelineConfig::validate() returns any lines. The message of the
+  /// exception has all of these lines. Throws IoError if a region file (filter.regions) cannot be read.
   explicit FramePipeline(PipelineConfig config = {});
   ~FramePipeline();
   FramePipeline(FramePipeline&&) noexcept;
   FramePipeline& operator=(FramePipeline&&) noexcept;
 
   /// Replaces the configuration from the next frame on. May be called from any thread. Throws as the
-  /// constructor does and then changes nothing. Tracks are retained.
+  /// constructor does; the old configuration then stays in use. Tracks are retained.
   void set_config(PipelineConfig config);
   /// Returns the configuration that the next frame will use.
   PipelineConfig config() const;
@@ -44,10 +44,10 @@ class FramePipeline {
   /// Also throws std::invalid_argument if cluster.class_field is set and the frame has no classes.
   void process(const Frame& frame, FrameResult& result);
 
-  /// Allocates the memory for frames of `points` points. Otherwise the first frame would take several times
-  /// as long as the next ones, because first-time allocation is slow. Processes a synthetic sweep twice and
-  /// deletes all tracks, so call reserve() before the sensor's first frame. Only the capacity of `result` is
-  /// meaningful afterwards.
+  /// Allocates the memory for frames of `points` points. Without this call, the first frame takes several
+  /// times as long as the next ones, because first-time allocation is slow. reserve() processes a synthetic
+  /// sweep twice and then deletes all tracks, so call it before the sensor's first frame. Only the capacity
+  /// of `result` is meaningful afterwards.
   void reserve(std::size_t points, FrameResult& result);
 
  private:

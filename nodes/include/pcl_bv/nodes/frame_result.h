@@ -57,10 +57,11 @@ struct StageTimes {
 
 /// Source of the time step between a tracked frame and the frame before.
 enum class TrackTime : std::uint8_t {
-  /// The step is the difference of the stamps, which advanced. Directly after a frame with `recorded`, the
-  /// step is that of Frame::recorded_ns once more, because the earlier stamp is not trusted.
+  /// The stamp advanced. The step is the difference of the stamps. Exception: if the frame before has
+  /// `recorded`, its stamp is not trusted. The step is then the difference of Frame::recorded_ns, if that
+  /// advanced.
   stamps,
-  recorded,  ///< The step is that of Frame::recorded_ns, because the stamp did not advance.
+  recorded,  ///< The stamp did not advance. Frame::recorded_ns gives the step.
   none  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.
 };
 
@@ -115,8 +116,9 @@ struct FrameResult {
     return requested.empty() || requested[cluster * methods.size() + method] != 0;
   }
 
-  /// Return the points that passed the filter, and the points of a cluster. They may contain invalid points.
-  /// `cloud` must be Frame::points of the frame. The views refer to `cloud` and to the lists of this object.
+  /// Return the points that passed the filter, and the points of a cluster. Both views may contain invalid
+  /// points. `cloud` must be Frame::points of the frame. The views refer to `cloud` and to the lists of this
+  /// object.
   PointView points_after_filter(const PointView& cloud) const;
   PointView points_of(std::size_t cluster, const PointView& cloud) const;
 };
@@ -126,26 +128,26 @@ struct FrameResult {
 /// `result` must be that of `frame`.
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
-/// Returns a warning if ground removal found no ground, or only ground, among at least 100 points. The
-/// warning names the settings to try. `better_up` is inserted after the name of ground.up. Otherwise returns
-/// an empty text.
+/// Returns a warning if ground removal found no ground, or only ground, among at least 100 points. Otherwise
+/// returns an empty text. The warning names the settings to try. `better_up` is inserted after the name of
+/// ground.up.
 std::string ground_warning(const FrameResult& result, const SettingName& name = key_of_setting,
                            const std::string& better_up = "");
 
-/// Returns a warning if the range filter (filter.range_min to filter.range_max) dropped more than half of at
-/// least 100 finite points. `from` tells where the range was set ("--preset table"). Otherwise returns an
-/// empty text.
+/// Returns a warning if there are at least 100 finite points and more than half of them were dropped by their
+/// distance or in the box of the own vehicle (Counts::range). Otherwise returns an empty text. `from` tells
+/// where the range was set ("--preset table").
 std::string range_warning(const FrameResult& result, const std::string& from);
 
-/// Returns a warning if the frame is tracked and its stamp does not advance. The warning tells how tracking
-/// then determines the time. Otherwise returns an empty text.
+/// Returns a warning if the frame is tracked and its stamp does not advance. Otherwise returns an empty text.
+/// The warning tells how tracking then determines the time.
 std::string track_warning(const FrameResult& result);
 
 /// Returns the report entries of all clusters.
 std::vector<ClusterEntry> cluster_entries(const FrameResult& result);
 
-/// Returns the entries of cluster_entries() one by one, so that a million entries are never in memory
-/// together. The returned object refers to `result`.
+/// Returns a source of the entries of cluster_entries(). The source makes one entry at a time, so that a
+/// million entries are never in memory together. The source refers to `result`.
 ClusterSource cluster_source(const FrameResult& result);
 
 /// Returns the report of a frame with its clusters.
@@ -155,14 +157,14 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
 /// Returns the report of a lost frame; `reason` tells why it was lost.
 FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
-/// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, it shows the
-/// points that passed the filter in the colours of `labels` (from labels_of()) and the id of each cluster.
-/// Without clustering, it shows the points that passed the filter and are not ground. The picture refers to
-/// `frame`, `result` and `labels`.
+/// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, the picture shows
+/// the points that passed the filter in the colours of `labels` (from labels_of()) and the id of each
+/// cluster. Without clustering, the picture shows the points that passed the filter and are not ground. The
+/// picture refers to `frame`, `result` and `labels`.
 detail::Picture picture_of(const Frame& frame, const FrameResult& result,
                            const std::vector<std::uint32_t>& labels);
 
-/// Detects results that a user should not trust:
+/// Detects causes of results that a user should not trust:
 /// - no ground, little ground or only ground;
 /// - a cloud that does not surround its sensor or is upside down;
 /// - many points far away;
@@ -174,7 +176,8 @@ class FrameWarnings {
   explicit FrameWarnings(SettingName name = key_of_setting) : name_(std::move(name)) {}
 
   /// Returns the warnings about a result, one line each. Each kind of warning is returned once per
-  /// configuration. `frame` is the frame of `result`; its points must be in memory if ground was removed.
+  /// configuration. `frame` is the frame of `result`. If ground was removed, the points of `frame` must be in
+  /// memory.
   ///
   /// O(1), except for the search for another up direction, which takes milliseconds. Per configuration, there
   /// is at most one search for a frame without ground and one for a frame with little ground.

@@ -29,8 +29,8 @@ class RemoteParameters;
 /// cluster.class_field and cluster.classes) cannot be changed.
 std::shared_ptr<detail::RemoteParameters> remote_settings(FramePipeline& pipeline);
 
-/// Thrown if a pipe has no reader any more. A program that prints should then end, without reporting a
-/// failure.
+/// Thrown if a pipe has no reader any more. A program that prints to this pipe should then end without
+/// reporting a failure.
 class ClosedPipe : public IoError {
  public:
   using IoError::IoError;
@@ -41,8 +41,9 @@ class FrameSink {
  public:
   virtual ~FrameSink() = default;
 
-  /// Writes one frame; frames come in order. Throws IoError if nothing more can be written. Throws ClosedPipe
-  /// for a pipe without a reader, if SIGPIPE is ignored. Any other exception concerns this frame only.
+  /// Writes one frame; frames come in order. Throws IoError if neither this frame nor later ones can be
+  /// written. If SIGPIPE is ignored, throws ClosedPipe for a pipe without a reader. Any other exception
+  /// concerns this frame only.
   virtual void write(const Frame& frame, const FrameResult& result) = 0;
 
   /// Writes that a frame was lost and why.

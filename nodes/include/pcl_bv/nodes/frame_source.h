@@ -46,7 +46,8 @@ class FrameSource {
 
   /// Replaces `frame` by the next frame if it comes within `timeout`; reading an existing file may take
   /// longer. Throws FrameError for a frame that cannot be read; the next call continues with the following
-  /// frame. Must not be called again after it has returned Next::end or thrown any other exception.
+  /// frame. After next() has returned Next::end or thrown an exception other than FrameError, it must not be
+  /// called again.
   virtual Next next(Frame& frame, std::chrono::milliseconds timeout) = 0;
 
   /// Returns the warnings about the whole source since the last call of take_warnings(), one line each.
@@ -61,11 +62,11 @@ struct ReplayOptions {
   double rate_hz = 10;  ///< Frames per second (kMinRate to kMaxRate). Frame n has the stamp n / rate_hz.
   /// Use the frames' own stamps instead of `rate_hz`.
   ///
-  /// For files, the stamp is the time in the name, read as by stamp_in_name(), but with one interpretation
-  /// for all files of a folder. An interpretation whose stamps ascend is preferred. A fraction may be a whole
-  /// number of milli-, micro- or nanoseconds without leading zeros (12.5 may be 12.005 s). If no
-  /// interpretation gives ascending stamps, take_warnings() returns a warning. A name without a time gives a
-  /// FrameError.
+  /// For files, the stamp is the time in the name. All names of a folder are read in one format of
+  /// stamp_in_name(), if possible in one whose stamps ascend. If no format gives ascending stamps, or if the
+  /// files must be sorted by time, take_warnings() returns a warning. A name without a time gives a
+  /// FrameError. In some folders, the fractions of seconds are whole numbers of milli-, micro- or nanoseconds
+  /// without leading zeros. There, 12.5 means 12.005 s.
   ///
   /// For messages, the stamp is that of the header or, if the header's stamp is 0, the time of recording.
   bool own_stamps = false;
@@ -73,7 +74,7 @@ struct ReplayOptions {
   std::size_t loops = 1;       ///< Number of passes over all frames; 0 is treated as 1.
   /// Integer field of the clouds for Frame::classes. If empty, frames have no classes.
   std::string class_field{};
-  std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the recording.
+  std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the source.
 
   /// File of sensor poses. If empty, frames have poses only if their source generates poses. Empty lines and
   /// lines that begin with # are skipped.
@@ -136,8 +137,8 @@ std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
 /// Returns the time in a file name without extension, nanoseconds; -1 if there is none.
 ///
-/// If a name contains several times, the first format in this list that occurs in it is used, and the last
-/// time in this format:
+/// A name may contain several times. stamp_in_name() uses the first format of the list below that occurs in
+/// the name, and returns the last time in this format.
 /// 1. A time since 1970: seconds of 2001 to 2033, also with a fraction; a whole number of milli- or
 ///    microseconds of 2001 to 2262; or a whole number of nanoseconds, at least 1e16.
 /// 2. A date with hours, minutes and seconds, in UTC or in a time zone east of UTC such as +0800. Zones west

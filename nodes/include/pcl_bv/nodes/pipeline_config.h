@@ -33,7 +33,7 @@ struct RegionConfig {
 /// Which points enter the pipeline. Points that are not finite are always dropped.
 struct FilterConfig {
   /// Smallest and largest allowed distance from the origin, metres. Many drivers store beams without a return
-  /// as points at the origin. With a minimum of 0, these points become one huge cluster.
+  /// as points at the origin. If range_min is 0, these points become one huge cluster.
   double range_min = 0.5;
   double range_max = std::numeric_limits<double>::infinity();
   /// Corners of a box around the own vehicle, metres. Points inside are dropped. Set both corners or neither.
@@ -53,11 +53,11 @@ struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
   /// Sensor position in the frame of the points, metres. Ground zones are centred there. If not given, the
-  /// position is estimated as described at FrameResult::sensor.
+  /// position is chosen as described at FrameResult::sensor.
   std::optional<Eigen::Vector3d> sensor;
-  /// Height of the sensor above the ground, metres; with `plane`, height of the origin. Estimated if not
-  /// given. With `zones`, the height is ignored if the sensor's position is estimated (case 5 of
-  /// FrameResult::sensor).
+  /// Height above the ground, metres: with `zones`, of the sensor; with `plane`, of the origin. If not given,
+  /// the height is estimated. With `zones`, the height is ignored if the sensor's position is estimated (case
+  /// 5 of FrameResult::sensor).
   std::optional<double> sensor_height;
   /// Largest height of ground points above the ground surface, metres. If not given, the default of the
   /// method (GroundPlaneOptions, GroundZonesOptions).
@@ -86,7 +86,7 @@ struct ClusterConfig {
   double tolerance = 0.5;
   /// Objects with fewer points are dropped. If not given: 10, or 0 if `tolerance` is 0.
   std::optional<std::size_t> min_size;
-  /// Objects with more points are treated as `oversized` says.
+  /// `oversized` determines what happens to objects with more points.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
   /// Core condition of DBSCAN (Ester et al. 1996). Two points within the tolerance belong to one object only
   /// if at least one of them is a core point. A core point has at least `min_points` points within the

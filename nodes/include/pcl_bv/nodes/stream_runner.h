@@ -26,11 +26,12 @@ enum class QueuePolicy : std::uint8_t {
   automatic,    ///< "auto" in files; resolved_policy() tells what it means.
   drop_oldest,  ///< The frame that has waited longest is dropped, so that results are recent.
   drop_newest,  ///< The new frame is dropped.
-  block         ///< The sender waits, so that no frame is lost. For files.
+  block         ///< The sender waits, so that no frame is lost. Suits files.
 };
 
-/// Returns drop_oldest for `automatic` if frames come at given times (`paced`), and block if they come as
-/// fast as they are taken. Returns other policies unchanged.
+/// Resolves `automatic`. If a sensor or a schedule determines when frames come (`paced`), returns
+/// drop_oldest. If each frame is read as soon as the queue has capacity, returns block. Any other policy is
+/// returned unchanged.
 QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
@@ -57,9 +58,10 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a YAML file. The keys are the field names above, nested by stage, such as `filter: {range_min:
-/// 0.5}`. Missing keys keep the values of `defaults`. For optional values, null means "not given". Throws
-/// ConfigError if the file cannot be read, is not YAML, or has an unknown key or a value that is not allowed.
+/// Reads a YAML file. The keys are the field names of PipelineConfig, nested by stage, such as `filter:
+/// {range_min: 0.5}`. The keys under `runner` are the field names of RunnerConfig. Missing keys keep the
+/// values of `defaults`. For optional values, null means "not given". Throws ConfigError if the file cannot
+/// be read, is not YAML, or has an unknown key or a value that is not allowed.
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
 /// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name. If `name` is empty,
@@ -87,9 +89,9 @@ struct FrameTotals {
   std::uint64_t dropped_queue = 0, dropped_age = 0, dropped_error = 0;  ///< Lost, by reason (Loss).
 };
 
-/// Latencies by stage in milliseconds, over all processed frames. `wait` is the time in the queue; this
-/// histogram also has the frames whose processing threw. `latency` is the time from Frame::taken (by default
-/// the call of StreamRunner::push()) to the return of `on_result`.
+/// Latencies by stage in milliseconds, over all processed frames. `wait` is the time in the queue. The
+/// histogram of `wait` also has the frames whose processing threw. `latency` is the time from Frame::taken
+/// (by default the call of StreamRunner::push()) to the return of `on_result`.
 struct StageLatencies {
   LatencyHistogram decode, wait, filter, ground, cluster, fit, track, total, latency;
 };
@@ -144,22 +146,23 @@ class StreamRunner {
   StreamRunner(const StreamRunner&) = delete;
   StreamRunner& operator=(const StreamRunner&) = delete;
 
-  /// Adds a frame to the queue. Returns false if `frame` itself is dropped instead; a stopped runner always
-  /// drops it.
+  /// Adds a frame to the queue and returns true. If `frame` itself must be dropped, returns false. A stopped
+  /// runner drops every frame.
   ///
-  /// Waits only with QueuePolicy::block, until the queue has capacity or the runner is stopped. Called from a
-  /// callback, push() never waits, because the runner's thread would wait for itself. With QueuePolicy::block
-  /// and a full queue, push() then drops `frame`. Throws std::invalid_argument if the frame has points but no
-  /// owner, because the points might be freed before they are processed.
+  /// With QueuePolicy::block, push() waits until the queue has capacity or the runner is stopped. With any
+  /// other policy, push() never waits. A call from a callback never waits either, because the runner's thread
+  /// would wait for itself. If the policy is block and the queue is full, such a call drops `frame`. Throws
+  /// std::invalid_argument if the frame has points but no owner, because the points might be freed before
+  /// they are processed.
   bool push(Frame frame);
 
   /// Reports a frame that its source could not read. The frame gets the next FrameHeader::number and is
-  /// counted as lost (Loss::error). It needs no capacity in the queue. Unless called from a callback,
-  /// report_unreadable() waits while 1000 lost frames wait for `on_lost`.
+  /// counted as lost (Loss::error). The frame needs no capacity in the queue. While 1000 lost frames wait for
+  /// `on_lost`, report_unreadable() waits. A call from a callback or after stop() never waits.
   void report_unreadable(Frame frame, std::string reason);
 
-  /// Waits until no frame is queued or being processed, but at most until the time `until`. Returns false if
-  /// that time came first.
+  /// Waits until no frame is queued or being processed, and returns true. If the time `until` comes first,
+  /// returns false.
   bool wait_idle(std::chrono::steady_clock::time_point until) const;
 
   enum class End {
@@ -168,8 +171,8 @@ class StreamRunner {
   };
 
   /// Ends the thread and waits for its end. From a callback, stop() does not wait: the thread ends after the
-  /// callback or, with `drain`, after the queued frames. A second call only waits, except that `discard`
-  /// drops the frames that a previous `drain` has not processed yet.
+  /// callback or, with `drain`, after the queued frames. A second call only waits for the end. A second call
+  /// with `discard` also drops the frames that a previous `drain` has not processed yet.
   void stop(End end);
 
   /// Returns the statistics so far. RunnerStats::sinks is empty. May be called from any thread.

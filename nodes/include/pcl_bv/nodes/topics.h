@@ -38,11 +38,11 @@ msg::PointCloud2 cloud_in(const CloudMessage& message);
 
 /// Turns a sensor_msgs/msg/PointCloud2 into a frame.
 ///
-/// Sets points, intensity, owner and frame_id. Sets the stamp unless that of the message is 0. Sets `note` to
-/// the names of fields that cannot be read (skipped_fields_note()). Points are not copied if they can be read
-/// in place (view_points()). If `class_field` is not empty, Frame::classes gets the values of that integer
-/// field. Throws MessageError if the message is not a PointCloud2, and std::runtime_error if the class field
-/// cannot be used (integers_of()).
+/// Sets points, intensity, owner and frame_id. Sets the stamp, unless the stamp of the message is 0. Sets
+/// `note` to the names of fields that cannot be read (skipped_fields_note()). Points are not copied if they
+/// can be read in place (view_points()). If `class_field` is not empty, Frame::classes gets the values of
+/// that integer field. Throws MessageError if the message is not a PointCloud2, and std::runtime_error if the
+/// class field cannot be used (integers_of()).
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame);
 
 /// As the function above, for a parsed message; `owner` keeps its data alive.
@@ -72,15 +72,15 @@ VolumeShape viewer_shape(const AnyVolume& volume);
 /// all messages, because computing the edges of a k-DOP costs as much as fitting the k-DOP.
 std::vector<VolumeShape> viewer_shapes(const FrameResult& result);
 
-/// Returns the first volume of a cluster that is a box. If there is none, returns the axis-aligned box of the
-/// cluster's first volume. A cluster without volumes gives `lines` without points.
+/// Returns a box of a cluster as a shape: the first volume that is a box or, if no volume is a box, the
+/// axis-aligned box of the first volume. A cluster without volumes gives `lines` without points.
 VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
 /// Returns the colour of a cluster (red, green, blue, alpha), 0 to 1. A tracked object keeps its colour.
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster);
 
-/// Returns the id of a cluster for viewers. It is the id of the cluster's track or, until the track has an
-/// id, the number of the cluster in the frame.
+/// Returns the id of a cluster for viewers. It is the id of the cluster's track. Until the track has an id,
+/// it is "cluster " and the number of the cluster in the frame.
 std::string object_id(const FrameResult& result, std::size_t cluster);
 
 namespace topics {
@@ -212,8 +212,8 @@ class ShownObjects {
 };
 
 /// Fills a visualization_msgs/MarkerArray with a marker for each volume that is not empty, and deletes the
-/// markers of `shown` whose objects have ended. The namespace of a marker is the method. Its id is the id of
-/// the track, or negative until the track has an id. Markers last `lifetime_ns`. `volumes` is
+/// markers of `shown` whose objects have ended. The namespace of a marker is the method. The id of a marker
+/// is the id of the track, or negative until the track has an id. Markers last `lifetime_ns`. `volumes` is
 /// viewer_shapes(result).
 template <class Array>
 void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
