@@ -61,9 +61,9 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
 std::string ground_warning(const FrameResult& result, const SettingName& name, const std::string& better_up) {
   const GroundConfig& ground = result.config->ground;
   const Counts& counts = result.counts;
-  const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
-  if (ground.method == GroundMethod::none || looked_at < kFewPoints) return {};
-  if (counts.ground > 0 && counts.ground < looked_at) return {};
+  const std::size_t candidates = result.points - counts.nonfinite - counts.range - counts.inside;
+  if (ground.method == GroundMethod::none || candidates < kFewPoints) return {};
+  if (counts.ground > 0 && counts.ground < candidates) return {};
   const std::string advice =
                         " (up is " + format_up(ground.up) + "): try " + name("ground.up") + better_up + ", ",
                     none = ", or " + name("ground.method") + " none";
@@ -79,7 +79,8 @@ std::string range_warning(const FrameResult& result, const std::string& from) {
   constexpr std::size_t few = 100;
   if (finite < few || 2 * out <= finite) return {};
   return std::to_string(out) + " of " + std::to_string(finite) + " points are outside the range of " +
-         to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
+         to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")" +
+         (filter.own_box_min ? " or in the box of the own vehicle" : "");
 }
 
 std::string track_warning(const FrameResult& result) {

@@ -67,8 +67,9 @@ struct Frame {
 /// because clouds without a position store the origin. Also returns nullopt if a coordinate is not finite or
 /// exceeds kMaxCoordinate in magnitude.
 inline std::optional<Eigen::Vector3d> stored_sensor_position(const Eigen::Vector3d& noted) {
-  const bool is_place = (noted.array().abs() <= kMaxCoordinate).all() && !noted.isZero(0);  // false for NaN
-  return is_place ? std::optional(noted) : std::nullopt;
+  // False for NaN.
+  const bool is_position = (noted.array().abs() <= kMaxCoordinate).all() && !noted.isZero(0);
+  return is_position ? std::optional(noted) : std::nullopt;
 }
 
 /// Returns VIEWPOINT of a .pcd file as a sensor position in the frame of the points. Returns nullopt if
