@@ -59,7 +59,7 @@ Span clip_half_spaces(const LocalRay& ray, const std::vector<SolidHalfSpace>& ha
   return span;
 }
 
-/// Solves |origin + range direction|^2 = 1 in the frame in which the ellipsoid is the unit ball.
+/// Solves |origin + range * direction|^2 = 1 for the range, in the frame in which the ellipsoid is the unit ball.
 Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
   const Vec3 center = 0.5 * (bounds.lo + bounds.hi);
   const Vec3 radii = 0.5 * (bounds.hi - bounds.lo);

@@ -122,7 +122,7 @@ TEST_F(GroundOffOrigin, ACamerasCloudHasALineThatSaysWhichWayIsUp) {
 TEST_F(GroundOffOrigin, RangesAndGrowingTolerancesAreSaidToCountFromTheOrigin) {
   const std::string cloud = aside("aside.pcd", 100, 0, 0);
   EXPECT_THAT(run({"--cluster", "0.5", "--range", "0.5:60", "--volume", "aabb", cloud}).err,
-              HasSubstr("--range is measured from the origin, but the points do not lie around it"));
+              HasSubstr("--range MAX is measured from the origin, but the points do not lie around it"));
   EXPECT_THAT(
       run({"--cluster", "0.3:0.01", "--volume", "aabb", cloud}).err,
       HasSubstr("--cluster PER_METRE is measured from the origin, but the points do not lie around it"));

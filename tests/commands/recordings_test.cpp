@@ -83,7 +83,7 @@ TEST_F(Recordings, AnOptionWithoutItsValueIsNamed) {
   EXPECT_EQ(looped.status, 2);
   EXPECT_THAT(looped.err, HasSubstr("--loop needs a value (N), but the option --track comes next"));
   EXPECT_THAT(run({"--cluster", "--volume", "aabb", "synth:box"}).err,
-              HasSubstr("--cluster needs a value (TOL), but the option --volume comes next"));
+              HasSubstr("--cluster needs a value (TOL[:PER_METRE]), but the option --volume comes next"));
   EXPECT_EQ(run({"--volume", "aabb", "--", "--volume"}).status,
             1);  // a file of that name, which is not there
 }

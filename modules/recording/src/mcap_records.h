@@ -144,7 +144,8 @@ class Writer {
   std::size_t begin_ = 0;
 };
 
-// Records that are read or written. The caller computes and checks CRCs.
+// The records of an MCAP file that put() and take() write and read. The callers of put() and take() compute
+// and check CRCs.
 
 struct Schema {
   std::uint16_t id = 0;

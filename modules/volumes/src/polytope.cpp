@@ -42,8 +42,8 @@ struct MappedSlab {
   double width() const { return (max - min) / normal.cwiseAbs().maxCoeff(); }
 };
 
-// Returns the slabs that clip the cube, mapped into it. Excludes the basis slabs, which define the cube, and
-// slabs along which the parallelepiped has no extent.
+// Returns the slabs that clip the unit cube, in the coordinates of the cube. These are all slabs except two
+// kinds: the basis slabs, which define the cube, and those in whose direction the parallelepiped has no extent.
 std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map) {
   std::vector<MappedSlab> result;
   for (std::size_t i = 0; i < slabs.set().size(); ++i) {

@@ -19,8 +19,8 @@ namespace pcl_bv::detail {
 class RayClip {
  public:
   /// Restricts the interval to the t with t * slope <= bound. If an argument is NaN, the interval does not
-  /// change. `slope` must not exceed the exact slope, and `bound` must not be below the exact bound by more
-  /// than one rounding. interval() allows for that rounding and for the rounding of the quotient.
+  /// change. A rounded `slope` must be rounded down. A rounded `bound` may be too small by one rounding, but
+  /// not by more. interval() allows for this rounding and for that of bound / slope.
   void keep(double slope, double bound) {
     if (slope > 0) {
       exit_ = std::min(exit_, bound / slope);

@@ -12,9 +12,10 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// A ball whose centre moves along from + t * direction, t >= 0, prepared for tests against the boxes and
-/// points of a tree. In the frame of the boxes (see BoxLevels), the direction is scaled by a power of two so
-/// that its largest component is from 1 to 2 in magnitude. Times in this frame refer to the scaled direction.
+/// A moving ball, prepared for tests against the boxes and points of a tree. At the time t >= 0, its centre
+/// is at `from` + t * `direction`. In the frame of the boxes (see BoxLevels), the direction is scaled by a
+/// power of two so that its largest component is from 1 to 2 in magnitude. Times in this frame refer to the
+/// scaled direction.
 struct SweptBall {
   float origin[3], inverse[3];  ///< Start point and reciprocal direction in the frame of the boxes.
   float margin;  ///< The radius plus a bound of the rounding to float. It is added to each side of every box.
