@@ -15,6 +15,7 @@
 #include "filter.h"
 #include "ground.h"
 #include "pcl_bv/fitting/fit_into.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/select_points.h"
 #include "pcl_bv/segmentation/ground.h"
@@ -240,6 +241,7 @@ PipelineConfig FramePipeline::config() const {
 }
 
 void FramePipeline::process(const Frame& frame, FrameResult& result) {
+  const FloatEnvironment environment;
   const std::shared_ptr<const Prepared> now = state_->current();
   const SpinningThreads awake(now->execution.parallel);
   Stopwatch whole, watch;

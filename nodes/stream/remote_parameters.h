@@ -27,8 +27,8 @@ class RemoteParameters {
   virtual std::string values() const = 0;
 
   /// Changes the settings that the JSON `object` names, from the next frame on. If one of them cannot be
-  /// changed, changes none of them. Returns an empty text on success, otherwise a line that names the key,
-  /// the value and the allowed values.
+  /// changed, changes none of them. Returns an empty text on success, otherwise a line that names, for each
+  /// setting that cannot be changed, the key, the value and the allowed values.
   virtual std::string change(const std::string& object) = 0;
 };
 

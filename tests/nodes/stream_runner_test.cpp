@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -540,9 +541,14 @@ TEST(StreamRunner, LetsGoOfACloudWhenItsFrameIsDone) {
 TEST(StreamRunner, RefusesWhatCannotWork) {
   Recorder out;
   EXPECT_THROW(StreamRunner(recording(out), with(0, QueuePolicy::block)), std::invalid_argument);
-  RunnerConfig config;
-  config.max_age_ms = -1;
-  EXPECT_THROW(StreamRunner(recording(out), config), std::invalid_argument);
+  EXPECT_THROW(StreamRunner(recording(out), with(100'001, QueuePolicy::block)), std::invalid_argument);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double seconds : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    RunnerConfig late, silent;
+    late.max_age_ms = silent.watchdog_s = seconds;
+    EXPECT_THROW(StreamRunner(recording(out), late), std::invalid_argument) << seconds;
+    EXPECT_THROW(StreamRunner(recording(out), silent), std::invalid_argument) << seconds;
+  }
   EXPECT_THROW(StreamRunner({}, RunnerConfig()), std::invalid_argument);
 }
 

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
+#include "flush_to_zero.h"
 #include "frames.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/io/raw_cloud.h"
@@ -56,6 +58,34 @@ TEST(WholeCloud, FromASourceHasTheBitsOfTheSameInMemory) {
     ASSERT_EQ(held.clusters.size(), 1U);
     EXPECT_EQ(held.clusters.list_size(0), held.points - held.counts.nonfinite - held.counts.range);
     EXPECT_EQ(asked.clusters.offsets, held.clusters.offsets);
+  }
+}
+
+// One cluster is fitted by the calling thread itself, of several all but one in a parallel region. Only the largest of
+// three is of denormal size.
+TEST(WholeCloud, OfDenormalSizeHasTheSameBitsOnAHostThatFlushesDenormals) {
+  std::vector<float> xyz;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  for (int i = 0; i < 900; ++i)
+    xyz.push_back(1e-41F * unit(random));
+  for (int i = 0; i < 450; ++i)
+    xyz.push_back((i < 300 ? 10.0F : 20.0F) + 0.1F * unit(random));
+  for (const double tolerance : {0.0, 0.5}) {
+    PipelineConfig config = whole_cloud_config();
+    config.filter.range_min = 0;
+    config.cluster.tolerance = tolerance;
+    config.volumes = {"sphere", "obb-min", "dop26", "capsule"};
+    const PointView cloud = third_orientation(xyz, 0).points;
+    const FrameResult expected = result_of(config, cloud);
+    ASSERT_EQ(expected.clusters.size(), tolerance > 0 ? 3U : 1U);
+    FrameResult flushed;
+    {
+      const test::FlushToZero host;
+      flushed = result_of(config, cloud);
+    }
+    EXPECT_EQ(flushed.volumes, expected.volumes) << tolerance;
+    EXPECT_GT(std::get<Sphere>(flushed.volumes[0]).radius(), 0);
   }
 }
 

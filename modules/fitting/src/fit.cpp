@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pcl_bv/fitting/fit_into.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
@@ -151,6 +152,7 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
 void for_each_view(const std::vector<PointView>& views,
                    const std::function<void(std::size_t, const Execution&)>& fit,
                    const Execution& execution) {
+  const FloatEnvironment environment;  // for the fits that run outside of the parallel region below
   const auto larger = [&](std::size_t a, std::size_t b) {
     return std::make_pair(views[b].count, a) < std::make_pair(views[a].count, b);
   };

@@ -94,12 +94,13 @@ auto checker(std::vector<ConfigProblem>& problems) {
 }  // namespace
 
 NumberRange detail::range_of(std::string_view key) {
-  NumberRange range;
+  std::optional<NumberRange> range;
   const PipelineConfig any;
   visit_pipeline(any, [&](const Setting& setting, const auto&) {
     if (setting.key == key) range = setting.range;
   });
-  return range;
+  if (!range) throw std::logic_error("range_of: no setting is named " + std::string(key));
+  return *range;
 }
 
 std::string detail::problem_of(const Setting& setting, double value) {

@@ -68,7 +68,7 @@ void visit_filter(Filter& c, Visit&& visit) {
 template <typename Ground, typename Visit>
 void visit_ground(Ground& c, Visit&& visit) {
   using S = Setting;
-  visit(S{"ground.method", "none, plane, zones", "Remove the ground first, outdoors by zones",
+  visit(S{"ground.method", "none, plane, zones", "Remove the ground first; zones is for outdoors",
           {}, {}, "--ground", "KIND"}, c.method);
   visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z", "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
           {}, {}, "--up", "AXIS"}, c.up);
@@ -101,7 +101,7 @@ void visit_cluster(Cluster& c, Visit&& visit) {
           {0, 1e6, true, true}, {}, "--cluster", {}, {"PER_METRE", true, true}},
         c.tolerance_per_metre);
   visit(S{"cluster.oversized", "drop, keep, split",
-          "Larger objects (split: half the tolerance)",
+          "Handling of objects above the maximum size",
           {}, {}, "--oversized", "RULE"}, c.oversized);
   visit(S{"cluster.class_field", "name of a field",
           "Integer field with the classes of points; an object has one class",

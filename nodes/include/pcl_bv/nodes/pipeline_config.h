@@ -137,7 +137,8 @@ struct PipelineConfig {
   std::string isa = "auto";  ///< Instruction set, a name that parse_isa() knows.
 
   /// Returns one line for each value that is not allowed. The line has the key as in the configuration file,
-  /// the value and the allowed range.
+  /// the value and the allowed range. If all values are allowed, returns one line for each combination that
+  /// is not.
   std::vector<std::string> validate() const;
 
   /// Returns a warning for each setting that has no effect in combination with the others, such as
