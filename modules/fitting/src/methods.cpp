@@ -118,6 +118,7 @@ std::vector<Fitted<AnyVolume>> fit_methods(const PointView& points, const std::v
   Supports supports;
   const FitExecution shared = detail::share_supports(points, among, execution, supports);
   std::vector<Fitted<AnyVolume>> all;
+  all.reserve(among.size());
   for (const Method* method : among) {
     all.push_back(make_fitted<Fitted<AnyVolume>>(
         [&](auto& made) { return fit_method(*method, points, options, made.volume, shared); }));

@@ -175,7 +175,7 @@ void detail::check_coordinates(const std::vector<PointField>& fields) {
   }
 }
 
-template void check_coordinates<IoError>(const std::vector<PointField>&);
-template void check_coordinates<std::invalid_argument>(const std::vector<PointField>&);
+template void detail::check_coordinates<IoError>(const std::vector<PointField>&);
+template void detail::check_coordinates<std::invalid_argument>(const std::vector<PointField>&);
 
 }  // namespace pcl_bv

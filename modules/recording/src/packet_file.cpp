@@ -20,7 +20,7 @@ constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more cou
 constexpr std::uint32_t kMaxPacket = 1U << 20U;
 // Maximum seconds between two packets. A larger jump is accepted only if the times of the next two packets
 // are this close to each other.
-constexpr std::int64_t kMaxTimeGap = 24 * 3600;
+constexpr std::int64_t kMaxTimeGap = std::int64_t{24} * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
 std::uint32_t reversed(std::uint32_t value) {

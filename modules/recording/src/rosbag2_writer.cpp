@@ -168,7 +168,7 @@ class Rosbag2Writer::State {
   }
   void insert(std::size_t number) {
     const Topic& topic = topics_[number];
-    sqlite3_bind_int64(topic_, 1, static_cast<sqlite3_int64>(number + 1));
+    sqlite3_bind_int64(topic_, 1, static_cast<sqlite3_int64>(number) + 1);
     bind(topic_, 2, topic.name);
     bind(topic_, 3, topic.type);
     bind(topic_, 4, topic.qos);

@@ -212,8 +212,9 @@ void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole
       const bool late = revolution != revolution_ && !previous_.points.empty();
       VelodyneSweep& sweep = late ? previous_ : sweep_;
       if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
+      const std::size_t firing = block / step;
       const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
-                          static_cast<double>(block / step) * model_->block_ns +
+                          static_cast<double>(firing) * model_->block_ns +
                           static_cast<double>(laser) * model_->laser_ns;
       add_firing(packet, block, laser, at - std::floor(at / kFullCircle) * kFullCircle, time, sweep);
     }

@@ -274,11 +274,11 @@ Measured FlushSearch::measure(const NormalRange& range, double t) {
   axes.col(1) = unit3(Vector3d(second - dot3(second, axes.col(0)) * axes.col(0)));
   axes.col(2) = cross3(Vector3d(axes.col(0)), Vector3d(axes.col(1)));
   const auto [low, high] = graph_.support_vertices(axes.col(2));
-  const Measured found =
+  Measured found =
       over(axes, {graph_.climb(range.one->opposite, -axes.col(0)), range.one->vertex,
                   graph_.climb(range.other->opposite, -axes.col(1)), range.other->vertex, low, high});
   if (!(found.volume < limit_)) return found;
-  const Measured whole = over(axes, graph_.exact_supports(axes));
+  Measured whole = over(axes, graph_.exact_supports(axes));
   if (whole.volume < limit_) accept(axes);
   return whole;
 }

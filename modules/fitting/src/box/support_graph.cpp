@@ -59,7 +59,8 @@ SupportGraph::LowHigh SupportGraph::approximate_supports(const Eigen::Vector3d& 
   const double half = 0.5 * kCells, scale = half / major;  // opposite directions share a cell
   const int u = std::min(kCells - 1, static_cast<int>(direction[second] * scale + half));
   const int v = std::min(kCells - 1, static_cast<int>(direction[third] * scale + half));
-  LowHigh& found = near_[static_cast<std::size_t>((axis * kCells + u) * kCells + v)];
+  const int cell = (axis * kCells + u) * kCells + v;
+  LowHigh& found = near_[static_cast<std::size_t>(cell)];
   if (found.low == kNone) {
     Eigen::Vector3d middle;
     middle[axis] = 1;

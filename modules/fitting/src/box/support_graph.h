@@ -51,7 +51,8 @@ class SupportGraph {
 
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<std::int32_t> first_, neighbours_;   // the neighbours of vertex i begin at position first_[i]
-  std::array<LowHigh, 3 * kCells * kCells> near_;  // supports of each cell; opposite cells share an entry
+  // The supports of each cell. Opposite cells share an entry.
+  std::array<LowHigh, std::size_t{3} * kCells * kCells> near_;
 };
 
 }  // namespace pcl_bv::detail
