@@ -51,8 +51,8 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   void setIndices(std::nullptr_t) { this->indices_.reset(); }
   using Base::setIndices;
 
-  /// Sets the number of threads of compute(). 0 uses all processors, 1 (the default) only the calling thread.
-  /// The result does not depend on the number. Fits that take less than about 200 us use one thread.
+  /// Sets the number of threads of compute(). 0 uses all processors. 1, the default, uses only the calling
+  /// thread. The result does not depend on the number. Fits that take less than about 200 us use one thread.
   void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
   /// Sets the instruction set, an Isa. The default is Isa::automatic, for which the constructor reads the
@@ -71,8 +71,8 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 
   /// Fits one volume to each cluster. Clusters are lists of indices into the input cloud. The indices of
   /// setIndices() are ignored. Volumes and results are in the order of the clusters, with the same bits as
-  /// one call of compute() per cluster. A cluster whose fit fails does not affect the others. Throws as
-  /// compute() does, before anything is written.
+  /// one call of compute() per cluster. A cluster whose fit fails does not affect the others. Throws like the
+  /// compute() above. If no cloud was set or an index is outside the cloud, `volumes` stays unchanged.
   std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
                                         std::vector<VolumeT>& volumes) const {
     std::vector<PointView> views;
@@ -167,8 +167,8 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   }
   const std::shared_ptr<const KdopSet>& getDirections() const { return directions_; }
 
-  /// Fits the k-DOP as compute(kdop) does. For each slab, stores in `touching` the indices of the points of
-  /// the input cloud that touch its two sides. `touching` is empty if there is no valid point.
+  /// Fits the k-DOP as compute(kdop) does. Also stores in `touching`, for each side of each slab, the index
+  /// of a point that touches this side (see SlabPoints). `touching` is empty if there is no valid point.
   EstimationResult compute(Kdop& kdop, SlabPoints& touching) const {
     auto fitted = fit_kdop_with_contacts(this->input(), directions_, this->execution());
     touching = std::move(fitted.contacts);
@@ -263,8 +263,8 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
   using ConstPtr = pcl::shared_ptr<const EllipsoidEstimation>;
   using BoundingVolumeEstimation<PointT, Ellipsoid>::compute;
 
-  /// Fits the ellipsoid. Stores in `certificate` the proof of how near its volume is to the minimum. See
-  /// fit_smallest_ellipsoid().
+  /// Fits the ellipsoid. Stores in `certificate` a proof of how near the ellipsoid's volume is to the
+  /// minimum. See fit_smallest_ellipsoid().
   EstimationResult compute(Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) const {
     auto fitted = fit_smallest_ellipsoid(this->input(), this->execution());
     certificate = std::move(fitted.certificate);

@@ -29,9 +29,9 @@ PointView point_view(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& i
   return point_view(cloud).subset(indices.data(), indices.size());
 }
 
-/// Each function below calls the function of the same name in fitting/fit.h. It uses all points of the cloud,
-/// or only the points with the indices of the argument `indices`. It throws std::out_of_range for an index
-/// outside the cloud.
+/// Each function below calls the function of the same name in fitting/fit.h. The points are all points of the
+/// cloud or, with the argument `indices`, only the points with these indices. Throws std::out_of_range for an
+/// index outside the cloud.
 template <typename PointT>
 Fitted<Aabb> fit_aabb(const pcl::PointCloud<PointT>& cloud, const Execution& execution = {}) {
   return fit_aabb(point_view(cloud), execution);

@@ -27,7 +27,7 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
 
 /// Returns the coefficients for PCLVisualizer::addCube(): translation x y z, rotation as a quaternion x y z
 /// w, and the sizes along axes 0, 1 and 2 of the box. For an upright box these sizes are length, width and
-/// height. The coefficients are rounded to float, so the model may not enclose the box.
+/// height. The coefficients are rounded to float, so the model does not always enclose the box.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
   const Eigen::Vector3d& c = box.center();
   const Eigen::Vector3d size = box.empty() ? c : Eigen::Vector3d(2 * box.half_extents());
