@@ -33,7 +33,7 @@ double unit_scale(double extent);
 /// their unit is a power of two near the cloud's extent.
 class LocalFrame {
  public:
-  /// The supports must have points. The cloud must have at least one valid point.
+  /// `supports` must have SupportDetail::points. The cloud must have at least one valid point.
   explicit LocalFrame(const Supports& supports);
 
   /// The widest_side() of the cloud.

@@ -40,8 +40,8 @@ class MomentTree {
   void append(const MomentNode& next);
 
   /// Appends the nodes of `tree` with `first` added to their block numbers. `first` must be 0 or a multiple
-  /// of the number of blocks in each node, and the sums must be higher than the numbers of all blocks
-  /// appended before.
+  /// of the number of blocks in each node. The resulting block numbers must be higher than those of all
+  /// blocks appended before.
   void append(std::size_t first, const MomentTree& tree);
 
   /// Returns the moments of all blocks. If there is no block, the count is 0.
@@ -55,7 +55,7 @@ class MomentTree {
   SmallVector<MomentNode, 6> nodes_;  // The 32 blocks of a chunk need at most 6: 5 nodes and an appended one.
 };
 
-/// Returns the moments of the blocks of a chunk. Its first block gets the number `first_block`.
+/// Returns the moments of the blocks of a chunk. The first block of the chunk gets the number `first_block`.
 MomentTree moments_of(UsableIsa isa, const PointView& chunk, std::size_t first_block);
 
 }  // namespace pcl_bv::detail

@@ -12,7 +12,7 @@ namespace pcl_bv::detail {
 
 /// Supports, centroid and covariance of a cloud, with the meaning of CloudSummary.
 struct Summary {
-  Supports supports;  ///< Along dop26, with points. Those of summarize_bounds() may be along dop6 only.
+  Supports supports;  ///< With dop26 and SupportDetail::points, except after summarize_bounds().
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double covariance_scale = 1;
@@ -23,8 +23,8 @@ struct Summary {
 /// Computes the summary of pcl_bv::summarize(). Needs a FloatEnvironment.
 Summary summarize(const PointView& points, const FitExecution& execution);
 
-/// As summarize(), but the supports may be along dop6 only and have no points. For 300 points this is three
-/// times as fast. Needs a FloatEnvironment.
+/// Computes the summary of summarize(), but its supports may have only dop6 and SupportDetail::bounds. For
+/// 300 points this is three times as fast. Needs a FloatEnvironment.
 Summary summarize_bounds(const PointView& points, const FitExecution& execution);
 
 }  // namespace pcl_bv::detail

@@ -168,10 +168,10 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
   }
 }
 
-// Returns whether a side of a box smaller than the limit may have its normal on this arc. The volume of a box
-// is at least the hull's width along the normal times the area of the hull's shadow along the normal. This
-// area is at least half the sum of the facets' projected areas with any fixed signs. Such a sum is a linear
-// function of the normal.
+// Returns false only if no box smaller than the limit has a side with a normal on this arc. The volume of a
+// box is at least the hull's width along the normal times the area of the hull's shadow along the normal.
+// This area is at least half the sum of the facets' projected areas with any fixed signs. Such a sum is a
+// linear function of the normal.
 bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   const std::array<Vector3d, 2> n = {gauss_.nodes[arc.from], gauss_.nodes[arc.to]};
   const Vector3d middle = n[0] + n[1];
@@ -219,8 +219,9 @@ bool FlushSearch::is_proven(const NormalRange& range, const Widths& widths) cons
   return true;
 }
 
-// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal. If the volume over
-// `begin` is not larger at t = 0 and smaller at t = 1, or if both have the same vertices, returns 0.5.
+// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal. Searches this t if
+// the volume over `begin` is the larger one at t = 0 and the smaller one at t = 1. Otherwise returns 0.5,
+// also if the vertices of `begin` and `end` are the same.
 double FlushSearch::change(const NormalRange& range, const Measured& begin, const Measured& end) const {
   if (begin.supports == end.supports) return 0.5;
   Quartic lead = numerator(range, begin.widths);

@@ -20,7 +20,7 @@ struct GaussArcs {
   struct Arc {
     std::int32_t from, to;  ///< Indices into `nodes` of the normals at the two ends.
     std::int32_t vertex;    ///< A vertex of the edge that the arc belongs to.
-    std::int32_t opposite;  ///< A vertex with the minimum projection on the middle of the arc.
+    std::int32_t opposite;  ///< A vertex with the minimum projection on the arc's middle normal.
     double width;           ///< Lower bound of the hull's width along any normal of the arc.
   };
 

@@ -18,8 +18,8 @@ namespace pcl_bv::detail {
 
 /// Returns the box along the axes around all valid points. There must be at least one valid point. In exact
 /// arithmetic, the box encloses the points. It is tight to a few units in the last place of the extents and
-/// of the centre. The columns of `axes` must be orthonormal to 1e-12. `supports` may be along any set. Needs
-/// a FloatEnvironment.
+/// of the centre. The columns of `axes` must be orthonormal to 1e-12. `supports` may have any set. Needs a
+/// FloatEnvironment.
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const FitExecution& execution);
 
@@ -37,8 +37,8 @@ using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 /// Returns the axes with the smallest half surface among the coordinate axes and the axes of DiTO's triangles
-/// (Larsson, Kallberg 2011). The surface is measured on `few` in floats. `supports` must be along dop14, with
-/// points. `few` must be the result of support_or_all_points().
+/// (Larsson, Kallberg 2011). The surface is measured on `few` in floats. `supports` must have the set dop14
+/// and SupportDetail::points. `few` must be the result of support_or_all_points().
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame);
 
 /// Returns the axes of the smallest box around the points. If the hull has more than 128 vertices, the axes
@@ -46,9 +46,9 @@ Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const 
 Eigen::Matrix3d minimal_axes(const PointView& points, const Summary& summary, const LocalFrame& frame,
                              const FitExecution& execution);
 
-/// Return axes, the first of which is `up`, a unit vector. The axes of yaw_axes() give the box with the
-/// minimum area seen from above. The axes of lshape_axes() give the box with the sides closest to the points.
-/// `supports` must be along dop26, with points.
+/// Both functions return axes. The first axis is `up`, a unit vector. The axes of yaw_axes() give the box
+/// with the minimum area seen from above. The axes of lshape_axes() give the box with the sides closest to
+/// the points. `supports` must have the set dop26 and SupportDetail::points.
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                          const Eigen::Vector3d& up, const FitExecution& execution);
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,

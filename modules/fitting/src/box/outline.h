@@ -33,9 +33,9 @@ struct Ground {
 /// outline.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
-/// Returns the convex outline of the points seen from above, in local coordinates. It has rounding errors,
-/// and at least one corner. `supports` must be along dop26, with points. The bits are the same for every
-/// execution.
+/// Returns the convex outline of the points seen from above, in local coordinates. The outline has at least
+/// one corner, and rounding errors. `supports` must have the set dop26 and SupportDetail::points. The bits
+/// are the same for every execution.
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const FitExecution& execution);
 

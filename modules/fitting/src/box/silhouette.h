@@ -26,7 +26,7 @@ class Silhouette {
   struct Projection {
     std::vector<double> facing;            ///< One value per facet; positive if the facet faces the viewer.
     std::vector<Step> rim;                 ///< Edges of the silhouette, in the order of edges().
-    std::vector<std::int32_t> next;        ///< The next vertex of the silhouette after each of its vertices.
+    std::vector<std::int32_t> next;        ///< For each vertex of the silhouette, the next one along it.
     std::vector<Eigen::Vector2d> corners;  ///< Corners of the silhouette, which project() returns.
   };
 

@@ -61,9 +61,9 @@ struct LocalHull : Span {
   }
 };
 
-/// Computes the hull of a cloud with at least one valid point. `supports` must be along dop26, with points.
-/// The bits are the same for every execution. O(n) for the points inside the polytope of the extremal points
-/// (Akl, Toussaint 1978), O(m log m) for the m other points. Needs a FloatEnvironment.
+/// Computes the hull of a cloud with at least one valid point. `supports` must have the set dop26 and
+/// SupportDetail::points. The bits are the same for every execution. O(n) for the points inside the polytope
+/// of the extremal points (Akl, Toussaint 1978), O(m log m) for the m other points. Needs a FloatEnvironment.
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const FitExecution& execution);
 

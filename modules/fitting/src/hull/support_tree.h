@@ -29,7 +29,8 @@ class SupportTree {
     Eigen::Matrix3d axes;
     Eigen::Vector3d center, half;  // centre and half extents of the box, in local coordinates
     std::uint32_t begin, end;      // range of the node's points in order_
-    std::uint32_t second;          // position of the second child, 0 for a leaf; the first follows its parent
+    // Position of the second child in nodes_, or 0 for a leaf. The first child follows its parent.
+    std::uint32_t second;
 
     // Returns an upper bound of the projections of the node's points.
     double projection_bound(const Eigen::Vector3d& normal) const;

@@ -21,7 +21,7 @@ constexpr std::size_t kBlocksPerChunk = 32;
 // has a point on the sphere, and floats cannot reject such a point.
 constexpr std::size_t kFewBlocks = 4;
 
-// Margins for the rounding of distances and of their sums, which are at most a few dozen roundings.
+// Margins for the rounding of distances and of sums of distances, at most a few dozen roundings.
 constexpr double kRoundUp = 1 + 0x1p-44;
 constexpr double kRoundDown = 1 - 0x1p-44;
 
@@ -234,8 +234,8 @@ void DistanceScan::scan_shell(const DistanceCenter& center, double limit, Octant
 bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
   const double distance = std::sqrt(limit) * kRoundDown;
   found = {};
-  // A point that is not listed is nearer than shell_distance_ plus the movement of the centre since
-  // list_shell().
+  // A point that is not in shell_ is nearer than shell_distance_ plus the movement of the centre since
+  // list_shell(). The list remains complete while this sum is below `distance`.
   listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
   listed_ = listed_ || (scanned_ && list_shell(center, distance));
   if (listed_) {

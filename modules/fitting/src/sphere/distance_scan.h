@@ -75,7 +75,7 @@ class DistanceScan {
   FloatFilter filter_;
   std::size_t blocks_;
 
-  std::unique_ptr<float[]> bounds_;  // upper bounds of distances from scan_center_, by the last scan_all()
+  std::unique_ptr<float[]> bounds_;  // upper bounds of distances from scan_center_, set by scan_all()
   DistanceCenter scan_center_;
   bool scanned_ = false;
 

@@ -20,7 +20,7 @@ class SeedPoints {
     Coordinates point;
   };
 
-  /// Takes the support points of all directions. `supports` must have points.
+  /// Takes the support points of all directions. `supports` must have SupportDetail::points.
   explicit SeedPoints(const Supports& supports);
 
   /// Takes all valid points of a view of at most kChunkPoints points. `supports` must be those of the view.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The search for supports. It has a call for each chunk, so that the same pass can do other work on the
-// chunk.
+// The search for supports. SupportSearch::find() searches a single chunk, so that the same pass can do other
+// work on the chunk.
 #pragma once
 
 #include <array>
@@ -73,8 +73,8 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
 /// rank is not set.
 Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
-/// These functions compute the supports of a box chunk by chunk. empty_bounds() returns supports without
-/// points, merge_bounds() adds the box of a chunk, and finish_bounds() sets the number of valid points.
+/// These functions compute the supports of the axis-aligned box chunk by chunk. empty_bounds() returns the
+/// start value, merge_bounds() adds the box of a chunk, and finish_bounds() sets the number of valid points.
 Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);

@@ -78,9 +78,9 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const PointView& points
 ///
 /// For `pca`, `dito14` and `minimal`, the axes are in the order of Obb::canonical(). For `yaw` and `lshape`,
 /// they are in the order of Obb::upright(up): axis 2 is up, and axis 0 is the longer horizontal axis. The
-/// sizes along axes 0, 1 and 2 are then length, width and height. Every method measures the box along its
-/// axes on all points. In exact arithmetic, the box encloses each point. It is tight along each axis, except
-/// for the rounding of its centre.
+/// sizes along axes 0, 1 and 2 are then length, width and height. Every method finds axes first. Then it
+/// measures the box along these axes on all points. In exact arithmetic, the box encloses each point. The box
+/// is tight along each axis, except for the rounding of its centre.
 ///
 /// If there is no valid point, the box is empty and the status is `no_valid_points`. One point gives a box
 /// with half extents 0. Points that are on a line or in a plane, to 1e-10 of their extent, give a box along
@@ -90,8 +90,9 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const PointView& points
 /// O(n): two passes for `pca` and `dito14`, three for the other methods. For m of the points, these other
 /// methods also take O(m log m). For `minimal`, these m points are near the hull. For `yaw` and `lshape`,
 /// they are near the outline seen from above. `minimal` takes some milliseconds for a round hull of 128
-/// vertices. A hull of hundreds of vertices takes as long, because `minimal` searches it less thoroughly.
-/// Throws std::invalid_argument for an `up` outside its range. Other errors are as for fit_aabb().
+/// vertices. A hull of hundreds of vertices takes no longer: beyond 128 vertices, `minimal` does not compare
+/// all pairs of edges, but searches. Throws std::invalid_argument for an `up` outside its range. Other errors
+/// are as for fit_aabb().
 Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options = {}, const Execution& execution = {});
 
 /// Computes the convex hull of the points. The vertices are exactly the extreme points of the cloud, which
@@ -128,7 +129,8 @@ Fitted<Capsule> fit_capsule(const PointView& points, const Execution& execution 
 /// Khachiyan 1996; Harman, Filova and Richtarik 2020.
 Fitted<Ellipsoid> fit_ellipsoid(const PointView& points, const Execution& execution = {});
 
-/// Fits the ellipsoid of fit_ellipsoid(). The certificate proves how near its volume is to the minimum.
+/// Fits the ellipsoid of fit_ellipsoid(). The certificate proves how near the ellipsoid's volume is to the
+/// minimum.
 Certified<Ellipsoid, EllipsoidCertificate> fit_smallest_ellipsoid(const PointView& points,
                                                                   const Execution& execution = {});
 
@@ -157,7 +159,7 @@ std::vector<Fitted<Ellipsoid>> fit_ellipsoid(const PointView& points, const Inde
 /// Calls fit(i, execution) once for each view i, in any order and on the threads of the execution's policy.
 ///
 /// Large views, which have 200 000 points or more, are fitted first, one after another. Each fit of a large
-/// view uses all threads of the policy. Each fit of a smaller view gets Serial. First, one smaller view of
+/// view uses all threads of the policy. Each fit of a smaller view gets Serial. Then one smaller view of
 /// middle size is fitted and timed. If the other smaller views together would take too little time to be
 /// worth a second thread, the calling thread fits them all. Otherwise they are distributed over the threads,
 /// the largest first.
@@ -192,11 +194,11 @@ struct CloudSummary : EstimationResult {
   /// a coordinate is at most (175 + 30 b) 2^-53 of the extent, plus one rounding of the coordinate.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
-  /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric. It is the
-  /// population covariance, divided by n, not n - 1. With b as above, the error of entry (i, j) is at most
-  /// 3 (175 + 30 b) 2^-53 of the product of the extents along i and j, plus 2^-1073 if the entry underflows.
-  /// The factor 3 (175 + 30 b) 2^-53 is 6e-14 for one block and 2e-13 for 30 million points. Entries of an
-  /// axis on which all points have the same coordinate are exactly 0.
+  /// Covariance of the valid points about their centroid, times covariance_scale². Sums are divided by n, not
+  /// by n - 1. The matrix is symmetric. Let b be as for `centroid` and f = 3 (175 + 30 b) 2^-53. The error of
+  /// entry (i, j) is at most f times the product of the extents along i and j, plus 2^-1073 if the entry
+  /// underflows. f is 6e-14 for one block and 2e-13 for 30 million points. Entries of an axis on which all
+  /// points have the same coordinate are exactly 0.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
@@ -206,12 +208,12 @@ struct CloudSummary : EstimationResult {
 };
 
 /// Computes the box, the k-DOP, the centroid and the covariance of all valid points. O(n). Each chunk is read
-/// from memory once: it is still in the cache when its moments are computed after its extreme points. The
+/// from memory once: its extreme points and its moments are computed while the chunk is in the cache. The
 /// bits are the same for every execution. Another order of the points may round centroid and covariance
 /// differently.
 ///
-/// In each block of 1024 points, the shifted formula sums the products of coordinates relative to a point of
-/// the block. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
+/// In each block of 1024 points, the coordinates are taken relative to one point of the block, and their
+/// products are summed. The sums of the blocks are added in pairs (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

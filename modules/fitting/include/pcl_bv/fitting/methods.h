@@ -27,7 +27,7 @@ struct MethodFit;
 struct Method {
   std::string_view name;                  ///< The canonical name, as written into results, e.g. "dop26".
   std::vector<std::string_view> aliases;  ///< Other accepted names.
-  std::string_view shape;         ///< As shape_name() returns it; empty for `best`, whose shape varies.
+  std::string_view shape;         ///< The result of shape_name(); empty for `best`, whose shape varies.
   bool upright = false;           ///< Whether the boxes are upright and MethodOptions::up is used.
   bool needs_all_points = false;  ///< Whether points deep inside the cloud can change the volume.
   const detail::MethodFit* implementation = nullptr;  ///< Not null for the methods of methods().

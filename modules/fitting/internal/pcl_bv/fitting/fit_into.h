@@ -17,9 +17,10 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Returns a FittedT, which is a Fitted or a class derived from a Fitted. `fit(made)` must write made.volume
-/// and return the result of the fit. A FloatEnvironment lives while `fit` runs. The other functions of this
-/// header make no FloatEnvironment, so their callers must hold one or run in a parallel region.
+/// Calls `fit` with a default FittedT, which is a Fitted or a class derived from a Fitted, and returns this
+/// FittedT. `fit` must write the member `volume` and return the EstimationResult, which is stored, too. A
+/// FloatEnvironment lives while `fit` runs. The other functions of this header make no FloatEnvironment, so
+/// their callers must hold one or run in a parallel region.
 template <typename FittedT, typename Fit>
 FittedT make_fitted(const Fit& fit) {
   const FloatEnvironment environment;

@@ -27,8 +27,8 @@ struct SmallBall {
 
 /// Computes the smallest ball around the points. squared_radius and squared_lower_bound agree to about 1e-15.
 /// Duplicate, collinear, coplanar and cospherical points are allowed. If count is 0, the ball is empty.
-/// Magnitudes should be from 1e-50 to 1e50, and coordinates should be relative to one of the points. O(count)
-/// in practice, without allocation.
+/// Coordinates should be relative to one of the points, and either 0 or from 1e-50 to 1e50 in magnitude.
+/// O(count) in practice, without allocation.
 ///
 /// In each step the farthest point joins the support of at most four points (the pivoting of Gaertner 1999).
 /// The candidates for the next ball are the balls that the farthest point spans with one, two or three points
@@ -36,7 +36,7 @@ struct SmallBall {
 /// the farthest point. No tolerance for flatness is needed: if a support is too flat for an accurate
 /// solution, this distance becomes larger, and another candidate is taken.
 ///
-/// `start`, if not null, is the ball that smallest_ball() returned for the first points of this array. The
+/// `start`, if not null, is the ball that smallest_ball() returned for the first points of `points`. The
 /// search begins with this ball.
 SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const SmallBall* start = nullptr);
 

@@ -43,10 +43,10 @@ using FarthestQuery = std::function<bool(const DistanceCenter& center, double li
 bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution = {});
 
-/// Computes the smallest sphere of a cloud from its supports and a query for its points. `supports` must be
-/// along dop26, with points; otherwise throws std::invalid_argument. The result has the same bits as that of
-/// fit_smallest_sphere(). Without a valid point the sphere is empty. Calls `farthest` certificate.passes
-/// times. Exceptions of `farthest` are passed on.
+/// Computes the smallest sphere of a cloud from the cloud's supports and a query for its points. Throws
+/// std::invalid_argument unless `supports` has the set dop26 and SupportDetail::points. The result has the
+/// same bits as that of fit_smallest_sphere(). Without a valid point the sphere is empty. Calls `farthest`
+/// certificate.passes times. Exceptions of `farthest` are passed on.
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate);
 

@@ -51,12 +51,12 @@ struct Supports {
   std::array<Support, kMaxDirections> along{};
   PointView points;                       ///< The view that was searched. Fits to other views throw.
   std::shared_ptr<const LocalHull> hull;  ///< The convex hull, if share_supports() computed it; else null.
-  /// Usually null. If `points` are only the few points that represent a whole cloud (partial.h), the moments
-  /// of the whole cloud. In this case `used` and `dropped` also count the whole cloud.
+  /// Usually null. Set if `points` are only the few points that represent a whole cloud (partial.h). In this
+  /// case the moments, `used` and `dropped` are those of the whole cloud.
   std::shared_ptr<const Moments> moments;
 };
 
-/// An Execution and, for fits that begin with supports, the supports of the points if they are known already.
+/// An Execution, and optionally the supports of the points, which save a fit the search for supports.
 struct FitExecution : Execution {
   FitExecution() = default;
   FitExecution(const Execution& execution, const Supports* known = nullptr)
@@ -74,7 +74,7 @@ struct FitExecution : Execution {
 /// Takes one SIMD pass over the points in chunks. The few points of each chunk that can be extreme are
 /// compared exactly (docs/numerics.md). If FitExecution::supports already has the supports, no pass is
 /// needed. Throws std::invalid_argument if FitExecution::supports were found for other points. If the points
-/// are flat to 2^-30 of their extent, the rank usually takes up to five more passes (point_rank()).
+/// are flat to 2^-30 of their extent, the rank can take up to five more passes (point_rank()).
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const FitExecution& execution = {});
 
