@@ -16,7 +16,8 @@ double next_up(double x);
 double next_down(double x);
 
 /// Returns the smallest double >= a + b, a * b or sqrt(a). If the magnitude of the product is below 2^-960,
-/// the result of multiply_up() may be larger by about the smallest normal double. Overflow returns +infinity.
+/// the result of multiply_up() may exceed a * b by about the smallest normal double. Overflow returns
+/// +infinity.
 double add_up(double a, double b);
 double multiply_up(double a, double b);
 double sqrt_up(double a);

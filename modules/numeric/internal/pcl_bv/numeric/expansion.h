@@ -48,7 +48,7 @@ class Expansion {
   /// Returns the sign (-1, 0 or 1) of the sum. The sign is exact if is_lossless().
   int sign() const;
 
-  /// True unless digits may be lost because a product is below 2^-960 in magnitude.
+  /// Returns false if digits may be lost, because a product is below 2^-960 in magnitude. Otherwise true.
   bool is_lossless() const { return !lossy_; }
 
  private:
