@@ -30,8 +30,8 @@ class ParallelRegion {
 
 class WorkerPool {
  public:
-  /// Returns the process's pool. Threads are started when first needed and joined at exit. After that, run()
-  /// uses the calling thread alone. A forked child gets a new pool.
+  /// Returns the process's pool. Threads are started when first needed and joined at exit. Once the threads
+  /// are joined, run() uses the calling thread alone. A forked child gets a new pool.
   static WorkerPool& instance();
 
   /// Runs work() on the calling thread and at the same time on at most `helpers` pool threads. The helpers

@@ -48,9 +48,9 @@ struct Threads {
 /// means as many as `Threads{}` uses. With TBB: `[](std::size_t tasks, const auto& task) {
 /// tbb::parallel_for(std::size_t{0}, tasks, task); }`.
 ///
-/// The thread that called `run` completes the work of tasks that `run` has not called. Calls after the
-/// parallel region has ended have no effect. If `run` throws, the exception is rethrown when all tasks that
-/// have begun have ended. In this case some of the work may not have been done.
+/// The thread that called `run` completes the work of tasks that `run` has not called. Calls of task() after
+/// the end of the parallel region have no effect. If `run` throws, the exception is rethrown when all tasks
+/// that have begun have ended. In this case some of the work may not have been done.
 struct Executor {
   unsigned threads = 0;
   std::function<void(std::size_t tasks, const std::function<void(std::size_t)>& task)> run;

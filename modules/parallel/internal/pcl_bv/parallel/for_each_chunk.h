@@ -59,7 +59,8 @@ class SpinningThreads {
 };
 
 /// Sets result = identity, calls merge(result, map(i)) for i = 0 ... chunks - 1, and returns the result. The
-/// maps run in parallel. The merges run in this order on the calling thread. Throws like for_each_chunk().
+/// maps run in parallel. The merges run in ascending order of i on the calling thread. Throws like
+/// for_each_chunk().
 template <typename Partial, typename Map, typename Merge>
 Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial identity, Map&& map,
                       Merge&& merge) {

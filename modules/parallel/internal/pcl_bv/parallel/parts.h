@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cuts a sequence of points into parts, each of which is one task. Used by stages that need more than a merge
-// of chunk results.
+// Cuts a sequence of points into parts, each of which is one task. Several parallel loops can run over the
+// same parts, which store intermediate results.
 #pragma once
 
 #include <algorithm>
