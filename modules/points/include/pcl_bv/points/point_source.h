@@ -15,9 +15,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Number of points per block. A kernel tests each block as a whole: is any point of the block invalid, and
-/// can any be extreme? A block of pcl::PointXYZ has 16 KiB, so a second pass finds the block in the
-/// first-level cache.
+/// Number of points per block. A kernel tests for each block as a whole whether the block has an invalid
+/// point and whether one of its points can be extreme. A block of pcl::PointXYZ has 16 KiB, so a second pass
+/// finds the block in the first-level cache.
 inline constexpr std::size_t kBlockPoints = 1024;
 
 /// Number of points per chunk. One call of a kernel processes one chunk, in about 10 us. A chunk of

@@ -48,7 +48,7 @@ struct PointView {
   const std::byte* data = nullptr;        ///< Address of x of the first point.
   std::size_t stride = 0;                 ///< Records: bytes from one point's x to the next point's x.
   std::size_t readable = 0;               ///< Records: number of bytes readable from any point's x on.
-  std::size_t count = 0;                  ///< Number of visited points; the length of `indices` if it is set.
+  std::size_t count = 0;                  ///< Number of visited points; the length of `indices` if not null.
   const std::int32_t* indices = nullptr;  ///< Index of each visited point, or null for consecutive points.
   std::size_t first = 0;                  ///< Without `indices`: index of the first visited point.
   ScalarType scalar = ScalarType::float32;
