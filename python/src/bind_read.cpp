@@ -55,7 +55,8 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
     RawCloud cloud = clouds.load(number);
     warnings = clouds.warnings();
     return cloud;
-  } catch (const IoError& error) {  // add the warnings, because the damage that they report may be the reason
+  } catch (const IoError& error) {
+    // Adds the warnings: the damage that they report may be the reason of the error.
     std::string text = error.what();
     for (const std::string& warning : clouds.warnings())
       text.append("; ").append(warning);

@@ -87,8 +87,8 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// Issues the warnings that FrameWarnings gives for a frame with this ground and no other results. The warnings
-/// name the arguments of ground(), which are the keys of the settings without "ground.".
+/// Issues the warnings that FrameWarnings gives for a frame with this ground and no other results. Where such
+/// a warning names a setting, for example "ground.method", it then names ground()'s argument "method".
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();
   pipeline.ground = config;

@@ -133,7 +133,7 @@ class RegionVolumes {
 
  private:
   py::dict settings_;
-  std::vector<std::vector<AnyVolume>> volumes_;  // volumes of each region; empty if it has a file
+  std::vector<std::vector<AnyVolume>> volumes_;  // volumes of each region; empty if the region has a file
 };
 
 /// Parses a dict. Errors have no line number, because a dict has no lines.

@@ -35,8 +35,8 @@ struct LabelledVolume {
   const VolumeObject* volume;
 };
 
-/// Returns the volumes of an argument. It must be None, a volume, a list of volumes, or a dict whose values
-/// are volumes or lists of volumes.
+/// Returns the volumes of an argument. The argument must be None, a volume, a list of volumes, or a dict
+/// whose values are volumes or lists of volumes.
 std::vector<LabelledVolume> volumes_of(py::handle value, const char* name);
 
 /// Returns the name of a status: "ok", "degenerate", "no_valid_points" or "failed".
