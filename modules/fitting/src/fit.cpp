@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kManyPoints = 200'000;
 
-// Returns the time of the call in seconds. It must be measured, because it depends on the method. For 300
-// points, a box takes 0.2 us and a capsule about a thousand times as long.
+// Returns the time of the call in seconds. The time of a fit must be measured, because methods differ much.
+// For 300 points, a box takes 0.2 us and a capsule about a thousand times as long.
 template <typename Call>
 double seconds(const Call& call) {
   const auto begin = std::chrono::steady_clock::now();

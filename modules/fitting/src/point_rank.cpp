@@ -29,7 +29,7 @@ double clear_volume(double extent) {
 }
 
 // Returns whether four points, evenly spaced in the view, clearly span a solid. This is true for nearly all
-// clouds. The check takes 20 ns. Fitting the box of 300 points takes 220 ns.
+// clouds. The check takes 20 ns, a small part of the 220 ns for fitting the box of 300 points.
 bool four_points_span_solid(const PointView& points, double extent) {
   const std::size_t step = points.count / 4;
   const Coordinates p = load_point(points, 0), a = load_point(points, step), b = load_point(points, 2 * step),
@@ -72,9 +72,8 @@ class Simplex {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), edge_ = origin_, normal_ = origin_;
 };
 
-// Returns whether a few points span `dimensions` dimensions so clearly that the exact definition cannot give
-// fewer. Tries four evenly spaced points of each chunk and all points of the first chunk, and stops as soon
-// as these dimensions are spanned.
+// Returns whether a few points prove that the rank of the cloud is at least `dimensions`. Tries four evenly
+// spaced points of each chunk and all points of the first chunk, and stops as soon as these points prove it.
 bool clearly_spans(const PointView& points, double extent, int dimensions) {
   if (dimensions == 3 && points.source == nullptr && four_points_span_solid(points, extent)) return true;
   Simplex simplex(extent);

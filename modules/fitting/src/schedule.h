@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Decides how many threads a pass uses. Starting threads costs microseconds, on an idle pool tens of
-// microseconds, so a small pass is fastest in one thread.
+// Decides how many threads a pass uses. A small pass is fastest in one thread, because starting threads costs
+// microseconds, or tens of microseconds if they sleep.
 #pragma once
 
 #include <algorithm>

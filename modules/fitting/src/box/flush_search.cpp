@@ -219,9 +219,9 @@ bool FlushSearch::is_proven(const NormalRange& range, const Widths& widths) cons
   return true;
 }
 
-// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal. Searches this t if
-// the volume over `begin` is the larger one at t = 0 and the smaller one at t = 1. Otherwise returns 0.5,
-// also if the vertices of `begin` and `end` are the same.
+// Returns the t at which the volumes over the vertices of `begin` and of `end` are equal, provided that the
+// volume over `begin` is the larger one at t = 0 and the smaller one at t = 1. Otherwise, for example if the
+// vertices are the same, returns 0.5.
 double FlushSearch::change(const NormalRange& range, const Measured& begin, const Measured& end) const {
   if (begin.supports == end.supports) return 0.5;
   Quartic lead = numerator(range, begin.widths);

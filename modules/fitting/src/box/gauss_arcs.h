@@ -14,7 +14,7 @@
 
 namespace pcl_bv::detail {
 
-/// The arcs of all edges of a hull, and lower bounds of its width.
+/// The arcs of all edges of a hull, and lower bounds of the hull's width.
 struct GaussArcs {
   /// The arc of an edge. An arc of more than 60 degrees is divided into several elements of `arcs`.
   struct Arc {

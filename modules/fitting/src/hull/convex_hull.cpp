@@ -63,8 +63,8 @@ std::vector<std::size_t> spanning(const std::vector<Coordinates>& points) {
   return corners;
 }
 
-// Returns the corners that are in the planes of three or more faces. The other corners are inside a face or
-// an edge.
+// Returns the corners that are extreme points. These are the corners in the planes of three or more faces.
+// Any other corner is inside a face or an edge.
 std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
                                          const std::vector<std::size_t>& faces) {
   std::vector<std::pair<std::size_t, std::size_t>> planes;  // (corner, face)
@@ -84,7 +84,8 @@ std::vector<std::size_t> extreme_corners(const std::vector<Triangle>& triangles,
 }
 
 // Returns the extreme points of points in a plane, on a line or at one position. Drops one coordinate, chosen
-// such that the points still span as many dimensions. The same points are extreme without this coordinate.
+// such that the points span as many dimensions as before. The same points are extreme without this
+// coordinate.
 std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points,
                                           const std::vector<std::size_t>& corners) {
   if (corners.size() < 2) return corners;

@@ -32,7 +32,7 @@ Corners corners_of(const Supports& supports, const LocalFrame& frame, std::vecto
   return corners;
 }
 
-// The floating-point type of the points, in which half_spaces.h computes.
+// The floating-point type of the points. The kernels of half_spaces.h compute in this type.
 struct Scalar {
   explicit Scalar(ScalarType type) : is_float(type == ScalarType::float32) {}
 

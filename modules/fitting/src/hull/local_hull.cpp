@@ -17,7 +17,7 @@ namespace pcl_bv::detail {
 namespace {
 
 // For at most this number of points the polytope takes more time than it saves. With 300 points of a
-// Gaussian, the hull takes 118 us without the filter and 194 us with it (AVX-512).
+// Gaussian, the hull takes 118 us without the polytope and 194 us with the polytope (AVX-512).
 constexpr std::size_t kFewPoints = 500;
 
 // If a chunk of a source has more candidates than this, only its extreme points are stored. If all chunks

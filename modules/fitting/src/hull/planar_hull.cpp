@@ -59,9 +59,9 @@ std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& poi
   return positions;
 }
 
-// Appends a point to the chain that begins at position `first` of `chain`. Before that, removes the last
-// corner of this chain as long as the chain would not turn left at this corner. The corners before `first`
-// belong to the lower chain, which is complete.
+// Appends a point to the chain that begins at position `first` of `chain`. Before that, removes corners from
+// the end of this chain until the chain turns left at its last corner. The corners before `first` belong to
+// the lower chain, which is complete.
 void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, std::size_t first,
                   std::vector<std::size_t>& chain) {
   while (chain.size() >= first + 2 &&
@@ -116,7 +116,7 @@ std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points)
   const std::size_t lower = chain.size() - 1;
   for (std::size_t k = order.size() - 1; k-- > 0;)
     extend_chain(points, order[k], lower, chain);
-  chain.pop_back();  // the first corner again
+  chain.pop_back();  // the first corner, which was appended a second time
   return chain;
 }
 

@@ -39,8 +39,8 @@ std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull);
 
 /// Returns a unit vector for which size() is small. size() must return the same for opposite vectors. The
 /// search tries the axes of the hull and 49 directions over the hemisphere. It improves the best of these by
-/// smaller and smaller steps. The bits are the same on every machine, because the search uses no random
-/// numbers, and of libm only the square root.
+/// smaller and smaller steps. The bits are the same on every machine: the search uses no random numbers and
+/// no function of libm except the square root, whose rounding IEEE 754 defines.
 Eigen::Vector3d search_axis(const LocalHull& hull, const std::function<double(const Eigen::Vector3d&)>& size);
 
 }  // namespace pcl_bv::detail

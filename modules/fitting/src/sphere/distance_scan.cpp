@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kBlocksPerChunk = 32;
 
 // For clouds of at most this number of blocks, the float filter is off: in a small cloud each block probably
-// has a point on the sphere, and floats cannot reject such a point.
+// has a point on the sphere, and the float filter cannot reject such a block.
 constexpr std::size_t kFewBlocks = 4;
 
 // Margins for the rounding of distances and of sums of distances, at most a few dozen roundings.

@@ -78,8 +78,8 @@ struct ObbOptions {
 
   /// How the axes are chosen.
   ObbMethod method;
-  /// The direction against gravity, used by `yaw` and `lshape`. It may have any length. Its largest component
-  /// must be from 1e-30 to 1e30 in magnitude.
+  /// The direction against gravity, used by `yaw` and `lshape`. Its length does not matter, but its largest
+  /// component must be from 1e-30 to 1e30 in magnitude.
   Eigen::Vector3d up;
 };
 

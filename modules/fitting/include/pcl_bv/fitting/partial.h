@@ -19,11 +19,11 @@ struct PartialAccess;
 struct PartialState;
 }  // namespace detail
 
-/// The contribution of some points of a cloud to volumes around the whole cloud. If there are at most
-/// kMaxStored points, all are stored. Of more points, a Partial stores the support points along 26
+/// The contribution of some points of a cloud to volumes around the whole cloud. A Partial with at most
+/// kMaxStored points stores all its points. Of more points, a Partial stores the support points along 26
 /// directions, sums for the covariance, and the extreme points, which are the vertices of the convex hull.
-/// The points with the numbers 1024 k to 1024 k + 1023 are a block. As long as a Partial does not have all
-/// points of a block, it also stores the points of this block that it has. Copies share their data.
+/// The points with the numbers 1024 k to 1024 k + 1023 are a block. If a Partial has only some of the points
+/// of a block, it also stores these points. Copies share their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the same bits as a fit to the whole cloud. There are two
