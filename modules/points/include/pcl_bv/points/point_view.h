@@ -94,11 +94,12 @@ struct PointView {
   /// Returns the number of bytes from a point's x to its y, and from its y to its z.
   std::size_t step() const { return order == PointOrder::records ? size_of(scalar) : kGroupBytes; }
 
-  /// Returns a view of the points with the indices `selected`, in this order. These are indices in the cloud
-  /// (values of index()), not positions in this view. `selected` must outlive the view. O(size), or O(size +
-  /// count) for a view with an index list. Throws std::out_of_range, with the index in the message, if an
-  /// index is below the smallest or above the largest index of this view. Throws std::invalid_argument for a
-  /// view of a source, because the points of a source can only be visited in their order.
+  /// Returns a view of the points with the indices `selected`, in the order of `selected`. The indices are
+  /// those in the cloud, as index() returns them, not positions in this view. `selected` must outlive the
+  /// view. O(size), or O(size + count) for a view with an index list. Throws std::out_of_range, with the
+  /// index in the message, if an index is below the smallest or above the largest index of this view. Throws
+  /// std::invalid_argument for a view of a source, because the points of a source can only be visited in
+  /// their order.
   PointView subset(const std::int32_t* selected, std::size_t size) const;
   PointView subset(const std::vector<std::int32_t>& selected) const {
     return subset(selected.data(), selected.size());
