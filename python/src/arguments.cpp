@@ -193,7 +193,8 @@ Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
     raise_value_error(name, "expected a matrix of 4 x 4 numbers, got " + repr_text(matrix));
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
-  // The tolerance allows poses in float. Transformed volumes are inflated by the deviation.
+  // This tolerance accepts rotations that are rounded to float. Transformed volumes are inflated by the
+  // deviation from an orthonormal matrix.
   constexpr double max_deviation = 1e-6;
   if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > max_deviation)

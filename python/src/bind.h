@@ -10,8 +10,8 @@
 namespace pcl_bv::python {
 using namespace detail;
 
-/// Returns the docstring of a constructor, for inspect.signature(). It is the signature at the beginning of
-/// the docstring of the class.
+/// Returns the docstring of a constructor, which inspect.signature() reads. This docstring is the signature
+/// at the beginning of the class's docstring.
 std::string init_doc(std::string_view class_doc);
 
 void bind_volumes(pybind11::module_& module);

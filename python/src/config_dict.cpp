@@ -30,8 +30,8 @@ std::string quoted(const std::string& text) {
   return yaml + '"';
 }
 
-constexpr int max_depth = 16;                // settings nest 4 deep; a list may contain itself
-constexpr std::size_t max_values = 100'000;  // a few nested lists can have very many values
+constexpr int max_depth = 16;                // settings nest 4 deep, but a list may contain itself
+constexpr std::size_t max_values = 100'000;  // a list may contain another list many times
 
 /// Counters of yaml_of(), for the limits above.
 struct YamlCounters {
