@@ -25,8 +25,8 @@ constexpr int kMostIterations = 300;
 constexpr double kThinRadius = 0x1p-30;
 
 // Finds the smallest ellipsoid of the vertices in the first `rank` coordinates of LocalHull::spread(). All
-// affine coordinates give the same smallest ellipsoid, but in local coordinates the solver's matrices would be
-// inaccurate for points thinner than 1e-8.
+// affine coordinates give the same smallest ellipsoid, but in local coordinates the solver's matrices would
+// be inaccurate for points thinner than 1e-8.
 WeightedEllipsoid solve(const LocalHull& hull) {
   std::vector<Eigen::Vector3d> points;
   for (const HullPoint& v : hull.vertices)
