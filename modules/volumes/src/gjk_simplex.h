@@ -46,8 +46,8 @@ Real inner(const Vector<Real>& a, const Vector<Real>& b) {
 template <typename Real>
 class Simplex {
  public:
-  /// Adds a point. The simplex must have fewer than four points, which is true after reduce() has returned a
-  /// foot.
+  /// Adds a point. The simplex must have fewer than four points. After reduce() has returned a foot, it
+  /// always has fewer.
   void add(const Vector<Real>& point) { points_[size_++] = point; }
 
   int size() const { return size_; }
@@ -60,9 +60,9 @@ class Simplex {
     return false;
   }
 
-  /// Reduces the simplex to the part that is nearest to the origin, and returns the foot on it. Returns
-  /// nothing if the simplex has four points that enclose the origin, and the determinants of any three of
-  /// them exceed `margin` in magnitude.
+  /// Reduces the simplex to the part that is nearest to the origin, and returns the foot on this part.
+  /// Returns nothing if the simplex has four points that enclose the origin, and the determinant of any three
+  /// of these points exceeds `margin` in magnitude.
   std::optional<Vector<Real>> reduce(double margin) {
     const int newest = size_ - 1;
     try_point(newest);

@@ -35,11 +35,11 @@ class ConvexBody {
   /// Returns whether the body has no point.
   bool empty() const { return !shape_; }
 
-  /// Returns the body moved by `transform`. The result contains every point of this body, transformed without
-  /// rounding by the numbers in `transform`. The result may be larger than this set of points, by the
-  /// rounding errors of the coordinates. If the linear part of `transform` is not exactly a rotation, the
-  /// radius of a round body also grows: it is multiplied by an upper bound of the matrix norm. A call takes
-  /// 1.5 us for every kind of volume.
+  /// Returns the body moved by `transform`. The result contains the exact value of `transform * p` for every
+  /// point p of this body. The result may be larger than the set of these values, by the rounding errors of
+  /// the coordinates. If the linear part of `transform` is not exactly a rotation, the radius of a round body
+  /// also grows: it is multiplied by an upper bound of the matrix norm. A call takes 1.5 us for every kind of
+  /// volume.
   ///
   /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
   /// time, not the body of the previous step.
@@ -59,8 +59,8 @@ class ConvexBody {
 
 /// Returns whether two volumes have a point in common. Each volume is the set that its class defines. The
 /// test is conservative. If the result is false, the volumes are proven to be separated along some direction.
-/// If the result is true, the distance of the volumes is at most about 1e-14 of their sizes and of the
-/// distance of their centres.
+/// If the result is true, the distance of the volumes is at most about 1e-14 times the sum of their sizes and
+/// the distance of their centres.
 ///
 /// False if either volume is empty. The order of the arguments does not matter. Two Aabb are compared
 /// exactly. Two Kdop of equal sets are compared exactly along their directions. A Hull whose planes leave it
@@ -84,10 +84,10 @@ double distance(const ConvexBody& a, const ConvexBody& b);
 /// coordinate, otherwise infinity if the body is empty or the point has an infinite coordinate.
 double distance(const ConvexBody& body, const Eigen::Vector3d& point);
 
-/// Returns whether distance(a, b) <= margin. Conservative: true for all bodies whose distance is at most
-/// `margin` by exact arithmetic. Faster than distance(), because the search stops as soon as the answer is
-/// known. If either body is empty, the result is true only for a margin of infinity. If neither is empty, the
-/// result is true for a margin of NaN.
+/// Returns whether distance(a, b) <= margin. Conservative: true for all bodies whose exact distance is at
+/// most `margin`. Faster than distance(), because the search stops as soon as the answer is known. If either
+/// body is empty, the result is true only for a margin of infinity. If neither is empty, the result is true
+/// for a margin of NaN.
 bool within(const ConvexBody& a, const ConvexBody& b, double margin);
 
 }  // namespace pcl_bv
