@@ -201,7 +201,7 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
   };
   std::optional<Plane> best;
   double best_cost =
-      max_above * max_above * static_cast<double>(points.support.size());  // of a plane far below all points
+      max_above * max_above * static_cast<double>(points.support.size());  // cost of a plane far below all points
   for (unsigned i = 0; i < options.iterations; ++i) {
     const Vector3d& a = pick();
     const Vector3d& b = pick();

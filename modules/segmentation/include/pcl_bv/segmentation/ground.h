@@ -126,11 +126,12 @@ struct GroundZonesOptions {
 /// - Find the plane around the sensor as split_ground() does, among the points within 12.5 m. If none is
 ///   found, search within 25 m, then among all points.
 /// - Traverse all sectors outwards, ring by ring. The lowest point of a cell is ground if its height is near
-///   the height expected in the sector. The tolerance grows with the distance since ground was last seen in
+///   the height expected in the sector. The tolerance grows with the distance from the last ground cell of
 ///   this sector. If ground was seen more recently in the neighbouring sectors, their expected heights and
 ///   slopes are mixed into those of the sector.
 /// - Interpolate the surface linearly between two cells of a sector with visible ground.
-/// - Lower the surface to the highest surface below it that is nowhere steeper than max_slope_degrees.
+/// - Lower the surface where it is too steep. The result is the highest surface that is nowhere above the
+///   interpolated surface and nowhere steeper than max_slope_degrees.
 ///
 /// So the ground may rise and fall, reflections below the ground do not lower it, and roofs and bonnets are
 /// not ground.

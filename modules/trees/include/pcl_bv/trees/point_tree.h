@@ -30,7 +30,8 @@ struct PackedTree;
 const PackedTree& packed_tree(const PointTree& tree);
 }  // namespace detail
 
-/// The first point that a moving sphere touches. The centre of the sphere is then at origin + t direction.
+/// The first point that a moving sphere touches. The centre of the sphere is then at `origin + t *
+/// direction`.
 struct PointHit {
   /// Index of the point in the cloud.
   std::int32_t index;
@@ -134,8 +135,8 @@ class PointTree {
   std::optional<PointDistance> nearest_to(
       const AnyVolume& volume, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Returns the first point that a moving sphere touches. The centre of the sphere moves along origin + t
-  /// direction, t >= 0.
+  /// Returns the first point that a moving sphere touches. The centre of the sphere moves along `origin + t *
+  /// direction`, t >= 0.
   ///
   /// The point has the smallest `enter` of Sphere(point, radius).intersect(origin, direction), and among
   /// equals the smallest index. For a ray, use a small radius. If the direction is zero, returns the point
@@ -192,11 +193,11 @@ void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
 /// the tree's frame.
 ///
 /// The tree must outlive this object. A query volume is moved back to the tree's frame and inflated by a
-/// bound of the error of the inverse matrix. So a point is found if its image, computed exactly from the
-/// stored matrix, is inside the volume. A point outside is found only if it is nearer to the volume than
-/// about 1e-15 of the coordinates. Query points are rounded when they are moved back, and distances are
-/// computed in the tree's frame. Query points and distances are accurate to about 1e-15 of the coordinates.
-/// These errors are larger if the axes of the pose are orthonormal only to 1e-6.
+/// bound of the error of the inverse matrix. So a point p is found if the exact value of `pose * p` is inside
+/// the volume. A point outside the volume is found only if its distance from the volume is below about 1e-15
+/// of the coordinates. Query points are rounded when they are moved back, and distances are computed in the
+/// tree's frame. Query points and distances are accurate to about 1e-15 of the coordinates. These errors are
+/// larger if the axes of the pose are orthonormal only to 1e-6.
 class PosedTree {
  public:
   /// Places `tree` at `pose`, the transform from the tree's frame to the frame of the queries. Throws

@@ -32,7 +32,7 @@ struct VolumeDistance {
   double distance;
 };
 
-/// A ray, i.e. all points origin + t direction with t >= 0.
+/// A ray, i.e. all points `origin + t * direction` with t >= 0.
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;  ///< Has any length; t is in multiples of the length.
@@ -76,9 +76,9 @@ class VolumeTree {
   /// Lists the volumes for which contains() holds.
   void all_containing(const Eigen::Vector3d& point, std::vector<std::int32_t>& indices) const;
 
-  /// Returns the volume that the ray origin + t direction, t >= 0, enters first. Among the volumes for which
-  /// intersect() gives an interval, this is the one with the smallest `enter`, and among equals the one with
-  /// the smallest index.
+  /// Returns the volume that the ray `origin + t * direction`, t >= 0, enters first. Among the volumes for
+  /// which intersect() gives an interval, this is the one with the smallest `enter`, and among equals the one
+  /// with the smallest index.
   std::optional<VolumeHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Lists all volumes that the ray hits.
