@@ -31,7 +31,7 @@ inline std::uint32_t count_bits(std::uint64_t bits) {
 struct Block {
   std::uint64_t occupied = 0;    ///< Has bit i set if cell i of the block holds points.
   std::uint32_t first_cell = 0;  ///< Number of the first occupied cell of the block.
-  bool united = false;           ///< Links inside the block connect all its points. Stays false if nodes are points.
+  bool united = false;           ///< Links in the block connect all its points. False if nodes are points.
 
   std::uint32_t cell(unsigned bit) const {
     return first_cell + count_bits(occupied & ((std::uint64_t{1} << bit) - 1));

@@ -54,10 +54,10 @@ struct PointDistance {
 /// for the next assign().
 ///
 /// Points are identified by their index in the cloud (PointView::index()). Coordinates and distances are in
-/// the frame and unit of the points. Every query gives the result of testing all points one by one with the
-/// double expression that the documentation of the query states. Boxes only skip points that cannot change
-/// the result. So the result is the same for every Execution, and no point is missed. Queries of a tree
-/// without points find nothing.
+/// the frame and unit of the points. Every query gives the same result as testing all points one by one, in
+/// double, as documented for the query. The boxes only serve to skip points that cannot change the result. So
+/// the result is the same for every Execution, and no point is missed. Queries of a tree without points find
+/// nothing.
 ///
 /// Const member functions may be called from several threads at the same time.
 class PointTree {
@@ -76,7 +76,7 @@ class PointTree {
   PointTree& operator=(PointTree&&) noexcept;
 
   /// Replaces the points by those of a view, like the constructor. Allocates only if there are more points
-  /// than in any earlier call. If it throws std::invalid_argument, as the constructor does, the tree is
+  /// than in any earlier call. Throws std::invalid_argument as the constructor does; the tree is then
   /// unchanged. If memory runs out, the tree is empty.
   void assign(const PointView& points, const Execution& execution = {});
 
