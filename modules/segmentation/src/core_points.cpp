@@ -20,7 +20,7 @@ constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
 // Number of blocks that a thread takes at a time. Fewer blocks are not worth starting a thread.
 constexpr std::size_t blocks_per_part = 256;
 
-// The data that all steps use.
+// The arguments of find_core(), for all of its steps.
 template <typename T>
 struct CoreSearch {
   const Cells<T>& cells;

@@ -15,7 +15,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// The data that all steps use.
+// The arguments of join_cells(), for all of its steps.
 template <typename T>
 struct JoinContext {
   Cells<T>& cells;

@@ -78,7 +78,7 @@ class VolumeBoxes {
   std::vector<std::uint32_t> without_box_;
 };
 
-/// Returns as bits which boxes of a group overlap the query box.
+/// Returns a bit mask of the boxes of a group that overlap the query box.
 inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
   // Uses values 0 and 1 instead of branches, so that the compiler vectorises the loop.
   alignas(64) std::uint32_t out[kTreeWidth];

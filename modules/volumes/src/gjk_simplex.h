@@ -37,12 +37,12 @@ Real inner(const Vector<Real>& a, const Vector<Real>& b) {
 
 /// A simplex of one to four points whose coordinates have a magnitude of about 1.
 ///
-/// A part of the simplex (vertex, edge or triangle) is a candidate if it contains the newest point and the
-/// foot of the perpendicular from the origin is inside the part. reduce() selects the candidate whose foot is
-/// nearest to the origin, so the order of the tests does not matter. An inaccurate foot on a thin part is
-/// farther away and is not selected (van den Bergen 1999 has this selection as a fallback). The foot on a
-/// triangle is computed along the normal of the triangle. The accuracy of the normal depends on the shape of
-/// the triangle, but not on its distance from the origin.
+/// A part of the simplex is a vertex, an edge or a triangle. A part is a candidate if it contains the newest
+/// point and also the foot of the perpendicular from the origin to the part. reduce() selects the candidate
+/// whose foot is nearest to the origin, so the order of the tests does not matter. An inaccurate foot on a
+/// thin part is farther away and is not selected (van den Bergen 1999 has this selection as a fallback). The
+/// foot on a triangle is computed along the normal of the triangle. The accuracy of the normal depends on the
+/// shape of the triangle, but not on its distance from the origin.
 template <typename Real>
 class Simplex {
  public:

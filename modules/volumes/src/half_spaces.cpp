@@ -66,7 +66,7 @@ double HalfSpaces::radius_up() const {
 }
 
 // Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U of their terms,
-// where U = 2^-53. The error bound of 8 U also covers the rounding of its own addition.
+// where U = 2^-53. The error bound of 8 U also covers the rounding when the error bound is added.
 HalfSpaces::DualBound HalfSpaces::prove(const DualBasis& basis, const Eigen::Vector3d& direction,
                                         std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();

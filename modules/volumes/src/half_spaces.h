@@ -31,8 +31,8 @@ class HalfSpaces {
   bool add_box(double guess);
 
   /// Returns a proven upper bound of direction . q over the body. Requires that add_box() has returned true.
-  /// `vertex` should be a point of the body whose projection on `direction` is about the largest; any other
-  /// point makes the function slower and the bound less tight, but not wrong.
+  /// `vertex` should be a point of the body whose projection on `direction` is about the largest. With any
+  /// other point, the bound is still valid, but less tight, and the function is slower.
   double support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
 
   /// Returns an upper bound of |q| over the box.

@@ -81,11 +81,11 @@ struct GroundSplit {
 ///
 /// A plane is allowed if it satisfies max_slope_degrees and sensor_height. The result is the allowed plane
 /// with the smallest cost. Points near a plane cost little. A point clearly below a plane costs as much as
-/// four points clearly above it. So a floor is preferred to a table, and a road to a roof, if the lower
-/// surface has more than a quarter of the points of the upper one. The search weights points by the area that
-/// they cover seen from above, so that dense rings near the sensor do not outweigh the distant road. Least
-/// squares over the sampled points near the plane then refine the plane. Three points are enough if their
-/// plane is allowed.
+/// four points clearly above the plane. So a floor is preferred to a table, and a road to a roof, if the
+/// lower surface has more than a quarter of the points of the upper one. The search weights points by the
+/// area that they cover seen from above, so that dense rings near the sensor do not outweigh the distant
+/// road. Least squares over the sampled points near the plane then refine the plane. Three points are enough
+/// if their plane is allowed.
 ///
 /// Points that are not valid (is_valid()) are in neither list. No plane is found in these cases:
 /// - There are fewer than three valid points, or all points are on a line.

@@ -85,8 +85,8 @@ class PointTree {
   ///
   /// Queries give the same results as on a new tree. A new tree is faster to query if the points have moved
   /// far. A point that is not valid in `cloud` is not found by any query until a later refit() gives it valid
-  /// coordinates. Throws std::invalid_argument, and changes nothing, if `cloud` lacks one of the indices, has
-  /// an index list or has another scalar type.
+  /// coordinates. Throws std::invalid_argument, and changes nothing, if `cloud` has no point for one of the
+  /// indices, has an index list or has another scalar type than the tree.
   void refit(const PointView& cloud, const Execution& execution = {});
 
   std::size_t size() const;     ///< Number of points in the tree.

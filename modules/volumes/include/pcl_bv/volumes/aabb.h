@@ -23,8 +23,8 @@ struct FloatAabb {
 /// each coordinate.
 ///
 /// The empty box has min = +infinity and max = -infinity; merging the empty box into another box changes
-/// nothing. A flat box (min equal to max along one, two or all three axes) is a valid volume. Coordinates
-/// beyond 1e100 may overflow in functions that multiply them, such as volume().
+/// nothing. A flat box, whose min equals its max along one, two or all three axes, is a valid volume.
+/// Coordinates beyond 1e100 may overflow in functions that multiply them, such as volume().
 class Aabb {
  public:
   /// Makes the empty box.

@@ -52,8 +52,8 @@ class Capsule {
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the capsule; see RayInterval. The
-  /// result is computed by Sphere::intersect() and Cylinder::intersect(), with a radius that is larger by
-  /// about 2^-46 (|b - a|_1 + radius). The error bounds of these functions apply.
+  /// result is computed by Sphere::intersect() and Cylinder::intersect(), whose error bounds apply. Both use
+  /// a radius that is larger than the capsule's by about 2^-46 (|b - a|_1 + radius).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns the smallest box with double coordinates that contains every point of the capsule, in spite of

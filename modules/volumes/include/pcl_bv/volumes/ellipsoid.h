@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// (axis i . (p - center) / radius i)^2 is at most 1. For a radius of 0, the term is replaced by the
 /// condition axis i . (p - center) = 0. The axes are the columns of a matrix that is orthonormal to 1e-12.
 ///
-/// The empty ellipsoid has radii -1 and centre NaN. A flat ellipsoid (some or all radii 0) is a valid volume.
-/// Coordinates beyond 1e100 are not supported.
+/// The empty ellipsoid has radii -1 and centre NaN. A flat ellipsoid, with some or all radii 0, is a valid
+/// volume. Coordinates beyond 1e100 are not supported.
 class Ellipsoid {
  public:
   /// Makes the empty ellipsoid.

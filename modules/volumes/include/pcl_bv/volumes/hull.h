@@ -95,7 +95,7 @@ class Hull {
 
   /// Returns the transformed hull. The result contains the exact value of `transform * p` for every point p
   /// of this hull. Each plane moves outward by the rounding error of its normal. If the planes leave the hull
-  /// unbounded, this holds only for the points p of aabb(). O(planes).
+  /// unbounded, the result is guaranteed to contain only the points p of aabb(), transformed. O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;
 
  private:

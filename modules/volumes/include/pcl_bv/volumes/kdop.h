@@ -78,8 +78,8 @@ struct FloatKdop {
 /// direction(i) . p <= max(i) for each slab i. See Karlsson, Winberg and Larsson 2010, section 2.
 ///
 /// The empty k-DOP has min = +infinity and max = -infinity; merging the empty k-DOP into another k-DOP
-/// changes nothing. A flat k-DOP (a polygon, a segment or a point) is a valid volume. Coordinates beyond
-/// 1e100 are not supported.
+/// changes nothing. A flat k-DOP is a polygon, a segment or a point, and is a valid volume. Coordinates
+/// beyond 1e100 are not supported.
 ///
 /// Slabs that were measured on points always have a point in common. Other slabs may have no point in common
 /// although min <= max for each of them. Such a k-DOP has volume 0 and no corners, although empty() is false.
@@ -147,7 +147,7 @@ class Kdop {
   /// is 0 if contains() is true for the origin. Uses the slab method (Kay, Kajiya 1986), which takes 50 ns
   /// for a 26-DOP.
   ///
-  /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
+  /// The projections of origin and direction are widened by twice the error bound of contains(). So a ray
   /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
   /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;

@@ -93,7 +93,7 @@ class Obb {
   /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the box; see RayInterval. `enter`
   /// is 0 if contains() is true for the origin.
   ///
-  /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
+  /// The projections of origin and direction are widened by twice the error bound of contains(). So a ray
   /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
   /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;

@@ -18,8 +18,8 @@ struct PosedShape;
 }  // namespace detail
 
 /// A volume that is prepared for many overlap and distance queries, as in trees of volumes and collision
-/// loops. The corners of a k-DOP, and the half-spaces of a k-DOP or hull relative to a point near the volume,
-/// are computed only once.
+/// loops. The corners of a k-DOP are computed only once. The half-spaces of a k-DOP or hull are converted
+/// only once to coordinates relative to a point near the volume.
 ///
 /// A body is cheap to copy. Copies and transformed bodies share the prepared data, which never changes, so
 /// several threads may use bodies at the same time. Construction takes 35 us for a 26-DOP, 25 us for a hull
@@ -48,8 +48,8 @@ class ConvexBody {
  private:
   friend detail::PosedShape;
 
-  // The body consists of all points within radius_ of the points origin_ + rotation_ q, where q is any point
-  // of the shape's core.
+  // The body consists of all points within radius_ of the points `origin_ + rotation_ * q`, where q is any
+  // point of the shape's core.
   std::shared_ptr<const detail::SupportShape> shape_;  // null if empty
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
@@ -67,9 +67,9 @@ class ConvexBody {
 /// unbounded overlaps every volume that is not empty.
 ///
 /// The algorithm of Gilbert, Johnson and Keerthi (1988) proposes the directions; see docs/numerics.md. A call
-/// for two ConvexBody takes 0.1 to 0.2 us. If one of them is a 26-DOP, the call takes 0.7 to 1.5 us; if one
-/// is a hull of 100 vertices, 1.5 to 4 us. distance() takes two to three times as long as overlaps(), and at
-/// most 4 us for round bodies.
+/// for two ConvexBody takes 0.1 to 0.2 us. A call takes 0.7 to 1.5 us if one of the bodies is a 26-DOP, and
+/// 1.5 to 4 us if one is a hull of 100 vertices. distance() takes two to three times as long as overlaps(),
+/// and at most 4 us for round bodies.
 bool overlaps(const AnyVolume& a, const AnyVolume& b);
 bool overlaps(const ConvexBody& a, const ConvexBody& b);
 
