@@ -18,8 +18,8 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the number of bits set. Uses twelve inline instructions, because std::popcount() is a call on
-/// x86-64 without POPCNT.
+/// Returns the number of bits set. Uses twelve inline instructions. On x86-64 without POPCNT, std::popcount()
+/// would be a function call.
 inline std::uint32_t count_bits(std::uint64_t bits) {
   bits -= bits >> 1 & 0x5555555555555555U;
   bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);

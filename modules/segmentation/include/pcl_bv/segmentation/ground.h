@@ -62,8 +62,9 @@ struct GroundSplit {
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
-  /// Centre of the rings of GroundZones. It is GroundZonesOptions::sensor, which is not checked, or the
-  /// result of find_sensor(). split_ground() does not set `sensor`.
+  /// Centre of the rings of GroundZones. It is GroundZonesOptions::sensor if that option is set, otherwise
+  /// the result of find_sensor(). The value of the option is not compared with the points. split_ground()
+  /// does not set this member.
   SensorPosition sensor{};
   /// Whether GroundZones found no plane and assumed level ground at sensor_height. Not set by split_ground().
   bool assumed_level = false;
@@ -204,7 +205,7 @@ struct OtherUp {
 /// `options`. In a camera's frame -y is up. If the camera looks down, (0, -1, -1) is up. Directions close to
 /// options.up are skipped. `found` is the share of ground points for options.up. If `found` is above 0, only
 /// the direction opposite to options.up is tried. For the other directions a wall could be taken for the
-/// ground, because it may be larger than the ground. A direction is accepted if all of these hold:
+/// ground, because a wall may be larger than the ground. A direction is accepted if all of these hold:
 /// - It has a ground plane at least 0.2 m below `sensor`.
 /// - At most a tenth as many points are below the plane as near it.
 /// - The share of points near the plane is at least 3 % and at least three times `found`.
