@@ -23,7 +23,7 @@ bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double
 /// Returns a box that contains all points center + q with |q[i]| <= half[i], in spite of rounding errors.
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half);
 
-/// Returns the largest magnitude of an entry of axes' axes - I, which is 0 if the columns of `axes` are
+/// Returns the largest magnitude of an entry of axes' * axes - I. It is 0 if the columns of `axes` are
 /// orthonormal. NaN if an entry of `axes` is not finite.
 double orthonormality_error(const Eigen::Matrix3d& axes);
 

@@ -59,8 +59,8 @@ class ConvexBody {
 
 /// Returns whether two volumes have a point in common. Each volume is the set that its class defines. The
 /// test is conservative. If the result is false, the volumes are proven to be separated along some direction.
-/// If the result is true, the distance of the volumes is at most about 1e-14 times the sum of their sizes and
-/// the distance of their centres.
+/// If the result is true, the distance of the volumes is at most about 1e-14 * (sum of their sizes + distance
+/// of their centres).
 ///
 /// False if either volume is empty. The order of the arguments does not matter. Two Aabb are compared
 /// exactly. Two Kdop of equal sets are compared exactly along their directions. A Hull whose planes leave it
