@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tests whether any point of one cell is linked to any point of another cell. Avoids the n*m tests that two
-// dense parallel sheets just farther apart than the tolerance would cost.
+// Tests whether any point of one cell is linked to any point of another cell. If two dense parallel sheets
+// are just farther apart than the tolerance, most of the n * m pairs of points are never tested.
 #pragma once
 
 #include <cstddef>

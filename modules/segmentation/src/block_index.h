@@ -18,7 +18,7 @@ namespace pcl_bv::detail {
 template <typename Key>
 class BlockIndex {
  public:
-  /// Removes all keys. Retains the capacity, clamped to a range that suits the number of points.
+  /// Removes all keys. Retains the number of slots, but clamps it to a range that suits the number of points.
   void reset(std::size_t points) {
     const std::size_t min_slots = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
     count_ = 0;

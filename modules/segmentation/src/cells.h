@@ -18,8 +18,8 @@
 
 namespace pcl_bv::detail {
 
-/// Returns the number of bits set. Uses twelve inline instructions, because std::popcount() is a call on
-/// x86-64 without POPCNT.
+/// Returns the number of bits set. Uses twelve inline instructions. On x86-64 without POPCNT, std::popcount()
+/// would be a function call.
 inline std::uint32_t count_bits(std::uint64_t bits) {
   bits -= bits >> 1 & 0x5555555555555555U;
   bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
@@ -31,7 +31,7 @@ inline std::uint32_t count_bits(std::uint64_t bits) {
 struct Block {
   std::uint64_t occupied = 0;    ///< Has bit i set if cell i of the block holds points.
   std::uint32_t first_cell = 0;  ///< Number of the first occupied cell of the block.
-  bool united = false;           ///< Links inside the block join all its points. Set only if nodes are cells.
+  bool united = false;           ///< Links in the block connect all its points. False if nodes are points.
 
   std::uint32_t cell(unsigned bit) const {
     return first_cell + count_bits(occupied & ((std::uint64_t{1} << bit) - 1));

@@ -38,9 +38,10 @@ void write_clusters(const std::vector<std::uint32_t>& roots, const std::vector<s
 /// Appends cluster number `cluster` of `from` to `to`.
 void append(const Clusters& from, std::size_t cluster, Clusters& to);
 
-/// Replaces the clusters of `to` by those of `from`, the largest first, and among equal sizes by smallest
-/// point index. Drops clusters with more than max_size points and adds their points to to.large_points. Sets
-/// `order` to the positions in `from`, sorted in this way, including dropped clusters.
+/// Replaces the clusters of `to` by those of `from`. The largest cluster is first; clusters of equal size are
+/// ordered by their smallest point index. Drops clusters with more than max_size points and adds their points
+/// to to.large_points. Sets `order` to the positions in `from`, sorted in this way, including dropped
+/// clusters.
 void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to);
 
 }  // namespace pcl_bv::detail

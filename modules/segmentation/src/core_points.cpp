@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In a dense cloud most cells have at least min_points points, so their points are core points without a
-// test. For other points, the points in nearby cells are tested until enough linked points are found.
+// If all points of a cell are linked and the cell has at least min_points points, all of them are core points
+// without a test. Most cells of a dense cloud are such cells. For points of other cells, the points in nearby
+// cells are tested until enough linked points are found.
 #include "core_points.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
 // Number of blocks that a thread takes at a time. Fewer blocks are not worth starting a thread.
 constexpr std::size_t blocks_per_part = 256;
 
-// The data that all steps use.
+// The arguments of find_core(), for all of its steps.
 template <typename T>
 struct CoreSearch {
   const Cells<T>& cells;

@@ -13,10 +13,11 @@
 
 namespace pcl_bv::detail {
 
-/// Buffers that calls reuse. They take about 10 bytes per point and 16 bytes per block.
+/// Buffers that calls reuse. They take about 10 bytes per point and 16 bytes per block. A position is a
+/// position in Cells::points.
 template <typename T>
 struct CoreScratch {
-  std::vector<std::uint8_t> core;         ///< Whether the point at each position of Cells::points is core.
+  std::vector<std::uint8_t> core;         ///< For each position, whether the point is core.
   std::vector<std::uint64_t> core_cells;  ///< For each block, bits of its cells with core points.
   std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of cells with non-core points.
   std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
@@ -43,8 +44,8 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
                const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch);
 
 /// Removes all points but the core points from the cells. Nodes are then core points if cells.by_point, else
-/// cells. Sets cells.node of every point to the node of its cluster. The node of noise is the number of other
-/// nodes. Returns the node of noise.
+/// cells. Sets cells.node of every point to the node of its cluster. All noise has one extra node, numbered
+/// after the others. Returns this node.
 template <typename T>
 std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch);
 

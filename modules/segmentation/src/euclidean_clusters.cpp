@@ -68,8 +68,8 @@ double inverse_cell_side(T r2) {
 }
 
 // Returns whether all points of a cell are certainly linked. The margin of inverse_cell_side() covers the
-// rounding of the cell boundaries if grid.near. It covers the rounding of d2 if r2 is far from underflow and
-// overflow.
+// rounding of the cell boundaries if grid.near. The margin covers the rounding of d2 if r2 is far from
+// underflow and overflow.
 template <typename T>
 bool cells_are_solid(const CellGrid& grid, T r2) {
   return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);

@@ -33,8 +33,8 @@ inline void check_ground(const char* who, double distance, double max_slope_degr
   require(height >= 0 && height <= largest, who, "sensor_height", height, "finite and at least 0");
 }
 
-/// Throws std::length_error if a point index exceeds 2^31 - 1. Only views without an index list are checked,
-/// because index lists have 32-bit indices.
+/// Throws std::length_error if a point index exceeds 2^31 - 1. Views with an index list need no check,
+/// because their indices are 32-bit integers.
 inline void check_indices(const PointView& points) {
   constexpr std::size_t max_index = std::numeric_limits<std::int32_t>::max();
   if (points.indices || points.empty() || points.first + points.count - 1 <= max_index) return;

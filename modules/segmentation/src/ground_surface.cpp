@@ -11,9 +11,9 @@ namespace pcl_bv::detail {
 namespace {
 
 // The lowest point of a cell is ground if it is at most `above` metres above the expected height and at most
-// `below` metres below it. Both limits grow by `above_growth` and `below_growth` for each metre since ground
-// was last seen, up to `above_max` and `below_max`. With these values curbs and clods are ground, but bonnets
-// and the seats of benches are not.
+// `below` metres below it. The limits grow by `above_growth` and `below_growth` for each metre of
+// WalkState::since_ground, up to `above_max` and `below_max`. With these values curbs and clods are ground,
+// but bonnets and the seats of benches are not.
 constexpr float above = 0.12F, above_growth = 0.024F, above_max = 0.225F;
 constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 
@@ -21,8 +21,7 @@ constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 // point may belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// A rise changes the slope by rise / (slope_memory + distance since ground was last seen). All three are in
-// metres.
+// A rise changes the slope by rise / (slope_memory + since_ground). All three are in metres.
 constexpr float slope_memory = 2.6F;
 
 // If the lowest point is below the expected height, the expected height falls by at most this much per metre.

@@ -34,7 +34,7 @@ class GroundSurface {
   struct WalkState {
     RingRow height;        // expected height of the ground
     RingRow slope;         // slope of the ground, outwards
-    RingRow last_ground;   // height where ground was last seen
+    RingRow last_ground;   // height of the last cell with ground
     RingRow since_ground;  // metres from the last cell with ground
     void mix_with_neighbours(float width);
   };

@@ -15,7 +15,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// The data that all steps use.
+// The arguments of join_cells(), for all of its steps.
 template <typename T>
 struct JoinContext {
   Cells<T>& cells;
@@ -173,8 +173,8 @@ void join_between(const JoinContext<T>& context, const TouchingAndNext& masks, c
   });
 }
 
-// Returns the key of the first block in a row of neighbours minus the key of the block between them, modulo
-// 2^bits of Key.
+// Returns the key of the first block in a row of neighbours minus the key of the block whose neighbours they
+// are. The difference is modulo 2^bits of Key.
 template <typename Key>
 Key key_offset(const CellGrid& grid, const BlockRow& row) {
   const auto along = [&grid](int blocks, std::size_t axis) {
@@ -225,8 +225,9 @@ void start_sets(const JoinContext<T>& context) {
   }
 }
 
-// Reserves memory in each chunk for any two cells, but at most for 4096 points each. Which cells a thread
-// compares depends on timing, but whether memory is allocated should not.
+// Reserves memory in each chunk for copies of any two cells, but at most for 4096 points of each cell. Which
+// cells a thread compares depends on timing. Without the reserve, the number of allocations would also depend
+// on timing.
 template <typename T>
 void reserve_links(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
   constexpr std::size_t max_reserved = 4096;

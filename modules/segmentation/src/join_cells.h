@@ -26,9 +26,9 @@ struct JoinScratch {
 ///
 /// The coordinates of a pair with d2 < r2 may differ by two cells along each axis, so the 124 cells around a
 /// cell have to be tested. If nodes are cells, the caller guarantees that all points of a cell are linked. If
-/// nodes are points, this is tested for each cell, and cells that fail the test are joined point by point.
-/// Rounding causes such cells if squares are near the smallest float, or for doubles 10^8 cells from the
-/// origin.
+/// nodes are points, join_cells() tests each cell for this property. Cells without it are joined point by
+/// point. Rounding causes such cells if squares are near the smallest float, or for doubles 10^8 cells from
+/// the origin.
 template <typename T, typename Key>
 void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const std::vector<Key>& keys,
                 Cells<T>& cells, UnionFind& sets, JoinScratch<T>& scratch);

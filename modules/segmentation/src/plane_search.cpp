@@ -200,8 +200,8 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
     return lowest[static_cast<std::size_t>(std::uint64_t{random()} * lowest.size() >> 32)];
   };
   std::optional<Plane> best;
-  double best_cost =
-      max_above * max_above * static_cast<double>(points.support.size());  // of a plane far below all points
+  // Start with the cost of a plane far below all points.
+  double best_cost = max_above * max_above * static_cast<double>(points.support.size());
   for (unsigned i = 0; i < options.iterations; ++i) {
     const Vector3d& a = pick();
     const Vector3d& b = pick();

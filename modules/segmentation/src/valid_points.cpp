@@ -40,7 +40,7 @@ bool is_valid(const double (&p)[3]) {
 template <typename T>
 void copy_valid_part(const PointView& points, ValidPoints<T>& valid, CopyPart<T>& part) {
   constexpr T largest = std::numeric_limits<T>::max();
-  const PointView view = points;  // a local copy, so that it is not read again after each store
+  const PointView view = points;  // a local copy; the compiler need not reload its fields after each store
   part.box = {{largest, largest, largest}, {-largest, -largest, -largest}};
   std::size_t to = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {

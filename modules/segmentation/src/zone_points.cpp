@@ -45,7 +45,7 @@ T load_coordinate(const std::byte* at) {
 template <typename Put>
 std::size_t load(const PointView& points, std::size_t begin, std::size_t end, std::int32_t* number,
                  const Put& put) {
-  const PointView view = points;  // a local copy, so that it is not read again after each store
+  const PointView view = points;  // a local copy; the compiler need not reload its fields after each store
   std::size_t n = 0;
   for (std::size_t i = begin; i < end; ++i) {
     number[n] = static_cast<std::int32_t>(view.index(i));

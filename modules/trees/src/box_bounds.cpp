@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // All sums in this file are in double, and their terms are below a few times 1 + |point|. So the errors of
-// the sums are below 2^-45 (1 + |point|). These errors are negligible against VolumeBoxes::margin(), which is
-// 2^-20 (1 + |point|). So no bound adds another margin for them.
+// the sums are below 2^-45 (1 + |point|). VolumeBoxes::margin() is 2^-20 (1 + |point|) and covers these
+// errors, so the bounds need no other margin.
 
 #include "box_bounds.h"
 
@@ -27,8 +27,8 @@ void clip(double start, double slope, double low, double high, double& enter, do
   exit = std::min(exit, std::max(a, b));
 }
 
-// Returns the t >= 0 at which the ray enters, or infinity if the interval has no t >= 0. The margin covers
-// the error that underflow in intersect() may cause.
+// Returns the t >= 0 at which the ray enters the box, or infinity if the interval from `enter` to `exit` is
+// empty. ray.underflow_margin covers the error that underflow in intersect() may cause.
 double entered(const FrameRay& ray, double enter, double exit) {
   return enter - ray.underflow_margin <= exit + ray.underflow_margin
              ? std::max(0.0, enter - ray.underflow_margin)

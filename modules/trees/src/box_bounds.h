@@ -23,7 +23,7 @@ struct FramePoint {
   bool is_in_range() const { return at.cwiseAbs().maxCoeff() < 0x1p500; }
 };
 
-/// A ray from.at + t u, in the frame of the boxes. The largest component of u is 1 to 2 in magnitude.
+/// A ray `from.at + t * u`, in the frame of the boxes. The largest component of u is 1 to 2 in magnitude.
 struct FrameRay {
   FramePoint from;
   Eigen::Vector3d u;

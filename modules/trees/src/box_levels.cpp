@@ -32,8 +32,9 @@ const BoxGroup& empty_group() {
   return group;
 }
 
-// Returns the squared radius of the smallest ball that covers a face of one of the boxes. The centre of the
-// ball is the middle of the face. Each face of a tight box has a point, so the ball certainly holds a point.
+// For each face of each box of the group, consider the ball around the middle of the face that covers the
+// face. Returns the squared radius of the smallest such ball. Each face of a tight box has a point, so this
+// ball holds at least one point.
 float min_side_radius(const BoxGroup& group) {
   float smallest = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {

@@ -28,10 +28,10 @@ struct PlainBox {
 PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k);
 
 /// Returns the relation of a box to the region of convex_region(). The relation is exact for
-/// RegionShape::box. For the other shapes it is also `crossing` if the box is within a margin of the surface.
-/// This margin covers rounding. It is 2^-38 (|low|_1 + |high|_1 + |region.center|_1 + region.radius) + 4
-/// region.surface_error + 2^-480. For RegionShape::slabs and RegionShape::rounded the margin is added to the
-/// distances along each axis.
+/// RegionShape::box. For the other shapes the relation is also `crossing` if the box is within a margin of
+/// the surface. This margin covers rounding. It is 2^-38 (|low|_1 + |high|_1 + |region.center|_1 +
+/// region.radius) + 4 region.surface_error + 2^-480. For RegionShape::slabs and RegionShape::rounded the
+/// margin is added to the distances along each axis.
 Relation relation(const ConvexRegion& region, const PlainBox& box);
 
 }  // namespace pcl_bv::detail

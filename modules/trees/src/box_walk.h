@@ -15,8 +15,8 @@
 
 namespace pcl_bv::detail {
 
-/// Traverses the boxes depth-first. pick(group) returns as bits which boxes of a group to enter. Calls
-/// visit(item) for the items entered. Stops and returns true when visit() returns true.
+/// Traverses the boxes depth-first. pick(group) returns a bit mask of the boxes of a group to enter. Calls
+/// visit(item) for each box that is entered at level 0. Stops and returns true when visit() returns true.
 template <typename Pick, typename Visit>
 bool walk(const BoxLevels& boxes, std::size_t level, std::size_t group, const Pick& pick,
           const Visit& visit) {

@@ -42,8 +42,9 @@ struct Prepared {
         bounding_sphere(sphere_around(extent_of(volume))) {}
 };
 
-// Returns whether a point may be within `margin` of a moved volume. The result is never wrongly false. This
-// test comes before is_within(), because it takes a fiftieth of the time of is_within().
+// Returns whether a point may be within `margin` of a moved volume. The result is true for every volume that
+// is within the margin, and may be true for other volumes. This test runs before is_within(), because it
+// takes only a fiftieth of the time.
 bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
                    double stretch, double margin) {
   if (volume.body.empty()) return false;

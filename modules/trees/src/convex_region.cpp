@@ -18,7 +18,7 @@ Direction direction(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Returns a margin along an axis. It is larger than the margin of contains() of any volume type.
+// Returns a margin along an axis. The margin is larger than that of contains() of any volume type.
 double margin(double coordinate) {
   return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
 }

@@ -9,8 +9,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Returns the polytope of a k-DOP as a hull. Planes move outward by a bound of the error that rounding their
-// normals causes.
+// Returns the polytope of a k-DOP as a hull. Each plane moves outward by `error_bound`, which covers the
+// rounding of its normal.
 Hull hull_of(const Kdop& kdop) {
   const Mesh mesh = kdop.mesh();
   if (mesh.vertices.empty()) return {};

@@ -141,8 +141,7 @@ void sort_run(const ItemRun<T>& run) {
 }
 
 // Returns the number of runs into which the items are cut for the threads. A thread gets at least 8192 items,
-// because one thread sorts fewer items before another thread has started. Four runs per thread balance the
-// load.
+// because sorting fewer items takes less time than starting a thread. Four runs per thread balance the load.
 std::size_t runs_for(std::size_t threads, std::size_t items) {
   threads = std::min(threads, items / 8192);
   return threads > 1 ? 4 * threads : 1;

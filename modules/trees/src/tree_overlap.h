@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 
 /// Returns whether any point of the tree is within `distance` of the exact transformed point that `point`
-/// approximates (see transform_point()). The result is never false if such a point exists, even if `distance`
-/// is too small by two roundings. The result may be true for a point that is farther away, by at most 2^-48
-/// of the distance plus twice the error of `point`. No square underflows unless both the error and the
-/// distance are below 2^-500.
+/// approximates (see transform_point()). The result is always true if such a point exists, even if `distance`
+/// is too small by two roundings. The result may also be true if all points are farther away than `distance`,
+/// by at most 2^-48 of the distance plus twice the error of `point`. No square underflows unless both the
+/// error and the distance are below 2^-500.
 bool any_within(const PointTree& points, const TransformedPoint& point, double distance);
 
 /// Implements within() of collision.h for two trees that have points.

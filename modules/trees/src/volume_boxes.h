@@ -22,13 +22,12 @@ namespace pcl_bv::detail {
 inline constexpr std::size_t kVolumesOfChunk = 64;
 
 /// Returns an upper bound of the distance from a volume in `box` at which contains() may still accept a
-/// point. Such a point is outside by less than 2^-45 of the distance and the sizes, in each of up to three
-/// perpendicular directions.
+/// point. Such a point is outside the volume in up to three perpendicular directions. In each of them, it is
+/// outside by less than 2^-45 of the sum of its distance from the centre and the size of the volume.
 double contains_margin(const Aabb& box);
 
 /// Returns a box around aabb() and all points that contains() may accept. For an empty volume `low` is above
-/// `high`. A side is infinite if the box is not known there, i.e. for a k-DOP or hull without a plane
-/// perpendicular to the axis.
+/// `high`. A side is infinite if a k-DOP or hull has no plane on this side that is perpendicular to the axis.
 PositionBounds extent_of(const AnyVolume& volume);
 
 /// A box of floats, in the frame of the boxes, to compare with a BoxGroup.
@@ -79,7 +78,7 @@ class VolumeBoxes {
   std::vector<std::uint32_t> without_box_;
 };
 
-/// Returns as bits which boxes of a group overlap the query box.
+/// Returns a bit mask of the boxes of a group that overlap the query box.
 inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
   // Uses values 0 and 1 instead of branches, so that the compiler vectorises the loop.
   alignas(64) std::uint32_t out[kTreeWidth];

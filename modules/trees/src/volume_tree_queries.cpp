@@ -49,7 +49,7 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
 }
 
 // Calls visit(index) for the volumes that a ray may hit and whose lower bound of t is at most limit(). t is
-// the parameter of origin + t direction. Some volumes are visited twice.
+// the parameter of `origin + t * direction`. Some volumes are visited twice.
 template <typename Nodes, typename Limit, typename Visit>
 void visit_ray_candidates(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                           const Limit& limit, const Visit& visit) {

@@ -27,8 +27,8 @@ class VolumeProbe {
     return relation(region_, plain_box(boxes, group, k));
   }
 
-  /// Returns as bits for which points of a packet contains() holds. Lanes without a point are NaN, so their
-  /// bits are 0.
+  /// Returns a bit mask of the points of a packet for which contains() holds. Lanes without a point are NaN,
+  /// so their bits are 0.
   std::uint32_t inside(UsableIsa isa, const PackedTree& tree, std::size_t packet) const {
     const PointView points = tree.view().slice(packet * kTreeWidth, kTreeWidth);
     std::array<std::uint8_t, kTreeWidth> states;
@@ -93,7 +93,7 @@ class VolumeWalk {
     return false;
   }
 
-  // Returns as bits which lanes of a packet are not NaN.
+  // Returns a bit mask of the lanes of a packet that are not NaN.
   std::uint32_t valid_points(std::size_t packet) const {
     const auto bits_of = [](const auto& points) {
       std::uint32_t bits = 0;

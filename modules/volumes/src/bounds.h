@@ -16,14 +16,14 @@ namespace pcl_bv::detail {
 double norm_up(const Eigen::Vector3d& v);
 double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// Returns whether |a - b| <= r - s by exact arithmetic, for r >= s >= 0. Also returns false if products
-/// underflow so far that the comparison cannot be decided.
+/// Returns whether |a - b| <= r - s, for r >= s >= 0. The comparison has no rounding error. If products
+/// underflow so far that it cannot be decided, the result is false.
 bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s);
 
-/// Returns a box that encloses all points center + q with |q[i]| <= half[i], by exact arithmetic.
+/// Returns a box that contains all points center + q with |q[i]| <= half[i], in spite of rounding errors.
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half);
 
-/// Returns the largest magnitude of an entry of axes' axes - I, which is 0 if the columns of `axes` are
+/// Returns the largest magnitude of an entry of axes' * axes - I. It is 0 if the columns of `axes` are
 /// orthonormal. NaN if an entry of `axes` is not finite.
 double orthonormality_error(const Eigen::Matrix3d& axes);
 

@@ -96,8 +96,8 @@ std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
   return vertex;
 }
 
-// Adds the loops (caps) that close the surface. A cap consists of the edges on the plane that have no
-// opposite edge, in reverse direction.
+// Adds the caps, i.e. the loops that close the surface. A cap consists of the edges on the plane that belong
+// to only one loop, in reverse direction.
 void ClippedCube::close() {
   std::vector<std::pair<std::int32_t, std::int32_t>> open;
   for (const Loop& loop : loops_) {

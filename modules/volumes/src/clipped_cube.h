@@ -25,7 +25,7 @@ class ClippedCube {
   /// bound of the offset. A normal of 0 cuts nothing.
   void cut(const Eigen::Vector3d& normal, double offset, double rounding = 0);
 
-  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Includes vertices cut off.
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< Includes removed vertices.
   const std::vector<Loop>& loops() const { return loops_; }                   ///< Empty if all was cut off.
   int rank() const { return rank_; }
 

@@ -91,10 +91,11 @@ Eigen::Vector3d residual(const Frame& frame, const Eigen::Vector3d& direction, c
   return rest;
 }
 
-// Corrects the weights by their residual, because rounding errors of the steps add up and normals of
-// neighbouring faces are nearly parallel. For bodies of 200 half-spaces and directions of length 1, the
-// residual is at most 3e-14 before and 2e-15 after the correction. If the normals are so nearly dependent that
-// a correction makes the residual larger, the weights stay as they are.
+// Corrects the weights by their residual. The weights need a correction, because rounding errors of the steps
+// add up, and nearly parallel normals of neighbouring faces amplify these errors. For bodies of 200
+// half-spaces and directions of length 1, the residual is at most 3e-14 before and 2e-15 after the
+// correction. If the normals are so nearly dependent that a correction makes the residual larger, the weights
+// stay as they are.
 void refine(const Frame& frame, const Eigen::Vector3d& direction, Eigen::Vector3d& weights) {
   Eigen::Vector3d rest = residual(frame, direction, weights);
   for (int round = 0; round < 2; ++round) {
@@ -126,8 +127,8 @@ DualBasis DualSimplex::start(const std::array<std::size_t, 3>& sides, std::size_
 }
 
 // Each step replaces one of the three half-spaces by the half-space that the corner violates most, such that
-// the weights stay >= 0. Up to rounding, no step makes the proven bound larger. The limit of 60 steps
-// prevents an infinite loop by cycling. If it is reached, the weights prove a valid but less tight bound.
+// the weights stay >= 0. Up to rounding, no step makes the proven bound larger. The limit of 60 steps ends
+// the search if the steps repeat a cycle. After 60 steps, the weights prove a valid but less tight bound.
 DualBasis DualSimplex::solve(DualBasis basis, double absolute, double relative,
                              const std::vector<std::size_t>* candidates) const {
   for (int step = 0;; ++step) {

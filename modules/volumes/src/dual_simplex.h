@@ -37,8 +37,8 @@ struct Normals {
   }
 };
 
-/// Returns the power of two that is at most the largest component of the normal in magnitude, limited to
-/// 2^-1000 and 2^1000.
+/// Returns the largest power of two that is at most m, but at least 2^-1000 and at most 2^1000. Here m is the
+/// magnitude of the largest component of the normal.
 double power_of_two(const Eigen::Vector3d& normal);
 
 /// Three half-spaces. Up to rounding, direction = sum of weights[k] * normals[sides[k]], with weights >= 0.

@@ -79,8 +79,8 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
     const Eigen::Vector3d q = origin - center_;
     const double largest = radii_.maxCoeff();
     const double error_bound = 0x1p-45 * (taxicab3(q) + largest) + kSmallestNormal;
-    // Smaller radii are raised to this limit. A lower limit would enlarge the other radii of a flat ellipsoid
-    // by more.
+    // Radii below this limit are raised to it. With a lower limit, the quotient of `error_bound` and the
+    // smallest radius would be larger. The other radii of a flat ellipsoid would then be inflated by more.
     const double thin = std::max(error_bound, std::sqrt(error_bound * largest));
     Eigen::Vector3d at, step;
     for (int i = 0; i < 3; ++i) {

@@ -12,8 +12,8 @@
 
 namespace pcl_bv::detail {
 
-/// A shape at its current pose. The shape consists of all points within `radius` of the points origin +
-/// rotation q, where q is any point of the shape's core.
+/// A shape at its current pose. The shape consists of all points within `radius` of the points `origin +
+/// rotation * q`, where q is any point of the shape's core.
 struct PosedShape {
   explicit PosedShape(const ConvexBody& body);
   PosedShape(const SupportShape& point, const Eigen::Vector3d& at);

@@ -37,17 +37,17 @@ Real inner(const Vector<Real>& a, const Vector<Real>& b) {
 
 /// A simplex of one to four points whose coordinates have a magnitude of about 1.
 ///
-/// A part of the simplex (vertex, edge or triangle) is a candidate if it contains the newest point and the
-/// foot of the perpendicular from the origin is inside the part. reduce() selects the candidate whose foot is
-/// nearest to the origin, so the order of the tests does not matter. An inaccurate foot on a thin part is
-/// farther away and is not selected (van den Bergen 1999 has this selection as a fallback). The foot on a
-/// triangle is computed along the normal of the triangle. The accuracy of the normal depends on the shape of
-/// the triangle, but not on its distance from the origin.
+/// A part of the simplex is a vertex, an edge or a triangle. A part is a candidate if it contains the newest
+/// point and also the foot of the perpendicular from the origin to the part. reduce() selects the candidate
+/// whose foot is nearest to the origin, so the order of the tests does not matter. An inaccurate foot on a
+/// thin part is farther away and is not selected (van den Bergen 1999 has this selection as a fallback). The
+/// foot on a triangle is computed along the normal of the triangle. The accuracy of the normal depends on the
+/// shape of the triangle, but not on its distance from the origin.
 template <typename Real>
 class Simplex {
  public:
-  /// Adds a point. The simplex must have fewer than four points, which is true after reduce() has returned a
-  /// foot.
+  /// Adds a point. The simplex must have fewer than four points. After reduce() has returned a foot, it
+  /// always has fewer.
   void add(const Vector<Real>& point) { points_[size_++] = point; }
 
   int size() const { return size_; }
@@ -60,9 +60,9 @@ class Simplex {
     return false;
   }
 
-  /// Reduces the simplex to the part that is nearest to the origin, and returns the foot on it. Returns
-  /// nothing if the simplex has four points that enclose the origin, and the determinants of any three of
-  /// them exceed `margin` in magnitude.
+  /// Reduces the simplex to the part that is nearest to the origin, and returns the foot on this part.
+  /// Returns nothing if the simplex has four points that enclose the origin, and the determinant of any three
+  /// of these points exceeds `margin` in magnitude.
   std::optional<Vector<Real>> reduce(double margin) {
     const int newest = size_ - 1;
     try_point(newest);

@@ -66,7 +66,7 @@ double HalfSpaces::radius_up() const {
 }
 
 // Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U of their terms,
-// where U = 2^-53. The error bound of 8 U also covers the rounding of its own addition.
+// where U = 2^-53. The error bound of 8 U also covers the rounding when the error bound is added.
 HalfSpaces::DualBound HalfSpaces::prove(const DualBasis& basis, const Eigen::Vector3d& direction,
                                         std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
@@ -90,8 +90,8 @@ double HalfSpaces::bound(const DualBasis& basis, const Eigen::Vector3d& directio
   return dual_bound + rest + 0x1p-51 * (std::abs(dual_bound) + rest);
 }
 
-// First uses only the half-spaces at the vertex and the box, which suffice unless rounding hides a short
-// edge. Otherwise uses all.
+// First uses only the half-spaces at the vertex and those of the box. They usually suffice. If rounding hides
+// a short edge at the vertex, uses all half-spaces.
 double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
   const double extent = std::max({max_abs_[0], max_abs_[1], max_abs_[2]});
   std::vector<double> slack(size());

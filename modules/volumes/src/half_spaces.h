@@ -25,14 +25,14 @@ class HalfSpaces {
   /// that overflows, which never makes the body smaller.
   void add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin);
 
-  /// Adds a box that encloses the body by exact arithmetic. Must be called once, after the last add().
-  /// `guess` must exceed half the width of the body. Returns false if no box can be proven, because the body
-  /// may be unbounded.
+  /// Adds a box that contains every point of the body, in spite of rounding errors. Must be called once,
+  /// after the last add(). `guess` must exceed half the width of the body. Returns false if no box can be
+  /// proven, because the body may be unbounded.
   bool add_box(double guess);
 
-  /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Requires that add_box() has
-  /// returned true. `vertex` should be a point of the body whose projection on `direction` is about the
-  /// largest; any other point makes the function slower and the bound less tight, but not wrong.
+  /// Returns a proven upper bound of direction . q over the body. Requires that add_box() has returned true.
+  /// `vertex` should be a point of the body whose projection on `direction` is about the largest. With any
+  /// other point, the bound is still valid, but less tight, and the function is slower.
   double support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
 
   /// Returns an upper bound of |q| over the box.

@@ -14,9 +14,9 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Returns an upper bound of each |p_k| over the intersection of the basis slabs. An entry of the inverse that
-// nearly cancels may have no correct digit, but its error is below 1e-9 / |direction|, since the determinant
-// of the normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
+// Returns an upper bound of each |p_k| over the intersection of the basis slabs. An entry of the inverse
+// whose terms nearly cancel may have no correct digit. Its error is still below 1e-9 / |direction|, since the
+// determinant of the normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
 Eigen::Vector3d coordinate_bound(const Kdop& kdop, const Eigen::Matrix3d& basis_inverse) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {

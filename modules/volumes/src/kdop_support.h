@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The slabs of a k-DOP relative to a nearby origin, and upper bounds of its support value along any
-// direction, with a proof in exact arithmetic.
+// The slabs of a k-DOP relative to a nearby origin, and proven upper bounds of the k-DOP's support value
+// along any direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,8 +32,8 @@ class LocalSlabs {
   /// Returns a corner that is farthest along the direction, relative to the origin. Computed in plain double.
   Eigen::Vector3d corner(const Eigen::Vector3d& direction) const { return farthest(direction).corner; }
 
-  /// Returns an upper bound, by exact arithmetic, of direction . (matrix * p) over all points p of the k-DOP.
-  /// The bound is tight to a few units in the last place of the coordinates.
+  /// Returns a proven upper bound of direction . (matrix * p) over all points p of the k-DOP. The bound is
+  /// tight to a few units in the last place of the coordinates.
   double support_up(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& direction) const;
 
  private:
@@ -44,8 +44,8 @@ class LocalSlabs {
   Eigen::Matrix3d basis_inverse_;
   Eigen::Vector3d max_abs_;      // upper bound of |p_k|, by component
   SlabVector scales_;            // powers of two, by slab
-  Normals normals_;              // of the max sides, then of the min sides, multiplied by `scales_`
-  std::vector<double> offsets_;  // likewise, relative to the origin
+  Normals normals_;              // of max sides, then of min sides, times `scales_`
+  std::vector<double> offsets_;  // in the same order and scale, relative to the origin
 };
 
 }  // namespace pcl_bv::detail

@@ -42,8 +42,8 @@ struct MappedSlab {
   double width() const { return (max - min) / normal.cwiseAbs().maxCoeff(); }
 };
 
-// Returns the slabs that clip the unit cube, in the coordinates of the cube. These are all slabs except two
-// kinds: the basis slabs, which define the cube, and those in whose direction the parallelepiped has no extent.
+// Returns the slabs that clip the unit cube, in the coordinates of the cube. Two kinds of slabs are left out:
+// the basis slabs, which define the cube, and slabs in whose direction the parallelepiped has no extent.
 std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map) {
   std::vector<MappedSlab> result;
   for (std::size_t i = 0; i < slabs.set().size(); ++i) {
@@ -76,7 +76,7 @@ ClippedCube clipped(const LocalSlabs& slabs, const CubeMap& map) {
   return cube;
 }
 
-// Copies the faces and the vertices that they use, renumbered in the order of their first use.
+// Copies the faces and their vertices. The vertices are renumbered in the order of their first use by a face.
 void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, std::vector<Face>& faces) {
   std::vector<std::int32_t> number(cube.vertices().size(), -1);
   for (const Face& loop : cube.loops()) {

@@ -49,8 +49,8 @@ class RayClip {
   }
 
   /// Returns the remaining interval, or nothing if it contains no t >= 0. Both ends are moved outward by
-  /// 2^-51 of their magnitude, which covers two roundings and the rounding of the move, plus the smallest
-  /// normal number, which covers underflow.
+  /// 2^-51 of their magnitude plus the smallest normal number. The first term covers two roundings and the
+  /// rounding of the move. The second term covers underflow.
   std::optional<RayInterval> interval() const {
     using Limits = std::numeric_limits<double>;
     const double finite_enter = std::min(enter_, Limits::max());

@@ -3,8 +3,8 @@
 
 // The shapes of all kinds of volumes except k-DOPs and hulls. With U = 2^-53, three products and two sums are
 // off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum,
-// which also covers the rounding when an error bound is added, plus the smallest normal number, which covers
-// underflow.
+// plus the smallest normal number. The factor of 8 U also covers the rounding when an error bound is added.
+// The smallest normal number covers underflow.
 #include "shape.h"
 
 #include <algorithm>

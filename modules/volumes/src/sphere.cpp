@@ -43,8 +43,8 @@ Sphere around(const Sphere& big, const Sphere& small) {
 
 // Returns an upper limit for the computed squared distance d2 of two points a and b. If the exact distance |a
 // - b| is at most r, d2 is at most this limit, in spite of rounding. In units of 2^-53, the relative errors
-// are 1 for each component of q = a - b, at most 5 for d2, and at most 3 for the limit (5 if r is itself a
-// rounded sum). The factor of 16 units covers all of them.
+//   are 1 for each component of q = a - b, at most 5 for d2, and at most 3 for the limit. If r is itself a
+//   rounded sum, the error of the limit is at most 5. The margin of 16 units covers all of these errors.
 double square_within_rounding(double r) {
   return r * r * (1 + 0x1p-49) + kSmallestNormal;
 }

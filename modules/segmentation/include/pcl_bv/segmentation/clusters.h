@@ -71,10 +71,10 @@ struct Clusters : IndexLists {
 /// Finds Euclidean clusters. These are the connected components of the graph that links two points if their
 /// distance is below the tolerance.
 ///
-/// The test of a pair is that of PCL (Rusu 2009) to the last bit: d2 < r2. Here d2 = (dx*dx + dy*dy) + dz*dz
-/// and r2 = tolerance * tolerance, rounded to the scalar type of the points after each operation. Points at
-/// exactly the tolerance are not linked. If the square of the tolerance is 0 in float, not even duplicates
-/// are linked.
+/// The test of a pair of points is d2 < r2, which gives exactly the same result as PCL (Rusu 2009). Here d2 =
+/// (dx*dx + dy*dy) + dz*dz and r2 = tolerance * tolerance, rounded to the scalar type of the points after
+/// each operation. Points at exactly the tolerance are not linked. If the square of the tolerance is 0 in
+/// float, not even duplicates are linked.
 ///
 /// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996). Linked core points are in one
 /// cluster. A border point is linked to core points but is not a core point. It belongs to the core point
@@ -88,9 +88,9 @@ struct Clusters : IndexLists {
 /// dense sheets are just farther apart than the tolerance. With min_points > 1 there are at most O(n *
 /// min_points) more distance tests.
 ///
-/// With tolerance_per_metre > 0 there is one pass for each tolerance that a point may have. The pass links
-/// the points with at least this tolerance. For example, a tolerance of 0.3 m and a tolerance_per_metre of
-/// 0.01 take nine passes for points within 110 m.
+/// With tolerance_per_metre > 0 there is one pass for each tolerance that a point may have. Each pass links
+/// points whose tolerance is at least that of the pass. For example, a tolerance of 0.3 m and a
+/// tolerance_per_metre of 0.01 take nine passes for points within 110 m.
 class EuclideanClusterer {
  public:
   /// Allocates nothing until the first extract().

@@ -62,8 +62,9 @@ struct GroundSplit {
   /// is normal.p - offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;  ///< Metres, in the frame of the cloud.
-  /// Centre of the rings of GroundZones. It is GroundZonesOptions::sensor, which is not checked, or the
-  /// result of find_sensor(). split_ground() does not set `sensor`.
+  /// Centre of the rings of GroundZones. It is GroundZonesOptions::sensor if that option is set, otherwise
+  /// the result of find_sensor(). The value of the option is not compared with the points. split_ground()
+  /// does not set this member.
   SensorPosition sensor{};
   /// Whether GroundZones found no plane and assumed level ground at sensor_height. Not set by split_ground().
   bool assumed_level = false;
@@ -81,11 +82,11 @@ struct GroundSplit {
 ///
 /// A plane is allowed if it satisfies max_slope_degrees and sensor_height. The result is the allowed plane
 /// with the smallest cost. Points near a plane cost little. A point clearly below a plane costs as much as
-/// four points clearly above it. So a floor is preferred to a table, and a road to a roof, if the lower
-/// surface has more than a quarter of the points of the upper one. The search weights points by the area that
-/// they cover seen from above, so that dense rings near the sensor do not outweigh the distant road. Least
-/// squares over the sampled points near the plane then refine the plane. Three points are enough if their
-/// plane is allowed.
+/// four points clearly above the plane. So a floor is preferred to a table, and a road to a roof, if the
+/// lower surface has more than a quarter of the points of the upper one. The search weights points by the
+/// area that they cover seen from above, so that dense rings near the sensor do not outweigh the distant
+/// road. Least squares over the sampled points near the plane then refine the plane. Three points are enough
+/// if their plane is allowed.
 ///
 /// Points that are not valid (is_valid()) are in neither list. No plane is found in these cases:
 /// - There are fewer than three valid points, or all points are on a line.
@@ -126,11 +127,12 @@ struct GroundZonesOptions {
 /// - Find the plane around the sensor as split_ground() does, among the points within 12.5 m. If none is
 ///   found, search within 25 m, then among all points.
 /// - Traverse all sectors outwards, ring by ring. The lowest point of a cell is ground if its height is near
-///   the height expected in the sector. The tolerance grows with the distance since ground was last seen in
+///   the height expected in the sector. The tolerance grows with the distance from the last ground cell of
 ///   this sector. If ground was seen more recently in the neighbouring sectors, their expected heights and
 ///   slopes are mixed into those of the sector.
 /// - Interpolate the surface linearly between two cells of a sector with visible ground.
-/// - Lower the surface to the highest surface below it that is nowhere steeper than max_slope_degrees.
+/// - Lower the surface where it is too steep. The result is the highest surface that is nowhere above the
+///   interpolated surface and nowhere steeper than max_slope_degrees.
 ///
 /// So the ground may rise and fall, reflections below the ground do not lower it, and roofs and bonnets are
 /// not ground.
@@ -203,7 +205,7 @@ struct OtherUp {
 /// `options`. In a camera's frame -y is up. If the camera looks down, (0, -1, -1) is up. Directions close to
 /// options.up are skipped. `found` is the share of ground points for options.up. If `found` is above 0, only
 /// the direction opposite to options.up is tried. For the other directions a wall could be taken for the
-/// ground, because it may be larger than the ground. A direction is accepted if all of these hold:
+/// ground, because a wall may be larger than the ground. A direction is accepted if all of these hold:
 /// - It has a ground plane at least 0.2 m below `sensor`.
 /// - At most a tenth as many points are below the plane as near it.
 /// - The share of points near the plane is at least 3 % and at least three times `found`.

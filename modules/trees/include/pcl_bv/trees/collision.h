@@ -38,19 +38,19 @@ class MovingVolumes {
 
 /// Returns whether any point of one cloud is within `margin` of a point of the other cloud.
 ///
-/// `pose` transforms `others` to the frame of `points`. The exact image of a point is its image by the stored
-/// matrix without rounding. The result is never false if a point of `points` is within the margin of the
-/// exact image of a point of `others`. The result may be true for points that are farther apart than the
-/// margin by about 1e-15 of the coordinates. The result is false if either tree has no points. All functions
-/// in this header throw std::invalid_argument unless the margin is from 0 to 1e100 and the pose is finite.
+/// `pose` transforms `others` to the frame of `points`. The result is always true if a point of `points` is
+/// within the margin of the exact value of `pose * p` for a point p of `others`. The result may also be true
+/// for points that are farther apart than the margin by about 1e-15 of the coordinates. The result is false
+/// if either tree has no points. All functions in this header throw std::invalid_argument unless the margin
+/// is from 0 to 1e100 and the pose is finite.
 bool within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
 /// Returns whether any point is within `margin` of a volume that `pose` has moved.
 ///
 /// The distance of a point is distance() of the point from the moved ConvexBody. distance() never exceeds the
-/// exact distance, so the result is never false if a point is within the margin. The result may be true for a
-/// point that is farther by the rounding error that pair_queries.h states.
+/// exact distance, so the result is always true if a point is within the margin. The result may also be true
+/// for a point that is farther by the rounding error that pair_queries.h states.
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin = 0);
 
@@ -59,8 +59,8 @@ void list_within(const PointTree& points, const MovingVolumes& volumes, const Ei
                  double margin, std::vector<std::int32_t>& indices);
 
 /// Returns whether a volume of `volumes` is within `margin` of a volume of `others` that `pose` has moved.
-/// The result for a pair is that of within() of the two ConvexBodies. It is never false for two volumes
-/// within the margin.
+/// The result for two volumes is that of within() of their ConvexBodies, so it is always true if the volumes
+/// are within the margin.
 bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 

@@ -30,7 +30,8 @@ struct PackedTree;
 const PackedTree& packed_tree(const PointTree& tree);
 }  // namespace detail
 
-/// The first point that a moving sphere touches. The centre of the sphere is then at origin + t direction.
+/// The first point that a moving sphere touches. The centre of the sphere is then at `origin + t *
+/// direction`.
 struct PointHit {
   /// Index of the point in the cloud.
   std::int32_t index;
@@ -53,10 +54,10 @@ struct PointDistance {
 /// for the next assign().
 ///
 /// Points are identified by their index in the cloud (PointView::index()). Coordinates and distances are in
-/// the frame and unit of the points. Every query gives the result of testing all points one by one with the
-/// double expression that the documentation of the query states. Boxes only skip points that cannot change
-/// the result. So the result is the same for every Execution, and no point is missed. Queries of a tree
-/// without points find nothing.
+/// the frame and unit of the points. Every query gives the same result as testing all points one by one, in
+/// double, as documented for the query. The boxes only serve to skip points that cannot change the result. So
+/// the result is the same for every Execution, and no point is missed. Queries of a tree without points find
+/// nothing.
 ///
 /// Const member functions may be called from several threads at the same time.
 class PointTree {
@@ -75,7 +76,7 @@ class PointTree {
   PointTree& operator=(PointTree&&) noexcept;
 
   /// Replaces the points by those of a view, like the constructor. Allocates only if there are more points
-  /// than in any earlier call. If it throws std::invalid_argument, as the constructor does, the tree is
+  /// than in any earlier call. Throws std::invalid_argument as the constructor does; the tree is then
   /// unchanged. If memory runs out, the tree is empty.
   void assign(const PointView& points, const Execution& execution = {});
 
@@ -84,8 +85,8 @@ class PointTree {
   ///
   /// Queries give the same results as on a new tree. A new tree is faster to query if the points have moved
   /// far. A point that is not valid in `cloud` is not found by any query until a later refit() gives it valid
-  /// coordinates. Throws std::invalid_argument, and changes nothing, if `cloud` lacks one of the indices, has
-  /// an index list or has another scalar type.
+  /// coordinates. Throws std::invalid_argument, and changes nothing, if `cloud` has no point for one of the
+  /// indices, has an index list or has another scalar type than the tree.
   void refit(const PointView& cloud, const Execution& execution = {});
 
   std::size_t size() const;     ///< Number of points in the tree.
@@ -134,8 +135,8 @@ class PointTree {
   std::optional<PointDistance> nearest_to(
       const AnyVolume& volume, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Returns the first point that a moving sphere touches. The centre of the sphere moves along origin + t
-  /// direction, t >= 0.
+  /// Returns the first point that a moving sphere touches. The centre of the sphere moves along `origin + t *
+  /// direction`, t >= 0.
   ///
   /// The point has the smallest `enter` of Sphere(point, radius).intersect(origin, direction), and among
   /// equals the smallest index. For a ray, use a small radius. If the direction is zero, returns the point
@@ -192,11 +193,11 @@ void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
 /// the tree's frame.
 ///
 /// The tree must outlive this object. A query volume is moved back to the tree's frame and inflated by a
-/// bound of the error of the inverse matrix. So a point is found if its image, computed exactly from the
-/// stored matrix, is inside the volume. A point outside is found only if it is nearer to the volume than
-/// about 1e-15 of the coordinates. Query points are rounded when they are moved back, and distances are
-/// computed in the tree's frame. Query points and distances are accurate to about 1e-15 of the coordinates.
-/// These errors are larger if the axes of the pose are orthonormal only to 1e-6.
+/// bound of the error of the inverse matrix. So a point p is found if the exact value of `pose * p` is inside
+/// the volume. A point outside the volume is found only if its distance from the volume is below about 1e-15
+/// of the coordinates. Query points are rounded when they are moved back, and distances are computed in the
+/// tree's frame. Query points and distances are accurate to about 1e-15 of the coordinates. These errors are
+/// larger if the axes of the pose are orthonormal only to 1e-6.
 class PosedTree {
  public:
   /// Places `tree` at `pose`, the transform from the tree's frame to the frame of the queries. Throws

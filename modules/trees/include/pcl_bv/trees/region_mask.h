@@ -54,8 +54,8 @@ class RegionMask {
   ///
   /// The result is the same for every Execution. Exceptions of a PointSource pass through. With at most
   /// kFewRegions regions, each point is tested against all regions, and only `inside` is allocated. Regions
-  /// whose boxes are far away cost little. With more regions, the regions near each run of consecutive points
-  /// are looked up in a tree if this is cheaper.
+  /// whose boxes are far from the points cost little. With more regions, the regions near each run of
+  /// consecutive points are looked up in a tree if this is cheaper.
   void mark(const PointView& points, std::vector<std::uint8_t>& inside,
             const Execution& execution = {}) const;
 

@@ -32,7 +32,7 @@ struct VolumeDistance {
   double distance;
 };
 
-/// A ray, i.e. all points origin + t direction with t >= 0.
+/// A ray, i.e. all points `origin + t * direction` with t >= 0.
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;  ///< Has any length; t is in multiples of the length.
@@ -41,14 +41,14 @@ struct Ray {
 /// A search tree over volumes of any types.
 ///
 /// Volumes are identified by their index in the list that the tree was built from. Frame and unit are those
-/// of the volumes. Every query gives the same result as calling the volumes' own member functions one after
-/// another; bounds only skip volumes that cannot change the result. Output lists are replaced and are in
-/// ascending order of index. Empty volumes are never found.
+/// of the volumes. Every query gives the same result as calling the member functions of all volumes, one
+/// volume after another. The boxes only serve to skip volumes that cannot change the result. Output lists are
+/// replaced and are in ascending order of index. Empty volumes are never found.
 ///
 /// The volumes are in the order of a balanced k-d tree of their centres. Each 16 volumes have a common box,
-/// each 16 boxes have a common box, and so on. Some volumes have no known box, namely a Kdop or Hull that
-/// lacks, for one of the six sides, a plane perpendicular to the axis. These volumes are tested in every
-/// query. Ellipsoids with a radius more than 2^20 times another are tested for every ray.
+/// each 16 boxes have a common box, and so on. A Kdop or Hull has a box only if it has a plane perpendicular
+/// to the axis for each of the six sides of the box. A Kdop or Hull without a box is tested in every query.
+/// Ellipsoids with a radius more than 2^20 times another are tested for every ray.
 ///
 /// Const member functions may be called from several threads at the same time. Copies are independent.
 class VolumeTree {
@@ -76,9 +76,9 @@ class VolumeTree {
   /// Lists the volumes for which contains() holds.
   void all_containing(const Eigen::Vector3d& point, std::vector<std::int32_t>& indices) const;
 
-  /// Returns the volume that the ray origin + t direction, t >= 0, enters first. Among the volumes for which
-  /// intersect() gives an interval, this is the one with the smallest `enter`, and among equals the one with
-  /// the smallest index.
+  /// Returns the volume that the ray `origin + t * direction`, t >= 0, enters first. Among the volumes for
+  /// which intersect() gives an interval, this is the one with the smallest `enter`, and among equals the one
+  /// with the smallest index.
   std::optional<VolumeHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Lists all volumes that the ray hits.

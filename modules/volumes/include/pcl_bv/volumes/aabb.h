@@ -23,8 +23,8 @@ struct FloatAabb {
 /// each coordinate.
 ///
 /// The empty box has min = +infinity and max = -infinity; merging the empty box into another box changes
-/// nothing. A flat box (min equal to max along one, two or all three axes) is a valid volume. Coordinates
-/// beyond 1e100 may overflow in functions that multiply them, such as volume().
+/// nothing. A flat box, whose min equals its max along one, two or all three axes, is a valid volume.
+/// Coordinates beyond 1e100 may overflow in functions that multiply them, such as volume().
 class Aabb {
  public:
   /// Makes the empty box.
@@ -60,7 +60,7 @@ class Aabb {
   /// coordinate, otherwise infinity if the box is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. The error
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the box; see RayInterval. The error
   /// of `enter` and `exit` is at most 2^-50 of their magnitude plus 2^-1021.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
@@ -78,9 +78,9 @@ class Aabb {
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the axis-aligned box of the transformed box. The result contains every point of this box,
-  /// transformed by the stored matrix without rounding. Each max is rounded up to the next double, and each
-  /// min is rounded down. If a product is below 1e-289, the box may be larger by about 1e-307.
+  /// Returns the axis-aligned box of the transformed box. The result contains the exact value of `transform *
+  /// p` for every point p of this box. Each max is rounded up to the next double, and each min is rounded
+  /// down. If a product is below 1e-289, the box may be larger by about 1e-307.
   Aabb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the box to contain the point. A point with a coordinate that is not finite is ignored.

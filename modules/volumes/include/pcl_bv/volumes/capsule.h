@@ -51,21 +51,22 @@ class Capsule {
   /// coordinate, otherwise infinity if the capsule is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the capsule; see RayInterval. The
-  /// result is computed by Sphere::intersect() and Cylinder::intersect(), with a radius that is larger by
-  /// about 2^-46 (|b - a|_1 + radius). The error bounds of these functions apply.
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the capsule; see RayInterval. The
+  /// result is computed by Sphere::intersect() and Cylinder::intersect(), whose error bounds apply. Both use
+  /// a radius that is larger than the capsule's by about 2^-46 (|b - a|_1 + radius).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns the smallest box of doubles that encloses the capsule by exact arithmetic.
+  /// Returns the smallest box with double coordinates that contains every point of the capsule, in spite of
+  /// rounding errors.
   Aabb aabb() const;
 
   /// Returns the mesh of two half spheres and the tube between them. The mesh has 24 sides, and its vertices
   /// are on the surface. Returns an empty mesh for an empty capsule.
   Mesh mesh() const;
 
-  /// Returns the transformed capsule. The result contains every point of this capsule, transformed by the
-  /// stored matrix without rounding. The radius grows by the rounding error of the ends and by the scaling
-  /// error of the stored matrix.
+  /// Returns the transformed capsule. The result contains the exact value of `transform * p` for every point
+  /// p of this capsule. The radius grows by the rounding error of the ends and by the error of the matrix,
+  /// which is rarely exactly orthonormal.
   Capsule transformed(const Eigen::Isometry3d& transform) const;
 
  private:

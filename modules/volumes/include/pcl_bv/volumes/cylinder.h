@@ -51,7 +51,7 @@ class Cylinder {
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty.
-  double surface_area() const;  ///< Surface area in squared units, with both ends; 0 if empty.
+  double surface_area() const;  ///< Surface area in squared units, ends included; 0 if empty.
 
   /// Returns a point that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
@@ -60,22 +60,22 @@ class Cylinder {
   /// coordinate, otherwise infinity if the cylinder is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the cylinder; see RayInterval. Both
-  /// ends of the interval lie in a cylinder whose radius and half height are larger by at most
-  /// 2^-43 (|origin - center|_1 + radius + half_height).
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the cylinder; see RayInterval. Both
+  /// ends of the interval lie in a cylinder whose radius and half height are larger by at most 2^-43 (|origin
+  /// - center|_1 + radius + half_height).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns a box that encloses the cylinder by exact arithmetic. The box exceeds the smallest such box by
-  /// about 2^-46 of the size.
+  /// Returns a box that contains every point of the cylinder, in spite of rounding errors. The box exceeds
+  /// the smallest such box by about 2^-46 of the size of the cylinder.
   Aabb aabb() const;
 
   /// Returns the mesh of a prism with 48 sides and two end polygons. The edges between the sides lie on the
   /// surface. Returns an empty mesh for an empty cylinder.
   Mesh mesh() const;
 
-  /// Returns the transformed cylinder. The result contains every point of this cylinder, transformed by the
-  /// stored matrix without rounding. Radius and half height grow by the rounding error of centre and axis and
-  /// by the scaling error of the stored matrix.
+  /// Returns the transformed cylinder. The result contains the exact value of `transform * p` for every point
+  /// p of this cylinder. Radius and half height grow by the rounding errors of centre and axis, and by the
+  /// error of the matrix, which is rarely exactly orthonormal.
   Cylinder transformed(const Eigen::Isometry3d& transform) const;
 
   /// Returns a float copy of centre, axis and radius. The infinite cylinder of this axis and radius encloses

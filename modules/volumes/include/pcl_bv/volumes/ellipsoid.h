@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// (axis i . (p - center) / radius i)^2 is at most 1. For a radius of 0, the term is replaced by the
 /// condition axis i . (p - center) = 0. The axes are the columns of a matrix that is orthonormal to 1e-12.
 ///
-/// The empty ellipsoid has radii -1 and centre NaN. A flat ellipsoid (some or all radii 0) is a valid volume.
-/// Coordinates beyond 1e100 are not supported.
+/// The empty ellipsoid has radii -1 and centre NaN. A flat ellipsoid, with some or all radii 0, is a valid
+/// volume. Coordinates beyond 1e100 are not supported.
 class Ellipsoid {
  public:
   /// Makes the empty ellipsoid.
@@ -39,8 +39,8 @@ class Ellipsoid {
   /// in spite of rounding errors. False for an empty ellipsoid and for a point with a coordinate that is not
   /// finite.
   ///
-  /// Computed in double: each axis i . (p - center) is moved towards 0 by 2^-49 |p - center|_1 + 2^-1022, and
-  /// the sum is compared with 1 + 2^-48.
+  /// Computed in double: each product axis i . (p - center) is moved towards 0 by 2^-49 |p - center|_1 +
+  /// 2^-1022. The sum in the definition above is then compared with 1 + 2^-48.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;  ///< Volume in cubed units; 0 if empty or flat.
@@ -58,22 +58,23 @@ class Ellipsoid {
   /// Accurate to about 1e-14 of the distance or the size, whichever is larger (Eberly 2013, with bisection).
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the ellipsoid; see RayInterval. Let R
-  /// be the largest radius, r the smallest radius and s = |origin - center|_1 + R. Both ends of the interval
-  /// lie in an ellipsoid whose radii are larger by the minimum of 2^-44 * s * R / r and 2^-21 * sqrt(s * R).
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the ellipsoid; see RayInterval. Let
+  /// R be the largest radius, r the smallest radius and s = |origin - center|_1 + R. Both ends of the
+  /// interval lie in an ellipsoid whose radii are larger by the minimum of 2^-44 * s * R / r and 2^-21 *
+  /// sqrt(s * R).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns a box that encloses the ellipsoid by exact arithmetic. The box exceeds the smallest such box by
-  /// at most about 1e-12 of the size.
+  /// Returns a box that contains every point of the ellipsoid, in spite of rounding errors. The box exceeds
+  /// the smallest such box by at most about 1e-12 of the size of the ellipsoid.
   Aabb aabb() const;
 
   /// Returns a mesh of 13 rings of 24 vertices each. The vertices are on the surface. Returns an empty mesh
   /// for an empty ellipsoid.
   Mesh mesh() const;
 
-  /// Returns the transformed ellipsoid. The result contains every point of this ellipsoid, transformed by the
-  /// stored matrix without rounding. Radii below 2^-30 of the largest radius are first raised to that value.
-  /// Then all radii grow by one factor that covers the rounding error of centre and axes.
+  /// Returns the transformed ellipsoid. The result contains the exact value of `transform * p` for every
+  /// point p of this ellipsoid. Radii below 2^-30 of the largest radius are first raised to that value. Then
+  /// all radii grow by one factor that covers the rounding error of centre and axes.
   Ellipsoid transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -19,8 +19,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// the tangents of half the fields of view. For a pinhole camera, horizontal_tan is (columns / 2) / fx.
 ///
 /// Vertex i is at `far` if bit 2 of i is set, at positive x if bit 0 is set and at positive y if bit 1 is
-/// set. The planes are near, far, positive x, negative x, positive y, negative y. Vertices are rounded; each
-/// plane is moved outward until it encloses all vertices by exact arithmetic.
+/// set. The planes are near, far, positive x, negative x, positive y, negative y. Vertices are rounded. Each
+/// plane is then moved outward, so that all rounded vertices lie exactly on its inner side or on it.
 ///
 /// If `near` is 0, the frustum is a complete pyramid, with four vertices at the camera. Throws
 /// std::invalid_argument unless 0 <= near < far <= 1e100 and both tangents are above 0 and at most 1e6. Also

@@ -25,9 +25,9 @@ struct HullPlane {
 /// each plane.
 ///
 /// A hull has two descriptions, which agree up to the rounding of doubles. The planes define the enclosed
-/// set; contains(), intersect(), aabb() and the proof of a fit use the planes. A fitted hull has the planes
-/// of its faces and of its axis-aligned box. The vertices and the triangles between them define the surface;
-/// volume(), surface_area(), center(), support() and distance() use the vertices and triangles.
+/// set. contains(), intersect(), aabb() and the proof of a fit use the planes. The vertices and triangles
+/// define the surface. volume(), surface_area(), center(), support() and distance() use the vertices and
+/// triangles. A fitted hull has the planes of its faces and the six planes of its axis-aligned box.
 ///
 /// A flat hull has a rank below 3 and no triangles. The vertices are the corners of a polygon in order (rank
 /// 2), the ends of a segment (rank 1) or a point (rank 0). For each direction in which the hull is flat, two
@@ -79,24 +79,23 @@ class Hull {
   /// the hull is empty or the point has an infinite coordinate. O(triangles).
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the hull; see RayInterval. The
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the hull; see RayInterval. The
   /// projections of origin and direction are widened by twice the error bound of contains(). O(planes).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Returns a box that encloses the hull by exact arithmetic. If the hull has a plane that faces the same
-  /// way as a side of the box, the side lies in that plane. Other sides are at a proven upper bound of the
-  /// hull's support value. A fitted hull has planes for all six sides, so its box is the box of its points.
-  /// If the planes leave the hull unbounded, the result is the box of the vertices. A fitted hull is never
-  /// unbounded, nor is its transformed() copy. O(planes).
+  /// Returns a box that contains every point of the hull, in spite of rounding errors. If the hull has a
+  /// plane that faces the same way as a side of the box, the side lies in that plane. Other sides are at a
+  /// proven upper bound of the hull's support value. A fitted hull has planes for all six sides, so its box
+  /// is the box of its points. If the planes leave the hull unbounded, the result is the box of the vertices.
+  /// A fitted hull is never unbounded, nor is its transformed() copy. O(planes).
   Aabb aabb() const;
 
   /// Returns vertices and triangles. The mesh of a hull of rank 2 has its polygon twice, once for each side.
   Mesh mesh() const;
 
-  /// Returns the transformed hull. The result contains every point of this hull, transformed by the stored
-  /// matrix without rounding. For this, each plane moves outward by the rounding error of its normal. If the
-  /// planes leave the hull unbounded, the result is certain to contain only the transformed points of aabb().
-  /// O(planes).
+  /// Returns the transformed hull. The result contains the exact value of `transform * p` for every point p
+  /// of this hull. Each plane moves outward by the rounding error of its normal. If the planes leave the hull
+  /// unbounded, the result is guaranteed to contain only the points p of aabb(), transformed. O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;
 
  private:

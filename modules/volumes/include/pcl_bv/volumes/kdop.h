@@ -78,8 +78,8 @@ struct FloatKdop {
 /// direction(i) . p <= max(i) for each slab i. See Karlsson, Winberg and Larsson 2010, section 2.
 ///
 /// The empty k-DOP has min = +infinity and max = -infinity; merging the empty k-DOP into another k-DOP
-/// changes nothing. A flat k-DOP (a polygon, a segment or a point) is a valid volume. Coordinates beyond
-/// 1e100 are not supported.
+/// changes nothing. A flat k-DOP is a polygon, a segment or a point, and is a valid volume. Coordinates
+/// beyond 1e100 are not supported.
 ///
 /// Slabs that were measured on points always have a point in common. Other slabs may have no point in common
 /// although min <= max for each of them. Such a k-DOP has volume 0 and no corners, although empty() is false.
@@ -143,11 +143,11 @@ class Kdop {
   /// coordinate, otherwise infinity if the k-DOP is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the k-DOP; see RayInterval. `enter`
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the k-DOP; see RayInterval. `enter`
   /// is 0 if contains() is true for the origin. Uses the slab method (Kay, Kajiya 1986), which takes 50 ns
   /// for a 26-DOP.
   ///
-  /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
+  /// The projections of origin and direction are widened by twice the error bound of contains(). So a ray
   /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
   /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
@@ -160,18 +160,18 @@ class Kdop {
 
   /// Returns the same polytope with each slab reduced to the extent of the polytope along its direction.
   /// Slabs that were merged, transformed or set by the caller can be wider than that extent. Slabs that were
-  /// measured on points are not. The result contains every point of this k-DOP, by exact arithmetic, and no
-  /// slab grows. Slabs are tight to 1e-13 of the extent plus 2^-48 of the coordinates; a second call changes
-  /// them by no more than that. A call takes 10 us for a 26-DOP.
+  /// measured on points are not. The result contains every point of this k-DOP, in spite of rounding errors.
+  /// No slab grows. Slabs are tight to 1e-13 of the extent plus 2^-48 of the coordinates; a second call
+  /// changes them by no more than that. A call takes 10 us for a 26-DOP.
   ///
   /// The result is empty if the new min of a slab exceeds its new max, which proves that the polytope has no
-  /// point. Conversely, if slabs miss each other by more than these tolerances, the result was empty in all
-  /// tests; this is not proven.
+  /// point. In all tests, the result was empty if slabs missed each other by more than these tolerances; this
+  /// is not proven.
   Kdop tightened() const;
 
-  /// Returns a box that encloses the polytope by exact arithmetic. If a coordinate axis is one of the
-  /// directions, the box has the bounds of that slab along the axis. Along any other axis, the box has the
-  /// support values of the polytope, rounded outward.
+  /// Returns a box that contains every point of the polytope, in spite of rounding errors. If a coordinate
+  /// axis is one of the directions, the box has the bounds of that slab along the axis. Along any other axis,
+  /// the box has the support values of the polytope, rounded outward.
   Aabb aabb() const;
 
   /// Returns the vertices of the polytope without duplicates. Returns none if the k-DOP is empty or its slabs
@@ -182,9 +182,9 @@ class Kdop {
   /// two vertices; a point has no face.
   Mesh mesh() const;
 
-  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains every point
-  /// of this k-DOP, transformed by the stored matrix without rounding. Slabs are tight to a few units in the
-  /// last place of the coordinates.
+  /// Returns the k-DOP of the transformed polytope along the same directions. The result contains the exact
+  /// value of `transform * p` for every point p of this k-DOP. Slabs are tight to a few units in the last
+  /// place of the coordinates.
   Kdop transformed(const Eigen::Isometry3d& transform) const;
 
   /// Enlarges the k-DOP to contain the point. Slabs are extended to the exact projection of the point or, if

@@ -23,8 +23,8 @@ struct FloatObb {
 };
 
 /// An oriented box in the frame and unit of its points: the closed set of all p with |axis(i) . (p - center)|
-/// <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles. The axes are right-handed
-/// and orthonormal to 1e-12.
+/// <= half_extents[i] for i = 0, 1, 2. The stored doubles define this set without rounding. The axes are
+/// right-handed and orthonormal to 1e-12.
 ///
 /// The empty box has half extents -1, centre NaN and the coordinate axes. A box with a half extent of 0 is
 /// flat and a valid volume. Coordinates beyond 1e100 are not supported.
@@ -43,12 +43,12 @@ class Obb {
   Obb(const Eigen::Isometry3d& pose, const Eigen::Vector3d& half_extents)
       : Obb(pose.translation(), pose.linear(), half_extents) {}
 
-  /// Makes the box along the coordinate axes that encloses `box` by exact arithmetic.
+  /// Makes a box along the coordinate axes that contains every point of `box`, in spite of rounding errors.
   explicit Obb(const Aabb& box);
 
-  /// Returns a box that encloses all p with low[i] <= axes.col(i) . p <= high[i], by exact arithmetic. The
-  /// half extents of the result exceed (high - low) / 2 by the rounding error of the centre. If any low
-  /// exceeds its high, the box is empty. Throws as the constructor does.
+  /// Returns a box that contains all p with low[i] <= axes.col(i) . p <= high[i], in spite of rounding
+  /// errors. The half extents of the result exceed (high - low) / 2 by the rounding error of the centre. If
+  /// any low exceeds its high, the box is empty. Throws as the constructor does.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
   /// Returns a box that encloses all p with low[i] <= axes.col(i) . (p - origin) <= high[i]. For a box far
@@ -90,10 +90,10 @@ class Obb {
   /// coordinate, otherwise infinity if the box is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the box; see RayInterval. `enter` is
-  /// 0 if contains() is true for the origin.
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the box; see RayInterval. `enter`
+  /// is 0 if contains() is true for the origin.
   ///
-  /// The projections of origin and direction are widened by twice the error bound of contains(), so a ray
+  /// The projections of origin and direction are widened by twice the error bound of contains(). So a ray
   /// that misses a face by less than these error bounds may be reported as a hit. Finally, `enter` and `exit`
   /// are moved outward by 2^-51 of their magnitude plus 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
@@ -108,25 +108,26 @@ class Obb {
   /// axis 1 if bit 1 is set and of axis 2 if bit 2 is set. NaN if empty.
   std::array<Eigen::Vector3d, 8> corners() const;
 
-  /// Returns an axis-aligned box that encloses this box by exact arithmetic. The result is tight to a few
-  /// units in the last place.
+  /// Returns an axis-aligned box that contains every point of this box, in spite of rounding errors. The
+  /// result is tight to a few units in the last place.
   Aabb aabb() const;
 
   /// Returns corners() and six quadrilaterals; an empty mesh for an empty box.
   Mesh mesh() const;
 
-  /// Returns the transformed box. The result contains every point of this box, transformed by the stored
-  /// matrix without rounding. Half extents grow by the rounding error of axes and centre and by the scaling
-  /// error of the matrix.
+  /// Returns the transformed box. The result contains the exact value of `transform * p` for every point p of
+  /// this box. Half extents grow by the rounding errors of axes and centre, and by the error of the matrix,
+  /// which is rarely exactly orthonormal.
   Obb transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Returns a box that encloses both boxes by exact arithmetic. There are three candidates, with the axes of
-  /// this box, the axes of the other box and the coordinate axes. The result is the candidate with the
-  /// smallest volume; if volumes are equal (for example 0), the candidate with the smallest surface area. If
-  /// one box encloses the other by more than rounding errors, the result is the enclosing box, unchanged. If
-  /// both boxes have exactly the same third axis, as upright boxes have, the third candidate has this third
-  /// axis instead of the coordinate axes. The axes of the result are then ordered as by upright(). The order
-  /// of the two boxes does not change the result. In general, the result is not the minimum-volume box.
+  /// Returns a box that contains every point of both boxes, in spite of rounding errors. There are three
+  /// candidates: one with the axes of this box, one with the axes of the other box and one with the
+  /// coordinate axes. The result is the candidate with the smallest volume. If volumes are equal, for example
+  /// 0, the result is the candidate with the smallest surface area. If one box encloses the other by more
+  /// than rounding errors, the result is the enclosing box, unchanged. If both boxes have exactly the same
+  /// third axis, as upright boxes have, the third candidate has this third axis instead of the coordinate
+  /// axes. The axes of the result are then ordered as by upright(). The order of the two boxes does not
+  /// change the result. In general, the result is not the minimum-volume box.
   Obb merged(const Obb& other) const;
 
   /// Returns the same box with its axes in a standard order and direction, so that rounding noise does not

@@ -61,7 +61,7 @@ class Sphere {
   /// coordinate, otherwise infinity if the sphere is empty or the point has an infinite coordinate.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray origin + t * direction, t >= 0, inside the sphere; see RayInterval. A ray
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the sphere; see RayInterval. A ray
   /// hits if contains() is true for its origin. Both ends of the interval lie in a concentric sphere whose
   /// radius is larger by at most 2^-46 (|origin - center|_1 + radius) + 2^-510.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
@@ -71,26 +71,27 @@ class Sphere {
   /// contains() tests a point, with the sum of the radii as the radius.
   bool overlaps(const Sphere& other) const;
 
-  /// Returns the smallest box of doubles that encloses the sphere by exact arithmetic.
+  /// Returns the smallest box with double coordinates that contains every point of the sphere, in spite of
+  /// rounding errors.
   Aabb aabb() const;
 
   /// Returns an icosahedron that is subdivided twice. The mesh has 162 vertices, on the surface, and 320
   /// triangles. Returns an empty mesh for an empty sphere.
   Mesh mesh() const;
 
-  /// Returns the transformed sphere. The result contains every point of this sphere, transformed by the
-  /// stored matrix without rounding. The radius grows by the rounding error of the centre and by the scaling
-  /// error of the matrix, which is rarely exactly orthonormal.
+  /// Returns the transformed sphere. The result contains the exact value of `transform * p` for every point p
+  /// of this sphere. The radius grows by the rounding error of the centre and by the error of the matrix,
+  /// which is rarely exactly orthonormal.
   Sphere transformed(const Eigen::Isometry3d& transform) const;
 
-  /// Enlarges the sphere to the smallest sphere around this sphere and the point, plus rounding errors (the
-  /// step of Ritter 1990). The sphere is unchanged if the point is inside by exact arithmetic. A point with a
-  /// coordinate that is not finite is ignored.
+  /// Enlarges the sphere to the smallest sphere around this sphere and the point, plus rounding errors. This
+  /// is the step of Ritter (1990). If the point is proven to be inside, the sphere does not change. A point
+  /// with a coordinate that is not finite is ignored.
   Sphere& extend(const Eigen::Vector3d& point);
 
   /// Enlarges the sphere to the smallest sphere around this sphere and the other sphere, plus rounding
-  /// errors. If one sphere encloses the other by exact arithmetic, the result is the enclosing sphere,
-  /// unchanged. Merging is commutative, but not associative.
+  /// errors. If one sphere is proven to enclose the other, the result is the enclosing sphere, unchanged.
+  /// Merging is commutative, but not associative.
   Sphere& merge(const Sphere& other);
 
   /// Returns a float copy that encloses the sphere.
