@@ -47,8 +47,8 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 /// The field data `methods` has the names of the methods. Throws as volumes_ply().
 std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked = false);
 
-/// Returns the valid points as a VTK PolyData file with one cell. The `label` of the point with index i is
-/// labels[i].
+/// Returns the valid points as a VTK PolyData file with one cell. The point with the index i
+/// (PointView::index()) has the value labels[i] in the array `label`.
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);
 
 /// Writes volumes_ply() or volumes_vtp() to a file through write_file_atomically(). Throws IoError if the
