@@ -26,8 +26,8 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Clips the span to the ranges at which the ray is inside a half-space, which are those with `speed * range
-/// <= distance`. `speed` is the component of the ray's direction along the plane's outward normal. `distance`
+/// Clips the span to the ranges at which the ray is inside a half-space, that is, speed * range is at most
+/// `distance`. `speed` is the component of the ray's direction along the plane's outward normal. `distance`
 /// is the signed distance from the ray's origin to the plane, positive inside.
 void clip(Span& span, double speed, double distance) {
   if (speed > 0) {

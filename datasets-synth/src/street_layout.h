@@ -12,8 +12,8 @@
 
 namespace pcl_bv::detail {
 
-/// A model placed in the sensor's frame. The local point p is at `base + p.x * forward + p.y * left + p.z *
-/// up`.
+/// A model placed in the sensor's frame. The origin of the model is at `base`, and the axes of the model are
+/// `forward`, `left` and `up`.
 struct PlacedObject {
   std::uint32_t id = 0;
   Model model;

@@ -38,8 +38,8 @@ FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags, uns
   if (fd_ < 0) throw IoError(context + system_reason(errno));
 }
 
-// O_NONBLOCK has no effect on regular files. For a pipe without a writer, opening must not block, because the
-// pipe must be refused.
+// Without O_NONBLOCK, opening a pipe without a writer would block instead of being refused. O_NONBLOCK has no
+// effect on regular files.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
   opened_ = status_of(file_);
   if (S_ISDIR(opened_.st_mode)) throw IoError(system_reason(EISDIR));

@@ -55,8 +55,8 @@ const char* read_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-// At first, the bytes of a piece and 1/512 as many bytes behind the piece are read, because the last line of
-// the piece usually ends there.
+// At first, a piece is read together with 1/512 as many bytes behind the piece. The last line of the piece
+// usually ends in these bytes.
 constexpr std::size_t kOverhangFraction = 512;
 
 // Returns the offset behind the first line end at or after `from`, or npos.

@@ -35,8 +35,8 @@ struct ConvexRegion {
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// Error bound of the members below. The surface that they describe differs from the true surface by at
-  /// most surface_error + 2^-43 (|q|_1 + radius).
+  /// Error bound of the surface that `center` and the members below describe. This surface differs from the
+  /// true surface by at most surface_error + 2^-43 (|q|_1 + radius).
   double surface_error = 0;
 
   std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11; so are the normals in `planes`.

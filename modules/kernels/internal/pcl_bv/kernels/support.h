@@ -44,8 +44,8 @@ struct SupportDirections {
   /// magnitude. Throws std::invalid_argument for other directions, and if there are kMaxSupportDirections
   /// already.
   void add(const Direction& direction);
-  /// Returns the direction whose maximum projection is the support. This is exact[support / 2] if `support`
-  /// is odd, and the opposite direction if `support` is even.
+  /// Returns the direction on which the support has the maximum projection: exact[support / 2] if `support`
+  /// is odd, the opposite direction if `support` is even.
   Direction support_direction(std::size_t support) const;
   /// Like support_direction(), but returns a direction of `scaled` or its opposite.
   Direction scaled_support_direction(std::size_t support) const;

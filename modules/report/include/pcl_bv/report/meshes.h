@@ -60,7 +60,7 @@ void write_volumes(const std::filesystem::path& path, const std::vector<ClusterE
 struct PvdEntry {
   double time_seconds = 0;
   std::string file;  ///< Path of the file, UTF-8, relative to the folder of the .pvd file.
-  int part = 0;      ///< Number of the file among those that are shown at the same time.
+  int part = 0;      ///< Number of the file among the files that are shown at the same time.
 };
 
 /// Beginning of a .pvd file, which is the index of a ParaView time series. The file is kPvdBegin, all
