@@ -53,8 +53,9 @@ float median_difference(const std::vector<float>& values, std::size_t distance) 
 }
 
 // Returns the smallest other number of fields with which the median difference of successive records is less
-// than a third, or 0 if there is none. Multiples of the true number also give small differences. Therefore
-// the smallest number is returned, and a difference that is only a little smaller is not enough.
+// than a third of that with `fields`. Returns 0 if there is no such number. Multiples of the true number also
+// give small differences. Therefore the smallest number is returned, and a difference that is only a little
+// smaller is not enough.
 std::size_t better_field_count(const std::vector<float>& values, std::size_t fields, std::size_t file_size) {
   if (values.size() < 16 * fields) return 0;
   const float own = median_difference(values, fields);

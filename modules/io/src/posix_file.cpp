@@ -38,8 +38,8 @@ FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags, uns
   if (fd_ < 0) throw IoError(context + system_reason(errno));
 }
 
-// Without O_NONBLOCK, opening a pipe without a writer would block instead of being refused. O_NONBLOCK has no
-// effect on regular files.
+// Without O_NONBLOCK, open() would wait for a writer of a pipe, but pipes must be refused at once. O_NONBLOCK
+// has no effect on regular files.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
   opened_ = status_of(file_);
   if (S_ISDIR(opened_.st_mode)) throw IoError(system_reason(EISDIR));

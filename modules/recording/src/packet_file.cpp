@@ -18,8 +18,8 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow in nanoseconds
 // Maximum bytes of a pcap packet, and of a pcapng block in a search for the next block.
 constexpr std::uint32_t kMaxPacket = 1U << 20U;
-// Maximum seconds between two packets. A larger jump is accepted only if the two packets after the jump have
-// at most this difference.
+// Maximum seconds between two packets. A larger jump is accepted only if the times of the two packets after
+// the jump differ by at most this number of seconds.
 constexpr std::int64_t kMaxTimeGap = std::int64_t{24} * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 

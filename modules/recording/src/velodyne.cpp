@@ -15,7 +15,7 @@ namespace pcl_bv::detail {
 namespace {
 
 // The packets of one model from one address to one port. They are usually of one sensor. If a relay or a
-// player sends them, they can be of several sensors.
+// program that plays a file back sends the packets, they can be of several sensors.
 struct UdpSource {
   std::vector<VelodyneSensor> sensors{};
   std::vector<std::byte> waiting{};  // packet that no sensor expects; see take()
