@@ -113,7 +113,7 @@ struct Return {
 
 // Adds noise, missing returns and false returns to a hit. Grass of height `grass` may stop a ray before the
 // ground. The false return of a reflected ray is below the ground. `descent_rate` is the ray's descent in
-// metres per metre of range. above(range) is the ray's height above the ground at this range.
+// metres per metre of range. above(range) returns the ray's height above the ground at `range`.
 template <typename Above>
 Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double descent_rate,
                  Above above) {
@@ -128,7 +128,7 @@ Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, doub
     const double blade = grass * random.uniform(0.2, 1);
     double back = std::min(blade / std::max(descent_rate, 0.02), 1.5);
     // `back` assumes level ground. Where the ground falls towards the sensor, as in a ditch, the ray may be
-    // above the grass at the range hit.range - back. Then reduce `back`.
+    // above the grass at the range hit.range - back. `back` is then halved until the ray is in the grass.
     while (back > 0.01 && above(hit.range - back) > grass)
       back *= 0.5;
     return {hit.range - back + noise, ReturnKind::grass};

@@ -245,8 +245,9 @@ double Terrain::grass(double x, double y) const {
 }
 
 // Marches along the ray, then bisects. If the slope of the ground is at most 1, the ray's height above the
-// ground decreases by at most `speed` per metre of range. A step of clearance / speed then misses no ground.
-// Only on the banks of ditches can the slope exceed 1, and a step may miss an edge there.
+// ground decreases by at most `speed` per metre of range. A step of `clearance / speed` then misses no
+// ground, where `clearance` is the ray's height above the ground. Only on the banks of ditches can the slope
+// exceed 1, and a step may miss an edge there.
 double Terrain::cast(Vec3 origin, Vec3 direction) const {
   const double level = std::hypot(direction.x, direction.y);
   const double speed = 1.0 * level + std::abs(direction.z);

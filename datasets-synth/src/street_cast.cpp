@@ -26,9 +26,9 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Clips the span to the ranges with speed * range <= distance, where the ray is inside a half-space. `speed`
-/// is the component of the ray's direction along the plane's outward normal. `distance` is the signed
-/// distance from the ray's origin to the plane, positive inside.
+/// Clips the span to the ranges at which the ray is inside a half-space, that is, speed * range is at most
+/// `distance`. `speed` is the component of the ray's direction along the plane's outward normal. `distance`
+/// is the signed distance from the ray's origin to the plane, positive inside.
 void clip(Span& span, double speed, double distance) {
   if (speed > 0) {
     span.exit = std::min(span.exit, distance / speed);
@@ -59,7 +59,8 @@ Span clip_half_spaces(const LocalRay& ray, const std::vector<SolidHalfSpace>& ha
   return span;
 }
 
-/// Solves |origin + range * direction|^2 = 1 for the range, in the frame in which the ellipsoid is the unit ball.
+/// Solves |origin + range direction|^2 = 1 for the range, in the frame in which the ellipsoid is the unit
+/// ball.
 Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
   const Vec3 center = 0.5 * (bounds.lo + bounds.hi);
   const Vec3 radii = 0.5 * (bounds.hi - bounds.lo);

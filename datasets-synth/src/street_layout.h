@@ -12,7 +12,8 @@
 
 namespace pcl_bv::detail {
 
-/// A model placed in the sensor's frame. The local point p is at base + p.x forward + p.y left + p.z up.
+/// A model placed in the sensor's frame. The origin of the model is at `base`, and the axes of the model are
+/// `forward`, `left` and `up`.
 struct PlacedObject {
   std::uint32_t id = 0;
   Model model;
@@ -30,8 +31,8 @@ struct PlacedObject {
 /// Returns the objects nearer than street_max_range, by ascending id.
 std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame);
 
-/// Returns the distance from the sensor to an object's box in the object's x-y plane. It is a lower bound on
-/// the range of the object's returns.
+/// Returns the distance from the sensor to an object's box in the object's x-y plane. The distance is a lower
+/// bound on the range of the object's returns.
 double min_range(const PlacedObject& object);
 
 }  // namespace pcl_bv::detail

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Construction of convex solids.
+// Functions that build convex solids and assemble them to models.
 #include "street_parts.h"
 
 #include <algorithm>

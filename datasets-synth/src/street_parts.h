@@ -28,7 +28,7 @@ std::vector<Point2> regular_polygon(int corners, double radius, double u = 0, do
 Part box(const Box3& bounds);
 Part ellipsoid(Vec3 center, Vec3 radii);
 
-/// Returns an ellipsoid of leaves. Rays near its rim often pass through it.
+/// Returns an ellipsoid of leaves. Rays near the rim often pass through the ellipsoid.
 Part leaves(Vec3 center, Vec3 radii);
 
 /// Intersects the part with the half-space normal . p <= normal . point. Does not update `part.bounds`, so

@@ -13,8 +13,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Only the first cache line of every 4 KiB is summed. If another cloud replaces the cloud, these lines also
-// differ. Summing them costs 1 % of the cheapest pass over a file in the page cache. Summing all bytes would
+// Only the first cache line of every 4 KiB is summed. If another cloud replaces the cloud, these lines differ
+// as well. Summing them costs 1 % of the cheapest pass over a file in the page cache. Summing all bytes would
 // cost half of the pass.
 constexpr std::size_t kStride = 4096;
 

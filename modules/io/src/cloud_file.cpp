@@ -24,7 +24,7 @@ struct CloudFile::Opened {
 
 namespace {
 
-// Bytes of a part of the file. When load() enters a new part, the following part is prefetched.
+// Bytes of a part of the file. When load() reads the first bytes of a part, the following part is prefetched.
 constexpr std::size_t kAhead = std::size_t{8} << 20;
 
 // Maximum size in bytes of records that load() uses without packing their coordinates.

@@ -38,8 +38,8 @@ FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags, uns
   if (fd_ < 0) throw IoError(context + system_reason(errno));
 }
 
-// O_NONBLOCK has no effect on regular files. For a pipe without a writer, opening must not block, because the
-// pipe must be refused.
+// Without O_NONBLOCK, open() would wait for a writer of a pipe, but pipes must be refused at once. O_NONBLOCK
+// has no effect on regular files.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
   opened_ = status_of(file_);
   if (S_ISDIR(opened_.st_mode)) throw IoError(system_reason(EISDIR));
@@ -63,11 +63,11 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
 }
 
 // fstat() describes the open file, whatever its name now refers to. If another file takes the name, the
-// number of links and st_ctim change, but not the content of the open file. `relinked` marks this case, in
-// which st_ctim is not compared. Otherwise st_ctim detects writers that restore st_mtim. Three kinds of
-// changes stay undetected: writes within a tick of the system's clock (4 ms) after the opening, writes
-// through an earlier mapping, and writes after which the number of links differs and st_mtim is restored.
-// CloudFile detects most of these changes by checksums.
+// number of links and st_ctim change, but not the content of the open file. `relinked` is true in this case,
+// and st_ctim is not compared. If the number of links is unchanged, st_ctim detects writers that restore
+// st_mtim. Three kinds of changes stay undetected: writes within a tick of the system's clock (4 ms) after
+// the opening, writes through an earlier mapping, and writes after which the number of links differs and
+// st_mtim is restored. CloudFile detects most of these changes by checksums.
 void InputFile::require_unchanged() const {
   const struct stat now = status_of(file_);
   if (now.st_size < opened_.st_size) throw IoError(kCut);

@@ -78,8 +78,9 @@ struct Decimal {
   }
 };
 
-/// Rounds to the nearest double. Returns false if the digits or the power of ten are not exactly a double.
-/// Otherwise only the product or quotient is rounded, so the result is correctly rounded (Clinger 1990).
+/// Rounds to the nearest double. Returns false if a double cannot represent the digits or the power of ten
+/// exactly. Otherwise only the product or quotient is rounded, so the result is correctly rounded (Clinger
+/// 1990).
 inline bool round_decimal(Decimal decimal, bool negative, double& value) {
   constexpr std::int64_t doubles_end = std::int64_t{1} << 53;
   if (decimal.digits > doubles_end || !decimal.has_power()) return false;
@@ -117,7 +118,7 @@ inline bool read_exponent(const char*& at, int& exponent) {
 }
 
 /// Reads a number that is followed by a blank or a line end. Returns the position behind the number, or null
-/// if this fast path cannot decide. In the latter case, the text may still be a valid number for
+/// if this fast path cannot decide. If the result is null, the text may still be a valid number for
 /// std::from_chars. The text must be followed by kTextPadding bytes that begin with a line feed.
 template <typename T>
 inline const char* read_short_decimal(const char* at, T& value) {

@@ -63,7 +63,7 @@ bool read_number(std::string_view word, T& value) {
   return parse_number(word.data(), end, value) == end;
 }
 
-/// Appends the fewest digits that read back as the same number.
+/// Appends the number with the fewest digits that read back as the same number.
 template <typename T>
 void append_number(std::string& text, T value) {
   char digits[32];

@@ -55,8 +55,8 @@ const char* read_number(const char* at, const char* end, T& value) {
   return nullptr;
 }
 
-// At first, 1/512 of the size of a piece is read behind the end of the piece in addition, because the last
-// line of the piece usually ends there.
+// At first, a piece is read together with 1/512 as many bytes behind the piece. The last line of the piece
+// usually ends in these bytes.
 constexpr std::size_t kOverhangFraction = 512;
 
 // Returns the offset behind the first line end at or after `from`, or npos.
@@ -186,8 +186,8 @@ class RowReader {
   }
 
  private:
-  // Four successive pieces share a buffer. for_each_range() throws the error of the first group that failed,
-  // which is the error of the first invalid row.
+  // Four successive pieces form a group and share a buffer. for_each_range() throws the error of the first
+  // group that failed, which is the error of the first invalid row.
   template <typename Body>
   void over_pieces(const ParallelPolicy& policy, const Body& body) const {
     constexpr std::size_t group = 4;

@@ -16,17 +16,18 @@ namespace pcl_bv::detail {
 /// A query point and the limit of its squared distances, converted to the frame of the boxes (see BoxLevels).
 /// On each axis, the query point is between `low` and `high`.
 ///
-/// On each axis, the distance of a box is computed from the nearer one of `low` and `high`, so before
-/// rounding it is a lower bound. Rounding enlarges the squared distance (three differences, three squares and
-/// two sums) by a factor of at most 1 + 6 * 2^-24, and by 3 * 2^-149 if squares underflow. The factor 1 +
-/// 2^-19 in `outer` covers this error. Positions beyond 2^100 in magnitude are clamped to 2^100. All squares
-/// are then infinite, which is correct for every limit that a float can hold.
+/// On each axis, the distance of a box is computed from the nearer one of `low` and `high`, so the computed
+/// distance before rounding is a lower bound. Rounding enlarges the squared distance (three differences,
+/// three squares and two sums) by a factor of at most 1 + 6 * 2^-24, and by 3 * 2^-149 if squares underflow.
+/// The factor 1 + 2^-19 in `outer` covers this error. Coordinates beyond 2^100 in magnitude are clamped to
+/// 2^100 or -2^100. The squared distances of all boxes are then infinite, which is correct for every limit
+/// that a float can hold.
 struct BoxProbe {
   float low[3], high[3];
   float outer;  ///< A box whose squared distance exceeds this has no point within the limit.
   float inner;  ///< A point whose squared distance is at most this is certainly within the limit. There is
                 ///< no such point if `inner` is negative.
-  double unit;  ///< Factor from squared distances of the points to those in the frame of the boxes.
+  double unit;  ///< Factor that converts squared distances to the frame of the boxes.
 
   // Inlined and without a loop, so that all values stay in registers. This saves 2 of the 40 ns of a query.
   [[gnu::always_inline]] BoxProbe(const BoxLevels& boxes, const Coordinates& center, double limit)

@@ -33,8 +33,8 @@ HWY_INLINE V<D> load_as_double(D d, const double* p) {
   return hn::Load(d, p);
 }
 
-/// Writes the points as groups. The point `pad` fills the rest of the last group. With `masked`, `pad` must
-/// be valid and also replaces each invalid point. Returns the number of valid points if `masked`, else 0.
+/// Writes the points as groups. The point `pad` fills the rest of the last group. If `masked`, `pad` must be
+/// valid and also replaces each invalid point. Returns the number of valid points if `masked`, else 0.
 template <Layout layout, bool masked, typename T>
 std::size_t copy_to_groups(const PointView& points, const T* pad, T* groups) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // squared_distance() as an inline function. It must not be in a public header, because public headers are
-// compiled with the user's flags, which may change its rounding.
+// compiled with the user's flags, which may change the rounding of the function.
 #pragma once
 
 #include "pcl_bv/kernels/distances.h"

@@ -36,7 +36,7 @@ HWY_INLINE V<D> max_or_keep(D, V<D> candidate, V<D> running) {
 #endif
 }
 
-// Subtracts the centre. With `scaled`, also multiplies by the centre's scale, which is 1 for float points.
+// Subtracts the centre. If `scaled`, also multiplies by the centre's scale, which is 1 for float points.
 template <bool scaled, class D>
 HWY_INLINE void subtract(D d, const DistanceCenter& center, V<D>& x, V<D>& y, V<D>& z) {
   x = hn::Sub(x, hn::Set(d, center.x));
@@ -106,11 +106,11 @@ HWY_INLINE V<D> distances_in_float(D d, const FloatCenter& center, V<D> x, V<D> 
 // Returns a threshold. Every point whose squared distance in float is at most the threshold has a
 // squared_distance() below `limit`. The threshold is negative if no float has this property.
 //
-// Let u = 2^-24. The error of a coordinate of q is at most 2.1 u of the coordinate plus 3.1 u of the rounding
-// error of the centre. Every float is at least this rounding error away from the centre, so the total error
-// is at most 5.2 u of the coordinate. Squares, sums and products add a relative error below 4 u, or 2^-147 if
-// they underflow. So if the squared distance in float is f, squared_distance() is at most f (1 + 2^-20) +
-// 2^-140.
+// Let u = 2^-24. The error of a coordinate of q is at most 2.1 u times the coordinate plus 3.1 u times the
+// rounding error of the centre, |c - head|. No float is nearer to the centre c than the head, so |c - head|
+// is at most the coordinate, and the total error is at most 5.2 u times the coordinate. Squares, sums and
+// products add a relative error below 4 u, or 2^-147 if they underflow. So if the squared distance in float
+// is f, squared_distance() is at most f (1 + 2^-20) + 2^-140.
 HWY_INLINE float float_limit(double limit) {
   const double least = (limit - 0x1p-139) * (1 - 0x1p-18);
   constexpr double most = std::numeric_limits<float>::max();
@@ -125,7 +125,7 @@ struct FloatRejection {
   float limit;
 };
 
-// Consecutive packets of a view, which float arithmetic first tests as a whole.
+// Consecutive packets of a view. Float arithmetic can reject all points of a run with one test.
 struct Run {
   std::size_t begin, end;
 };

@@ -38,7 +38,7 @@ std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, co
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!(bounds[lane] > least)) continue;
       for (std::size_t packet = begin; packet < begin + kBoundPoints * lanes; packet += lanes) {
-        // In an incomplete last packet, scan_octants() loaded point packet + lane into the lane.
+        // In an incomplete last packet, scan_octants() loaded the point `packet + lane` into this lane.
         const std::size_t i =
             packet + (packet + lanes <= block.count ? point_of_lane<layout>(lane, lanes) : lane);
         if (i >= block.count) break;

@@ -41,7 +41,7 @@ struct LaneOctants {
       b = -1;
   }
 
-  // d2 is -1 for points that are ignored.
+  // `d2` is the squared distance, or -1 for points that are ignored.
   template <class D>
   HWY_INLINE void compete(D d, V<D> x, V<D> y, V<D> z, V<D> d2) {
     const auto none = hn::Set(d, -1.0), zero = hn::Zero(d);
@@ -75,7 +75,7 @@ struct LaneOctants {
 };
 
 // Updates the octants with the points of a run. Returns false if an invalid point may be among the maxima.
-// With `masked` it never returns false.
+// Always returns true if `masked`.
 template <Layout layout, typename T, bool masked, bool filtered>
 bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const FloatRejection& in_float,
                     LaneOctants& octants) {
@@ -112,8 +112,7 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
 constexpr std::size_t kProbedRuns = 4;
 constexpr std::size_t kMaxUnrejectedRuns = 3;
 
-// Scans a block. Returns false if an invalid point may be among the maxima. With `masked` it never returns
-// false.
+// Scans a block. Returns false if an invalid point may be among the maxima. Always returns true if `masked`.
 template <Layout layout, typename T, bool masked>
 bool octants_of(const PointView& points, OctantScan& scan) {
   const Tag<T> d;

@@ -61,8 +61,8 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
 
 // Computes the maximum projection of each lane of a block for each support. Writes Lanes(d) numbers per
 // support, support after support. Returns whether all points are valid; if not, `projections` is meaningless.
-// With `masked`, invalid points are replaced by the centre, whose projection is 0, and counted in `dropped`;
-// the result is then true.
+// If `masked`, invalid points are replaced by the centre, whose projection is 0, and counted in `dropped`;
+// the result is then always true.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
 bool project_lanes(D d, const PointView& block, const T* center, T* projections, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);

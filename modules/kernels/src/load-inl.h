@@ -264,10 +264,10 @@ HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
     marked[lane] = (bits >> lane & 1) != 0;
 }
 
-/// Loads the packet from `first` on and subtracts the centre. With `masked`, the centre replaces invalid
-/// points and fills the lanes past the end of the block. valid_count then grows by the number of valid points
-/// plus the number of lanes past the end. Without `masked`, lanes past the end hold the centre or repeat
-/// points, which changes no extreme.
+/// Loads the packet from `first` on and subtracts the centre. If `masked`, the centre replaces invalid points
+/// and fills the lanes past the end of the block. valid_count then grows by the number of valid points plus
+/// the number of lanes past the end. If not `masked`, lanes past the end hold the centre or repeat points,
+/// which changes no minimum or maximum.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, const T* center, V<D>& x,
                               V<D>& y, V<D>& z, [[maybe_unused]] std::size_t& valid_count) {
@@ -297,8 +297,8 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
 /// Prefetches the memory of a packet 8 KiB ahead. Without prefetching, a loop with much arithmetic per packet
 /// fills the core's reorder window, and loads of later packets start too late. A 26-DOP of 1 M points on
 /// AVX-512 runs at 2.9 Gpt/s with prefetching and at 0.9 Gpt/s without. Other layouts are not prefetched.
-/// With prefetching, clouds of pcl::PointXYZI in the second-level cache would run at 0.9 instead of 1.8
-/// Gpt/s, and clouds in memory would gain only 15 %.
+/// With prefetching, clouds of pcl::PointXYZI (Layout::wide) in the second-level cache would run at 0.9
+/// instead of 1.8 Gpt/s, and clouds in memory would gain only 15 %.
 template <Layout layout, class D>
 HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
   if constexpr (layout == Layout::groups || layout == Layout::packed12 || layout == Layout::packed16) {

@@ -34,7 +34,7 @@ class NearestOne {
 /// Retains the `most` nearest of the points that were offered. If `most` is at most 32, the points are always
 /// sorted, because moving them costs less than selecting the nearest later. If `most` is larger, the nearest
 /// are selected when 1.5 * most points have been collected, so that a candidate costs only a few nanoseconds.
-/// The first selection is already at `most` points, because it sets limit().
+/// The first selection is made at `most` points already, because only a selection lowers limit().
 class NearestSet {
  public:
   NearestSet(std::size_t most, double limit, std::vector<Neighbor>& kept)

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distances from a query point to the boxes of a group and to the points of a packet.
+// Distances from a query point to the boxes of a group and to the points of a packet, and the walk down a
+// tree.
 
 // Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_PACKED_TREE_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -51,7 +51,7 @@ void visit_along_reference(const PackedTree& tree, const SweptBall& ball, Packet
 Moments block_moments_reference(const PointView& block);
 
 /// Calls sum(moments) with the exponents 0, 500 and 1000 until the sum of squares is at least 2^-660. For
-/// floats it calls sum() only once.
+/// floats, calls sum() only once.
 template <typename Sum>
 void sum_without_underflow(ScalarType scalar, Moments& moments, const Sum& sum) {
   for (moments.exponent = 0;; moments.exponent += 500) {

@@ -24,7 +24,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Number of tests between two checks of whether further tests can change the result.
+// Number of half-spaces that are tested before classify_planes() checks whether all points are already
+// outside.
 constexpr std::size_t kTestsPerCheck = 4;
 
 template <class D, typename T = hn::TFromD<D>>

@@ -31,7 +31,7 @@ struct RegionTest {
   T max_offset[3];     ///< Upper bound of |p - head| on each axis, for p in the box.
   SlabTest<T> slabs[3];
   T error;                       ///< Error bound of distances along axes.
-  T square_inner, square_outer;  ///< For ball and rounded: squared radii, used like PlaneTest::inner.
+  T square_inner, square_outer;  ///< For ball and rounded: squared radii, used like `inner` and `outer`.
   T slope;                       ///< For planes: slope * |q|_1 is the part of the error that depends on q.
   std::vector<PlaneTest<T>> planes;
 };

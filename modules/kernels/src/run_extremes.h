@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The minimum and maximum of a run before it is converted to a RunBox.
+// The minimum and maximum of a run before they are converted to a RunBox.
 #pragma once
 
 #include <cstddef>

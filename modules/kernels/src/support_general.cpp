@@ -29,10 +29,10 @@ namespace HWY_NAMESPACE {
 inline constexpr std::size_t kGroup = 4;  // number of directions on which a block is projected at a time
 
 // The memory of supports_of(). `points` is a block of points relative to a centre, in packets of x, y and z.
-// For floats it takes 12 KiB and stays in the first-level cache. `projections` is for the maximum projections
-// of the lanes. For floats and at most 13 directions it has capacity for a whole chunk. 49 directions on
-// AVX-512 run at 320 Mpt/s with 25 KiB of projections, at 380 Mpt/s with 50 KiB and at 435 Mpt/s with 104
-// KiB.
+// For floats, `points` takes 12 KiB and stays in the first-level cache. `projections` is for the maximum
+// projections of the lanes. For floats and at most 13 directions, `projections` has capacity for a whole
+// chunk. 49 directions on AVX-512 run at 320 Mpt/s with 25 KiB of projections, at 380 Mpt/s with 50 KiB and
+// at 435 Mpt/s with 104 KiB.
 template <typename T>
 struct Workspace {
   HWY_ALIGN T points[3 * kBlockPoints];
@@ -41,8 +41,8 @@ struct Workspace {
 };
 
 // Copies a block relative to the centre and raises `max_magnitude` to the largest magnitudes. Returns whether
-// all points are valid; if not, the copy is meaningless and `max_magnitude` unchanged. With `masked`, invalid
-// points are replaced by the centre and counted in `dropped`; the result is then true.
+// all points are valid; if not, the copy is meaningless and `max_magnitude` unchanged. If `masked`, invalid
+// points are replaced by the centre and counted in `dropped`; the result is then always true.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& max_magnitude,
                 std::size_t& dropped) {
@@ -93,7 +93,8 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   [[maybe_unused]] auto low##i = zero_minimum(d); \
   [[maybe_unused]] auto high##i = zero_maximum(d);
 
-// MulAdd may be fused or not. The filter's error bound covers both cases, and results are decided exactly.
+// MulAdd may be fused or not. SupportPlan::pair_error_ covers both cases, and the remaining points are
+// compared exactly.
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \

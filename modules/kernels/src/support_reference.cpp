@@ -122,10 +122,10 @@ std::size_t project_block(const PointView& points, const Project& project, Block
 }
 
 // Returns an error bound of the difference of the projections of two points whose coordinates are at most `m`
-// in magnitude. For the cube's directions, let u be the unit roundoff of T. Each of the two points adds one u
-// per addition, and one more u for the difference and its rounding. The bound is infinite if sums may
-// overflow. For other directions, the error of each projection is at most 3.01 * 2^-53 of the magnitudes. The
-// bound also covers the underflow of products and of the direction's tiny components.
+// in magnitude. For the cube's directions, let u be the unit roundoff of T. Each of the two points
+// contributes one u per addition and one u for the rounding of the difference. The bound is infinite if sums
+// may overflow. For other directions, the error of each projection is at most 3.01 * 2^-53 of the magnitudes.
+// The bound also covers the underflow of products and of the direction's tiny components.
 template <typename T>
 double pair_error(const SupportDirections& set, std::size_t k, const Coordinates& m) {
   const Direction& d = set.scaled[k];

@@ -11,7 +11,8 @@ namespace pcl_bv::detail {
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
     : from(start), radius(r) {
-  // Floats are not precise enough for a start point or a radius beyond 2^60 times the size of the cloud.
+  // Floats are not precise enough if the distance of the start point or the radius exceeds 2^60 times the
+  // size of the cloud.
   constexpr double kFar = 0x1p60;
   const int exponent =
       std::ilogb(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
@@ -24,8 +25,8 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
     const double position = (from[k] - boxes.origin[k]) * boxes.scale;
     size += std::abs(position);
     origin[k] = static_cast<float>(std::clamp(position, -kFar, kFar));
-    // A slope below 2^-40 in magnitude is replaced by 2^-40 or -2^-40. Inside the boxes, this moves the ball
-    // by less than the margin.
+    // A slope below 2^-40 in magnitude is replaced by 2^-40 or -2^-40. The replacement moves the path of the
+    // ball, where it is inside the boxes, by less than the margin.
     inverse[k] =
         static_cast<float>(1 / (slope[k] < 0 ? std::min(slope[k], -0x1p-40) : std::max(slope[k], 0x1p-40)));
   }

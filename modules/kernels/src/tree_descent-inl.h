@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Walks through a tree depth first, the nearest box of each group first.
+// Walks through a tree depth first. In each group, the box with the smallest bound is visited first.
 
 // Compiled once per target of Highway's foreach_target.h.
 #if defined(PCL_BV_TREE_DESCENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -22,7 +22,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The boxes of a group that are still to be visited, and their bounds.
+// The boxes of a group that are still to be visited, and the bounds of all boxes of the group (see
+// descend()).
 struct OpenGroup {
   HWY_ALIGN float bounds[kTreeWidth];
   std::uint32_t bits;
@@ -37,8 +38,8 @@ HWY_INLINE std::uint32_t bits_within(const float* bounds, float limit) {
   return bits;
 }
 
-// Opens a group. Returns the number of its nearest box and stores the other boxes in `open`. Returns
-// kTreeWidth if no box is within `limit`.
+// Opens a group. Returns the number of the box with the smallest bound and stores the other boxes in `open`.
+// Returns kTreeWidth if no bound is at most `limit`.
 template <typename Bound>
 HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, float limit, std::size_t level,
                                   std::size_t item, OpenGroup& open) {
@@ -60,8 +61,8 @@ HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, fl
   return k;
 }
 
-// Removes the nearest of the remaining boxes and returns its number. Returns kTreeWidth if no remaining box
-// is within `limit`.
+// Removes the remaining box with the smallest bound and returns its number. Returns kTreeWidth if no
+// remaining box has a bound of at most `limit`.
 HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
   const std::uint32_t near = open.bits == 0 ? 0 : open.bits & bits_within(open.bounds, limit);
   std::size_t nearest = kTreeWidth;
@@ -75,9 +76,9 @@ HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
   return nearest;
 }
 
-/// Calls take(packet), depth first and nearest box first, for the packets whose boxes have a bound of at most
-/// `limit`. take() may lower `limit`. bound(d, group, k) returns the bounds of the boxes k, k + 1, ... of a
-/// group. For unused boxes, bound() must return infinity or the smallest bound of the used boxes.
+/// Calls take(packet) for the packets whose boxes have a bound of at most `limit`, in the order of the walk.
+/// take() may lower `limit`. bound(d, group, k) returns the bounds of the boxes k, k + 1, ... of a group. For
+/// unused boxes, bound() must return infinity or the smallest bound of the used boxes.
 template <typename Bound, typename Take>
 HWY_INLINE void descend(const BoxLevels& boxes, const Bound& bound, const float& limit, const Take& take) {
   OpenGroup open[BoxLevels::kMaxLevels];

@@ -57,8 +57,8 @@ Layout layout_of(const msg::PointCloud2& cloud) {
   return {width, height, height == 1 || exact ? packed : cloud.row_step};
 }
 
-// Returns what is wrong with a field: its type is unknown, or the field exceeds the record. Returns an empty
-// text for a valid field.
+// Returns the problem of a field, which is that the type is unknown or that the field exceeds the record.
+// Returns an empty text for a valid field.
 std::string problem_of(const msg::PointField& field, std::uint32_t count, std::uint32_t point_step) {
   if (field.datatype < 1 || field.datatype > std::size(kDatatypes))
     return "is of datatype " + std::to_string(field.datatype) + ", not 1 to 8";
@@ -101,7 +101,7 @@ PointField element_of(const msg::PointField& field, std::string name, std::uint3
   return {std::move(name), type, size, count, field.offset};
 }
 
-// A field of the message's record, and the field of the new record that it becomes.
+// A field of the message's record, and the field of the new record to which it is converted.
 struct FieldConversion {
   PointField from, to;
 };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Base class of readers for formats that store messages in chunks. Chunks with overlapping times are in
-// memory at the same time, because messages must be returned in the order of time.
+// Base class of readers for formats that store messages in chunks. Messages are returned in the order of
+// time, so chunks with overlapping times are in memory at the same time.
 #pragma once
 
 #include <memory>

@@ -120,9 +120,9 @@ void Db3Pages::read_leaf(std::uint64_t page) {
   }
 }
 
-// Recognises the rows of messages and topics by their column types, which no other table has. The first
-// column is the row's id, which SQLite stores as NULL. The other columns of a message are two integers and a
-// blob. The next three columns of a topic are texts.
+// Recognises the rows of the tables of messages and topics by their column types, which no other table has.
+// The first column is the row's id, which SQLite stores as NULL. The other columns of a message are two
+// integers and a blob. The next three columns of a topic are texts.
 void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   PageBytes bytes(bytes_, cell, usable_);
   const std::uint64_t payload = bytes.varint();

@@ -110,8 +110,9 @@ class Query {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-// A message. `id` is its row in the table or, for a damaged file, its index in Db3Pages::messages().
-// Db3Reader sorts the rows by time, because the database's index of times can be damaged.
+// A message. `id` is the message's row in the table or, for a damaged file, its index in
+// Db3Pages::messages(). Db3Reader sorts the rows by time, because the database's index of times can be
+// damaged.
 struct Row {
   std::int64_t time = 0, id = 0;
   std::size_t topic = 0;

@@ -14,7 +14,7 @@
 namespace pcl_bv::detail {
 namespace mcap {
 
-/// The content of a summary. If it is empty, scan() must read every chunk.
+/// The content of a file's summary. With an empty Summary, scan() reads every chunk.
 struct Summary {
   std::map<std::uint64_t, Part> chunks;                ///< By position in the file.
   std::map<std::uint64_t, std::uint64_t> index_bytes;  ///< Bytes of the message indexes behind each chunk.

@@ -18,8 +18,8 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow in nanoseconds
 // Maximum bytes of a pcap packet, and of a pcapng block in a search for the next block.
 constexpr std::uint32_t kMaxPacket = 1U << 20U;
-// Maximum seconds between two packets. A larger jump is accepted only if the times of the next two packets
-// are this close to each other.
+// Maximum seconds between two packets. A larger jump is accepted only if the times of the two packets after
+// the jump differ by at most this number of seconds.
 constexpr std::int64_t kMaxTimeGap = std::int64_t{24} * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
@@ -122,8 +122,9 @@ bool PacketFile::resynchronise() {
 }
 
 // Returns whether a packet can begin at at_. Headers have no magic number, so the lengths of successive
-// packets must be consistent. In pcap, their times must also be close. Either two packets are close to the
-// last accepted time, or three packets are close to each other.
+// packets must be consistent. In pcap, the times of the packets must be close, too. Two packets whose times
+// are close to the last accepted time are enough, and so are three packets whose times are close to each
+// other.
 bool PacketFile::begins_packet() {
   if (next_bytes(blocks_ ? 12 : 16) == nullptr) return false;
   if (blocks_) return is_run(2, std::nullopt);

@@ -12,8 +12,8 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Returns the first 64 bytes of a regular file. Other files are not read, because reading a pipe would block
-// or take data from it.
+// Returns the first 64 bytes of a regular file. Returns an empty text for any other file, because reading a
+// pipe would block or take data from the pipe.
 std::string start_of(const std::filesystem::path& file) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(file, unknown)) return {};

@@ -208,7 +208,7 @@ bool is_rosbag2_folder(const fs::path& folder) {
 }
 
 // A recorder writes metadata.yaml last. Therefore metadata.yaml may be older than the files or incomplete. If
-// it cannot be read, all files of the folder are used.
+// metadata.yaml cannot be read, all files of the folder are used.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder))
     return std::make_unique<JoinedReader>(files_without_metadata(folder), std::vector<std::string>());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Error messages for errors of SQLite.
+// Error messages for SQLite's error codes.
 #pragma once
 
 #include <sqlite3.h>

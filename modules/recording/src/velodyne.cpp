@@ -14,8 +14,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// The packets of one model from one address to one port. They are usually of one sensor. The packets of a
-// relay or of a file that is played back can be of several sensors.
+// The packets of one model from one address to one port. They are usually of one sensor. If a relay or a
+// program that plays a file back sends the packets, they can be of several sensors.
 struct UdpSource {
   std::vector<VelodyneSensor> sensors{};
   std::vector<std::byte> waiting{};  // packet that no sensor expects; see take()

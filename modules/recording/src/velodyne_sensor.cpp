@@ -144,8 +144,8 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
   sweep_.sensor = number;
 }
 
-// Returns the rotation from the newest packet's first block to the first block of `packet`. The number of
-// whole revolutions is the one that fits the packet's time best.
+// Returns the rotation from the first block of the newest packet to the first block of `packet`. Whole
+// revolutions are included; their number is the one that fits the time of `packet` best.
 double VelodyneSensor::rotation_since_last(const Payload& packet) const {
   const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
   return expected + azimuth_difference(azimuth_ + expected, azimuth_of(packet, 0));

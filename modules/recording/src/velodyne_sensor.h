@@ -36,9 +36,8 @@ class VelodyneSensor {
 
   const VelodyneModel& model() const { return *model_; }
 
-  /// Returns whether the packet's azimuth is within 60 degrees of this sensor's predicted azimuth. Returns
-  /// true before the first packet and after a pause of more than 0.3 s, because no prediction is possible
-  /// then.
+  /// Returns whether the packet's azimuth is within 60 degrees of this sensor's predicted azimuth. Before the
+  /// first packet and after a pause of more than 0.3 s, no prediction is possible, and true is returned.
   bool expects(const Payload& packet) const;
 
   /// Adds a packet's returns to the sweeps. Moves complete sweeps to `whole`.

@@ -20,8 +20,8 @@ struct CsvShape {
 };
 
 /// Returns the columns of a cylinder or capsule. `height` is its full height. The axis is flipped to point
-/// upwards, which does not change the shape. Then the rotation from z to the axis is well conditioned. Its
-/// simple formula needs no singular value decomposition, unlike Eigen's FromTwoVectors().
+/// upwards, which does not change the shape. Then the simple formula for the rotation from z to the axis is
+/// well conditioned. Eigen's FromTwoVectors() would need a singular value decomposition.
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
   const Eigen::Vector3d up = (axis.z() < 0 ? Eigen::Vector3d(-axis) : axis).stableNormalized();
   return {Eigen::Vector3d(2 * radius, 2 * radius, height),

@@ -51,8 +51,8 @@ void append(T value, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Returns whether the vertex count of every face fits in a byte, as is usual in .ply files. Faces of flat
-/// hulls can have more than 255 vertices.
+/// Returns whether the vertex count of every face fits in a byte, which is the usual type of this count in
+/// .ply files. Faces of flat hulls can have more than 255 vertices.
 bool face_counts_fit_byte(const VolumeCells& cells) {
   return std::all_of(cells.polygons.begin(), cells.polygons.end(),
                      [](const Cell& face) { return face.vertices.size() <= 255; });

@@ -41,7 +41,7 @@ Eigen::Vector3d normal(const Mesh& mesh, const std::vector<std::int32_t>& face) 
   return sum.stableNormalized();
 }
 
-/// Returns the edges of a mesh, except those between two coplanar faces.
+/// Returns the edges of a mesh, except the edges between two coplanar faces.
 std::vector<Edge> drawn_edges(const Mesh& mesh, const View& view) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Eigen::Vector3d>> normals_at;
   for (const std::vector<std::int32_t>& face : mesh.faces) {

@@ -79,7 +79,8 @@ void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, co
   }
 }
 
-/// Returns the brightness of a sample, from 0 to 1. It is lower if neighbours are closer to the viewer.
+/// Returns the brightness of a sample, from 0 to 1. The brightness is lower if neighbours are closer to the
+/// viewer.
 float eye_dome_brightness(const Raster& raster, int x, int y) {
   constexpr int step = 3;
   constexpr float max_depth_step = 40;  // in samples; larger depth differences have the same effect

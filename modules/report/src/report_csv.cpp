@@ -12,7 +12,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Appends `count` columns. They are empty if `numbers` is null.
+// Appends `count` columns, which are empty if `numbers` is null.
 void append_columns(std::size_t count, const double* numbers, std::string& text) {
   for (std::size_t i = 0; i < count; ++i) {
     text += ',';

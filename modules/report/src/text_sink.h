@@ -10,7 +10,7 @@
 
 namespace pcl_bv::detail {
 
-/// Passes the text to `take` and clears the text, if it has a megabyte or more.
+/// If the text has a megabyte or more, passes the text to `take` and clears the text.
 inline void take_if_long(std::string& text, const TextSink& take) {
   if (text.size() < std::size_t{1} << 20) return;
   take(text);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All volumes of a report as one list of vertices and cells. All mesh formats are written from it.
+// All volumes of a report as one list of vertices and cells, from which all mesh formats are written.
 #pragma once
 
 #include <Eigen/Core>

@@ -59,10 +59,10 @@ struct RuralRoadFrame {
   std::array<double, 12> pose{};         ///< Pose of the sensor in the fixed frame: 3 x 4 matrix, row-major.
 };
 
-/// Returns the sweep at time frame * street_frame_seconds. All rays are cast at this instant. Frames are
-/// independent of one another. The same arguments give the same bits (on the same machine and libm). Throws
-/// std::invalid_argument for any number of beams but 16, 32, 64 and 128. O(points + frame), about 150 ms for
-/// 64 beams.
+/// Returns the sweep at the time `frame * street_frame_seconds`. All rays are cast at this instant. Frames
+/// are independent of one another. The same arguments give the same bits (on the same machine and libm).
+/// Throws std::invalid_argument if the number of beams is not 16, 32, 64 or 128. O(points + frame), about 150
+/// ms for 64 beams.
 RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_t frame);
 
 /// Returns the objects and the pose of make_rural_road_frame(), with an empty cloud. O(frame), below 1 ms for
@@ -70,8 +70,7 @@ RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_
 RuralRoadFrame make_rural_road_truth(const RuralRoadOptions& options, std::size_t frame);
 
 /// Returns the height of the ground at (x, y) in the fixed frame, metres, without the roughness (up to 4 cm).
-/// `frame` selects the section of the road. (x, y) must be within 100 m of the sensor's position in that
-/// frame.
+/// (x, y) must be within 100 m of the sensor's position in the sweep number `frame`.
 double rural_road_ground_height(std::uint64_t seed, std::size_t frame, double x, double y);
 
 }  // namespace pcl_bv

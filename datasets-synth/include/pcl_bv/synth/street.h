@@ -94,9 +94,9 @@ struct StreetFrame {
 /// of `beams` nearest to `points`, but at least `beams`. Half-way cases round up.
 std::size_t street_rays(std::size_t points, std::size_t beams = street_beams);
 
-/// Returns the sweep at time frame * street_frame_seconds. Frames are independent of one another. The same
-/// arguments give the same bits (on the same machine and libm). Throws only std::bad_alloc. O(points), 25 ms
-/// for 128 000 rays.
+/// Returns the sweep at the time `frame * street_frame_seconds`. Frames are independent of one another. The
+/// same arguments give the same bits (on the same machine and libm). Throws only std::bad_alloc. O(points),
+/// 25 ms for 128 000 rays.
 StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame);
 
 /// Returns the unit direction of a ray in the sensor's frame. The elevations are those of an HDL-64E: +2 to
@@ -104,7 +104,8 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame);
 /// beams 32 to 63. Fractional beam numbers are interpolated.
 std::array<double, 3> street_beam(double beam, std::size_t column, std::size_t columns);
 
-/// Returns the height z of the ground at (x, y) in the sensor's frame, metres. It is the same in every frame.
+/// Returns the height z of the ground at (x, y) in the sensor's frame, metres. The height is the same in
+/// every frame.
 double street_ground_height(double x, double y);
 
 }  // namespace pcl_bv

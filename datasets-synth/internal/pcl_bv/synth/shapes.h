@@ -29,8 +29,8 @@ SynthCloud make_box(std::size_t points, std::uint64_t seed);
 /// Returns points whose coordinates are independent and normal with standard deviation 1.
 SynthCloud make_gauss(std::size_t points, std::uint64_t seed);
 
-/// Returns points on a bumpy closed surface: at distance bumpy_radius(u, shape) from the centre in direction
-/// u, with u uniform on the unit sphere.
+/// Returns points on a bumpy closed surface. Each point is in a direction u from the centre, uniform on the
+/// unit sphere, at the distance bumpy_radius(u, shape).
 ///
 /// The number of points per unit area varies by a factor of about 4 between hollows and bumps.
 SynthCloud make_surface(std::size_t points, std::uint64_t seed, double shape = 0);

@@ -18,7 +18,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// A file that changes while it is read causes an IoError instead of a volume of mixed content. Two checks
 /// detect changes:
-/// - The file's size and times are compared after each read.
+/// - After each read, the file's size and times are compared with those when the file was opened.
 /// - A checksum for each block of 1024 points is stored when the block is read first, and compared when it is
 ///   read again. The checksum detects changes that the times do not show. Examples are a writer that adds a
 ///   link to the file and restores st_mtim, and a late write through a memory mapping. A checksum covers one

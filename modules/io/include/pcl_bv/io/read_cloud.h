@@ -56,14 +56,14 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptio
 /// - Floating-point fields take the nearest value of their type. Numbers outside the range of the type become
 ///   infinity or zero.
 /// - "nan" and "inf" in any case are accepted for floating-point fields only.
-/// - Integer fields accept whole numbers in any notation (1.0, 1e3). -1 in an unsigned field becomes the
-///   maximum.
+/// - Integer fields accept whole numbers in any notation (1.0, 1e3). Negative numbers in unsigned fields wrap
+///   around, so -1 becomes the maximum.
 /// - Any other text, such as an integer out of range, is an error in a coordinate. In another field the text
 ///   becomes 0 or NaN, and RawCloud::note reports it.
 /// - Rows after the last point are an error.
 ///
-/// Further points after the last point of a binary file are not read, and RawCloud::note reports them. If the
-/// header says 0 points but points follow, this is an error, because a recorder may have stopped before it
+/// Bytes after the last point of a binary file that could be further points are not read, and RawCloud::note
+/// reports them. They are an error if the header says 0 points, because a recorder may have stopped before it
 /// updated the header. RawCloud::note also reports a VIEWPOINT other than the identity. A viewpoint is never
 /// applied.
 ///

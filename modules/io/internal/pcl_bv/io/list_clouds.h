@@ -18,8 +18,8 @@ bool natural_less(std::string_view a, std::string_view b);
 
 /// Returns the cloud files (see is_cloud_name()) directly in a folder. Each path is folder/name. The paths
 /// are in natural order of the names. Subfolders and hidden files (names starting with a dot) are left out.
-/// `subfolders`, if not null, receives the number of subfolders that are not hidden. Returns an empty list
-/// for a folder without clouds. Throws IoError if the folder cannot be listed.
+/// `subfolders`, if not null, receives the number of subfolders that are not hidden. Returns an empty list if
+/// the folder has no clouds. Throws IoError if the folder cannot be listed.
 std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& folder,
                                                std::size_t* subfolders = nullptr);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Classes for POSIX files. One owns a file descriptor, the other reads bytes at a given offset.
+// Classes for POSIX files. FileDescriptor owns a descriptor. InputFile reads bytes from any offset of a file.
 #pragma once
 
 #include <sys/stat.h>
@@ -57,7 +57,7 @@ class InputFile {
   /// could belong to different clouds.
   void read(std::size_t offset, void* to, std::size_t bytes) const;
 
-  /// Tells the system that these bytes will be read soon.
+  /// Tells the system that `bytes` bytes from `offset` on will be read soon.
   void prefetch(std::size_t offset, std::size_t bytes) const;
 
   /// Throws IoError if the file's size or times differ from those when it was opened.

@@ -29,11 +29,12 @@ struct DistanceCenter {
 /// point, the relative error of the value is at most 5 * 2^-53, plus underflow.
 double squared_distance(const Coordinates& p, const DistanceCenter& center);
 
-/// Whether float arithmetic rejects points before double arithmetic decides. The choice changes the speed and
-/// OctantScan::bounds, but no other result. `reject` is faster if most blocks are clearly within the limit,
-/// but not if nearly all points have about the same distance from the centre. Use `reject` for extents from
-/// 1e-30 to 1e18. For other extents, squares of floats underflow or overflow, and double arithmetic decides
-/// about every point anyway.
+/// Whether a test in float arithmetic rejects points nearer than the limit, so that only the remaining points
+/// are tested in double arithmetic. The choice changes the speed and OctantScan::bounds, but no other result.
+/// `reject` is faster if nearly all points are clearly nearer than the limit. It is not faster if nearly all
+/// points have about the same distance from the centre. Use `reject` for extents from 1e-30 to 1e18. For
+/// other extents, squares of floats underflow or overflow, and every point is tested in double arithmetic
+/// anyway.
 enum class FloatFilter : std::uint8_t { off, reject };
 
 /// Returns the number of blocks of a cloud. The last block may be shorter than kBlockPoints.
@@ -49,7 +50,7 @@ inline constexpr std::size_t kBlockBounds = kBlockPoints / kBoundPoints;
 struct OctantScan {
   DistanceCenter center;
   double limit = 0;                       ///< Points with a smaller squared_distance() are ignored.
-  FloatFilter filter = FloatFilter::off;  ///< scan_octants() sets `off` if floats rejected few points.
+  FloatFilter filter = FloatFilter::off;  ///< scan_octants() switches it off if it rejects few points.
   float* bounds = nullptr;                ///< Null, or an array for kBlockBounds bounds (see ScanBounds).
 
   /// Result: the largest squared_distance() of the valid points in each octant around the centre. The value
@@ -58,14 +59,15 @@ struct OctantScan {
   std::array<double, 8> max_squared{};
 };
 
-/// Scans one block of at most kBlockPoints points. `max_squared` is the same for every `isa`, but `filter`
-/// and the bounds may differ. O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for
-/// more than kBlockPoints points, for points that are not in memory, and for float points if the scale is not
-/// 1.
+/// Scans one block of at most kBlockPoints points. `max_squared` is the same for every `isa`, but the
+/// resulting `filter` and bounds may differ. O(n). The caller must hold a FloatEnvironment. Throws
+/// std::invalid_argument for more than kBlockPoints points, for points that are not in memory, and for float
+/// points if the scale is not 1.
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
 /// The bounds that scan_octants() wrote for a block of float points, and the limit below which
-/// list_distant_by_bounds() may skip points.
+/// list_distant_by_bounds() may skip points. A bound is the largest squared distance, in float, of
+/// kBoundPoints points from the centre of the scan. It is infinite if these points were not tested in float.
 struct ScanBounds {
   const float* bounds = nullptr;
   double limit = 0;  ///< Points with a smaller squared distance from the centre of the scan may be skipped.

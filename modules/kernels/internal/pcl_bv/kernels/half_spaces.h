@@ -35,8 +35,8 @@ struct HalfSpaces {
   std::array<HalfSpace, kMaxHalfSpaces> planes{};
 
   /// A point is inside without further tests if its rounded squared distance from the centre is below this
-  /// value. 0 means no ball. The half-spaces must contain the ball with a margin for the rounding of both
-  /// tests.
+  /// value. 0 means no ball. The half-spaces must contain the ball with a margin for the rounding in the
+  /// tests of the ball and of the half-spaces.
   double squared_ball = 0;
 };
 

@@ -56,8 +56,8 @@ struct BoxLevels {
 
   std::vector<BoxGroup> groups;
   /// For each group: the squared radius, in the frame of the boxes, of the smallest ball that contains a
-  /// whole side of one of the group's boxes. Such a ball certainly contains a point of that box. Empty if the
-  /// items are not the packets of a PackedTree.
+  /// whole side of one of the group's boxes. Each side of a box touches a point, so the ball certainly
+  /// contains a point. Empty if the items are not the packets of a PackedTree.
   std::vector<float> min_side_radius;
   std::array<std::size_t, kMaxLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
   /// Number of children of each level. The children of level 0 are the items. The children of level n > 0 are

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tests which points are inside at least one of several convex regions, in the scalar type of the points.
-// Most points are decided. A point stays undecided only if it is within the error bound of a surface, or if
-// it is in the box of a region whose coordinates are too large to be summed without overflow.
+// Tests, in the scalar type of the points, which points are inside at least one of several convex regions.
+// The test decides nearly all points. It leaves a point undecided in two cases: the point is within the error
+// bound of a surface, or it is in the box of a region with coordinates so large that sums could overflow.
 #pragma once
 
 #include <array>
@@ -35,11 +35,11 @@ struct ConvexRegion {
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// Error bound of the other members. The surface that these members describe may be off the true surface by
-  /// at most surface_error + 2^-43 (|q|_1 + radius).
+  /// Error bound of the surface that `center` and the members below describe. This surface differs from the
+  /// true surface by at most surface_error + 2^-43 (|q|_1 + radius).
   double surface_error = 0;
 
-  std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11, like the normals of planes.
+  std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11; so are the normals in `planes`.
   std::array<double, 3> slab = {std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::infinity()};

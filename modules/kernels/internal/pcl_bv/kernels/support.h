@@ -44,8 +44,8 @@ struct SupportDirections {
   /// magnitude. Throws std::invalid_argument for other directions, and if there are kMaxSupportDirections
   /// already.
   void add(const Direction& direction);
-  /// Returns the direction whose maximum projection is the support. This is exact[support / 2] if `support`
-  /// is odd, and the opposite direction if `support` is even.
+  /// Returns the direction on which the support has the maximum projection: exact[support / 2] if `support`
+  /// is odd, the opposite direction if `support` is even.
   Direction support_direction(std::size_t support) const;
   /// Like support_direction(), but returns a direction of `scaled` or its opposite.
   Direction scaled_support_direction(std::size_t support) const;
@@ -62,9 +62,10 @@ struct SupportPoint {
 /// or if both projections are equal and the index of `other` is smaller.
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best);
 
-/// Known lower bounds of a cloud's supports, one per support. If the bound of a support is finite, the cloud
-/// has a known point whose projection on the scaled_support_direction() is certainly at least the bound.
-/// Points with smaller projections need not be found. The bound is -infinity if no such point is known.
+/// Known lower bounds of a cloud's maximum projections, one per support. If the bound of a support is finite,
+/// the cloud has a known point whose projection on the scaled_support_direction() is certainly at least the
+/// bound. Points with smaller projections need not be found. The bound is -infinity if no such point is
+/// known.
 using SupportBounds = std::array<double, kMaxSupports>;
 
 /// Returns -infinity for each support, which means that no bound is known.
@@ -75,7 +76,8 @@ inline constexpr SupportBounds no_support_bounds() {
   return bounds;
 }
 
-/// Returns a lower bound of the exact projection of a point, for use in SupportBounds.
+/// Returns a lower bound of the exact projection of a point on scaled_support_direction(support), for use in
+/// SupportBounds.
 double projection_lower_bound(const SupportDirections& set, std::size_t support, const Coordinates& point);
 
 /// The supports of a chunk. Only the first 2 * SupportDirections::count elements of `supports` are used.
@@ -90,7 +92,7 @@ struct ChunkSupports {
 /// point. If the projection of the support point is at least the support's element of `bounds`, the support
 /// point is found and is the same for every `isa`. Otherwise, whether it is found depends on `isa`.
 ///
-/// O(n * count). If floats overflow or underflow, all points are compared exactly, which is slow. Floats
+/// O(n * set.count). If floats overflow or underflow, all points are compared exactly, which is slow. Floats
 /// overflow for extents above 1e38. Without SupportDirections::cube, they underflow for extents below 1e-43.
 /// Needs at most 220 KiB of stack. The caller must hold a FloatEnvironment. Throws std::invalid_argument for
 /// more than kChunkPoints points or kMaxSupportDirections directions, and if the points are not in memory.

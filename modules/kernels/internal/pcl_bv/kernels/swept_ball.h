@@ -17,10 +17,10 @@ namespace [[gnu::visibility("default")]] detail {
 /// power of two so that its largest component is from 1 to 2 in magnitude. Times in this frame refer to the
 /// scaled direction.
 struct SweptBall {
-  float origin[3], inverse[3];  ///< Start point and reciprocal direction in the frame of the boxes.
+  float origin[3], inverse[3];  ///< Start point, and 1 / direction per axis, in the frame of the boxes.
   float margin;  ///< The radius plus a bound of the rounding to float. It is added to each side of every box.
                  ///< Infinite if floats are not precise enough; then every box is entered at time 0.
-  double time;   ///< Factor from times t to times in the frame of the boxes.
+  double time;   ///< Factor that converts a time t to a time in the frame of the boxes.
   Coordinates from, unit;  ///< Start point and unit direction, in the unit of the points.
   double radius;
 
@@ -52,9 +52,9 @@ class PacketVisitor {
 
 /// Calls visitor.visit() for packets until the ball enters all remaining boxes after the time that visit()
 /// returned last. With every `isa`, visit() receives every point that the ball touches up to that time, as
-/// decided by Sphere(point, radius).intersect(). Which other points visit() receives, and in which order,
-/// depends on `isa`. (Vector kernels visit boxes with early entry times first.) For an empty tree visit() is
-/// not called. The caller must hold a FloatEnvironment.
+/// decided by Sphere(point, radius).intersect(). The other points that visit() receives, and the order of the
+/// calls, depend on `isa`. (Vector kernels visit boxes with early entry times first.) For an empty tree
+/// visit() is not called. The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 }  // namespace detail

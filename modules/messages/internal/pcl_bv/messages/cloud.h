@@ -21,8 +21,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// - All three are float32 or all three are float64, in this machine's byte order.
 /// - The rows have no padding. If the data has exactly the bytes that the points need, row_step is ignored.
 ///
-/// Throws MessageError (serialize.h) if the data is too short for the points, if point_step or row_step does
-/// not fit, or if x, y or z is missing, of an unknown type or outside of the record.
+/// Throws MessageError (serialize.h) if the data is too short for the points, if point_step is 0, if row_step
+/// is shorter than a row or too long for the data, or if x, y or z is missing, of an unknown type or outside
+/// of the record.
 std::optional<PointView> view_points(const msg::PointCloud2& cloud);
 
 /// Returns a view of the intensities (see intensity_of()) without a copy. Returns nullopt if there is no
@@ -40,7 +41,7 @@ std::string skipped_fields_note(const msg::PointCloud2& cloud);
 /// - Its type is unknown.
 /// - It exceeds the record.
 /// - It is a second x, y or z.
-/// - It would make the new records longer than twice point_step.
+/// - It would make the records of the copy longer than twice point_step.
 ///
 /// RawCloud::note is skipped_fields_note(). A cloud without points gives an empty cloud. Throws as
 /// view_points(). Takes linear time in the number of points.

@@ -30,8 +30,8 @@ struct RecordedMessage {
   std::size_t size = 0;              ///< Bytes of data.
 };
 
-/// A list of warnings with at most eleven lines. These are the first ten warnings, then the number of all
-/// others.
+/// A list of warnings with at most eleven lines. These are the first ten warnings, then one line with the
+/// number of further warnings.
 class WarningList {
  public:
   /// Adds a warning.

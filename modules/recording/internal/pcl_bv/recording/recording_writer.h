@@ -35,7 +35,7 @@ class RecordingWriter {
   virtual void write(std::size_t topic, std::int64_t log_time_ns, std::int64_t publish_time_ns,
                      const std::byte* data, std::size_t size) = 0;
 
-  /// Adds a file with this name and content to the recording. Throws IoError if it cannot be written.
+  /// Adds a file with this name and content to the recording. Throws IoError if the file cannot be written.
   virtual void attach(const std::string& name, const std::string& media_type, const std::string& content,
                       std::int64_t log_time_ns) = 0;
 

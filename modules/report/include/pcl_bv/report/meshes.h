@@ -47,8 +47,8 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 /// The field data `methods` has the names of the methods. Throws as volumes_ply().
 std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked = false);
 
-/// Returns the valid points as a VTK PolyData file with one cell. The `label` of the point with index i is
-/// labels[i].
+/// Returns the valid points as a VTK PolyData file with one cell. The point with the index i
+/// (PointView::index()) has the value labels[i] in the array `label`.
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);
 
 /// Writes volumes_ply() or volumes_vtp() to a file through write_file_atomically(). Throws IoError if the
@@ -60,7 +60,7 @@ void write_volumes(const std::filesystem::path& path, const std::vector<ClusterE
 struct PvdEntry {
   double time_seconds = 0;
   std::string file;  ///< Path of the file, UTF-8, relative to the folder of the .pvd file.
-  int part = 0;      ///< Number of the file among those that are shown at the same time.
+  int part = 0;      ///< Number of the file among the files that are shown at the same time.
 };
 
 /// Beginning of a .pvd file, which is the index of a ParaView time series. The file is kPvdBegin, all

@@ -41,8 +41,8 @@ struct TrackEntry {
   /// Velocity in units of the points per second. It is in the fixed frame if the sensor's pose is known.
   /// Otherwise it is relative to the sensor, in the sensor's frame.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  /// Whether the object moves over ground. If the sensor's motion is unknown, whether the object moves
-  /// relative to the sensor.
+  /// Whether the object moves relative to the ground or, if the sensor's motion is unknown, relative to the
+  /// sensor.
   bool moving = false;
   /// x, y, z of the centre, and the heading (yaw) in radians, in the frame of `velocity`. The yaw is the
   /// direction of motion over ground. Before the object has moved, the yaw is the direction of the longer
@@ -115,8 +115,8 @@ using TextSink = std::function<void(std::string& piece)>;
 /// volumes.
 std::string report_json(const Report& report);
 
-/// Writes the text of report_json() to `take` in pieces of about a megabyte, with the clusters of `clusters`
-/// instead of report.clusters.
+/// Writes the text of report_json() to `take` in pieces of about a megabyte. The clusters are those of
+/// `clusters`; report.clusters is ignored.
 void write_report_json(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 /// Returns the report as text: a line about the input, then a table of at most 120 columns. The table has a
@@ -124,8 +124,8 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
 /// width, height and the yaw (Obb::yaw()) in radians. The numbers are rounded; report_json() has the exact
 /// values. Returns an empty text for a failed report.
 std::string report_text(const Report& report);
-/// Writes the text of report_text() to `take` in pieces, with the clusters of `clusters` instead of
-/// report.clusters.
+/// Writes the text of report_text() to `take` in pieces. The clusters are those of `clusters`;
+/// report.clusters is ignored.
 void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 /// The result of one frame. If `error` is set, the frame was not processed, and only seq, stamp_ns, frame_id,
@@ -146,7 +146,7 @@ struct FrameReport {
 /// `track` is null for a cluster without a track.
 std::string frame_json(const FrameReport& report);
 
-/// Like frame_json(report), with the clusters of `clusters` instead of report.clusters.
+/// Like frame_json(report), but the clusters are those of `clusters`, and report.clusters is ignored.
 std::string frame_json(const FrameReport& report, const ClusterSource& clusters);
 
 }  // namespace pcl_bv

@@ -15,7 +15,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// Names of the columns of every volume.
 /// - cx, cy, cz: the center().
 /// - sx, sy, sz: the full size along the shape's own axes. For an upright box (obb-yaw, obb-lshape), this
-///   size is the length, width and height. The axis of a cylinder or capsule is its own z axis.
+///   size is the length, width and height. The own z axis of a cylinder or capsule is along the axis of the
+///   shape.
 /// - qx, qy, qz, qw: the unit quaternion that rotates the world's axes to the shape's axes.
 /// - radius: the radius of a sphere, cylinder or capsule. A sphere has no size.
 ///
@@ -24,8 +25,8 @@ namespace [[gnu::visibility("default")]] detail {
 inline constexpr std::string_view kCsvColumns =
     "cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume";
 
-/// Names of the columns of a track, which are TrackEntry::velocity and TrackEntry::pose. The columns are
-/// empty for a cluster without a track.
+/// Names of the columns of a track, which are TrackEntry::velocity and TrackEntry::pose. For a cluster
+/// without a track, the columns are empty.
 inline constexpr std::string_view kCsvTrackColumns = "vx,vy,vz,x,y,z,yaw";
 
 /// Names of the last columns: the full lengths of an upright box along its axes 0, 1 and 2, and Obb::yaw() in
@@ -52,8 +53,8 @@ void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std
 /// Returns the lines of all clusters of the report. The first column is the report's file. Returns an empty
 /// text for a failed report.
 std::string report_csv(const Report& report);
-/// Writes the lines of report_csv() to `take` piece by piece, with the clusters of `clusters` instead of
-/// report.clusters.
+/// Writes the lines of report_csv() to `take` piece by piece. The clusters are those of `clusters`;
+/// report.clusters is ignored.
 void write_report_csv(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 /// Returns the heading of report_csv(), which is "file", kCsvColumns and kCsvUprightColumns.

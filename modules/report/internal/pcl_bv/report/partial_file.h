@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of partial results. The points of a cloud are divided into shares. A file has the contribution of one
-// share to the volumes of the whole cloud. All files are merged on one machine.
+// Files of partial results. The points of a cloud are divided into shares, and each file has the contribution
+// of one share to the volumes of the whole cloud. One machine merges all files.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,12 +28,12 @@ struct PartialFile {
   /// Value of `inputs_hash` for a cloud without inputs. It is the offset basis of FNV-1a.
   static constexpr std::uint64_t kEmptyInputsHash = 0xcbf29ce484222325;
 
-  /// FNV-1a hash of each input's name and number of points (see add_input()).
+  /// FNV-1a hash of the names and numbers of points of all inputs (see add_input()).
   std::uint64_t inputs_hash = kEmptyInputsHash;
   std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
-  std::string filter;                     ///< Description of the point filters, for the check of merge().
+  std::string filter;                     ///< Description of the point filters; merge() compares it.
   Counts counts;                          ///< Dropped points of this share; only `range` and `inside`.
   /// Points of this share as ranges [first, second) of point numbers, ascending, neither empty nor adjacent.
   std::vector<std::pair<std::size_t, std::size_t>> shares;
@@ -43,9 +43,9 @@ struct PartialFile {
   /// name without folders.
   void add_input(std::string_view name, std::size_t points);
 
-  /// Merges another share into this one. Merging is associative and commutative. Throws std::invalid_argument
-  /// and changes nothing if the other share has another cloud, origin, filter or type of coordinates, or if
-  /// the shares have a point in common.
+  /// Merges another share into this share. Merging is associative and commutative. Throws
+  /// std::invalid_argument and changes nothing if the other share has another cloud, origin, filter or type
+  /// of coordinates, or if the shares have a point in common.
   void merge(const PartialFile& other);
 
   /// Returns whether all points of the cloud are in this share.

@@ -52,8 +52,8 @@ struct Picture {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity, of any length except 0.
 };
 
-/// Returns the picture as the content of a PNG file. Points of a cluster have the cluster's colour. All other
-/// points are grey. The same input gives the same bytes.
+/// Returns the picture as the content of a PNG file. If there are labels, points of a cluster have the
+/// cluster's colour, and all other points are grey. The same input gives the same bytes.
 ///
 /// The frame covers these parts of the scene:
 /// - The volumes. If there are 16 or more, the outermost sixteenth is ignored at each side of the frame.
@@ -79,7 +79,7 @@ std::string picture_png(const Picture& picture);
 std::string picture_svg(const Picture& picture);
 
 /// Writes picture_svg() if the name ends in .svg (in any case), else picture_png(). Writes the file through
-/// write_file_atomically(). Throws IoError if this fails. An existing file is then unchanged.
+/// write_file_atomically(). Throws IoError if writing fails. An existing file is then unchanged.
 void write_picture(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace detail
