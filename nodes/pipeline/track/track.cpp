@@ -159,7 +159,8 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
 
 double cost_of(const Track& track, const Aabb& box, double gate) {
   const BoxDifference difference = track.difference_to(box);
-  // The variance is not rotated into the sensor's axes, which is accurate enough for a gate.
+  // The variance along the axes of the fixed frame is accurate enough for a gate, so it is not rotated into
+  // the sensor's axes.
   const Eigen::Vector3d variance = track.motion.position_variance();
   const double slack = kFaceVariance + gate * gate / 16, max_variance = std::max(variance.x(), variance.y());
   double cost = 0;

@@ -56,7 +56,7 @@ struct Track {
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 
   /// Returns the reported state. `apparent_velocity` is the velocity of static points in the sensor's frame.
-  /// With `fixed`, the state is in the fixed frame, otherwise in the sensor's frame.
+  /// If `fixed` is true, the state is in the fixed frame, otherwise in the sensor's frame.
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent_velocity) const;
 
  private:
