@@ -40,7 +40,7 @@ class SharePoints {
   FilteredView filtered_;
 };
 
-/// Returns the data that all shares of a cloud have in common, without any share.
+/// Returns a partial file with the data that all shares of a cloud have in common. The file has no share yet.
 PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
                            const Options& options);
 

@@ -7,7 +7,7 @@
 import { byId, element } from "./elements.js";
 
 const UNSET = "null";
-const ANSWER_MS = 2000; // a refusal within this time after the last change is treated as the answer to the change
+const ANSWER_MS = 2000; // a refusal within this time after the last change is treated as an answer to it
 
 export class Settings {
   // send(message) sends a message to the server.

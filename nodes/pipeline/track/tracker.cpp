@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tracking predicts the tracks, selects plausible pairs, assigns boxes at minimum cost, then updates the
-// tracks.
+// Tracking predicts the tracks, selects plausible pairs of a track and a box, assigns boxes to tracks at
+// minimum cost, then updates the tracks.
 
 #include "tracker.h"
 

@@ -158,9 +158,9 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
 FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
 /// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, the picture shows
-/// the points that passed the filter in the colours of `labels` (from labels_of()) and the id of each
-/// cluster. Without clustering, the picture shows the points that passed the filter and are not ground. The
-/// picture refers to `frame`, `result` and `labels`.
+/// the id of each cluster and the points that passed the filter. `labels` (from labels_of()) determines the
+/// colours of the points. Without clustering, the picture shows the points that passed the filter and are not
+/// ground. The picture refers to `frame`, `result` and `labels`.
 detail::Picture picture_of(const Frame& frame, const FrameResult& result,
                            const std::vector<std::uint32_t>& labels);
 
