@@ -53,7 +53,7 @@ class BoxFilter {
   /// A merged cluster changes neither the mean yaw nor the stored sizes. A separated cluster restarts the
   /// stored sizes.
   ///
-  /// The third axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
+  /// Axis 2 is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
   /// are empty or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
 
