@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kVoteDecay = 0.9;          // per frame, older votes lose weight by this factor
+constexpr double kVoteDecay = 0.9;          // share of weight that older votes keep per frame
 constexpr double kVoteLead = 2;             // lead over axis 0 with which another direction becomes axis 0
-constexpr double kMovingDecay = 0.5;        // per frame, older yaws of a moving object lose weight by this factor
-constexpr double kStaticDecay = 0.97;       // per frame, older yaws of a static object lose weight by this factor
+constexpr double kMovingDecay = 0.5;        // share of weight that older yaws keep per frame; moving object
+constexpr double kStaticDecay = 0.97;       // share of weight that older yaws keep per frame; static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 
