@@ -25,7 +25,7 @@ int main() {
   }
 
   const auto sphere = pcl_bv::fit_smallest_sphere(points);
-  const double least = sphere.certificate.lower_bound;  // radius for certain points, at most four
+  const double least = sphere.certificate.lower_bound;  // computed from at most four of the points
   std::cout << "radius " << sphere->radius() << "; no enclosing sphere has a radius below " << least << "\n";
   return outside == 0 && sphere->radius() <= least * (1 + 1e-12) ? 0 : 1;
 }

@@ -17,14 +17,14 @@ namespace [[gnu::visibility("default")]] detail {
 /// Result of filter_points().
 struct FilteredView {
   PointView points;  ///< As many points as the input has; dropped points are NaN.
-  Counts counts;     ///< Number of dropped points by reason; all 0 if the filter keeps every point.
+  Counts counts;     ///< Number of dropped points by reason. All 0 if `owner` is null.
   std::shared_ptr<const PointSource> owner;  ///< Source of `points`; null if `points` is the input.
 };
 
 /// Returns a view of `points` that filters the points whenever they are loaded, as FramePipeline does. The
 /// input must outlive the view. Makes one pass over the points to count the dropped ones. If the filter keeps
-/// all points, makes no pass. Throws std::invalid_argument if `points` has an index list, and IoError if a
-/// region file cannot be read.
+/// all finite points, makes no pass and returns `points` itself, possibly with points that are not finite.
+/// Throws std::invalid_argument if `points` has an index list, and IoError if a region file cannot be read.
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution);
 
 }  // namespace detail

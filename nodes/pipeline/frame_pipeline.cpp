@@ -143,7 +143,7 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
   return select_points(points, result.ground.rest);
 }
 
-// Makes all points one cluster. If this cluster is too small or too large, makes none.
+// Makes one cluster of all points. If this cluster would be too small or too large, makes no cluster.
 void make_one_cluster(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;

@@ -44,8 +44,8 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
 }
 
 // The step is the difference of the stamps or, if the stamp did not advance, of the recording times. A stamp
-// that did not advance is not trusted. Therefore the step after it is again the difference of the recording
-// times, if that is positive.
+// that did not advance is not trusted. Therefore, if the recording time advances, the step to the next frame
+// is the difference of the recording times, too.
 //
 // The time must not overflow, not even if a driver sometimes writes the stamp 0. Therefore the first time is
 // at most INT64_MAX / 2, and each step is at most two seconds. The limit of steps does not change tracks,

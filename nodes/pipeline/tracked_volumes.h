@@ -52,7 +52,7 @@ class TrackedVolumes {
   TrackClock clock_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
-  std::vector<const Method*> methods_;  // methods whose boxes `filters_` filters
+  std::vector<const Method*> methods_;  // methods of the last frame, for `filters_`
   // Element s * methods_.size() + m is the filter for method m of the track in slot s.
   std::vector<BoxFilter> filters_;
 };

@@ -125,7 +125,8 @@ void StreamRunner::State::wait_for_work(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-// Waits. Then returns the frame or lost frame with the smallest number, or monostate at the end.
+// Waits as wait_for_work() does. Then returns the frame or lost frame with the smallest number, or monostate
+// at the end.
 StreamRunner::State::Task StreamRunner::State::take() {
   std::unique_lock lock(mutex);
   working = false;

@@ -86,7 +86,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
     if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
     claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));
-    if (files == ".pcd") claims.reject_input(sink.target);  // its clouds would be read as those of the source
+    if (files == ".pcd") claims.reject_input(sink.target);  // the source would read the clouds of the sink
   }
   if (options.stats) claims.claim(*options.stats);
 }

@@ -36,8 +36,8 @@ struct StreamOptions {
   double report_seconds = 0;  ///< Seconds between reports. 0: no reports.
 };
 
-/// Parses the command line. Returns the options, or for --help, --version and --print-config a text to be
-/// printed on standard output. Throws UsageError, and IoError for a folder that cannot be listed.
+/// Parses the command line and returns the options. For --help, --version and --print-config, returns a text
+/// for standard output instead. Throws UsageError, and IoError for a folder that cannot be listed.
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv);
 
 }  // namespace pcl_bv::detail

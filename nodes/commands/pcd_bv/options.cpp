@@ -84,15 +84,15 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.flag("--progress", texts.progress, "Show a progress bar if standard error is a terminal");
 }
 
-// Returns nullopt for an empty name, which means that the option is absent, because the parser rejects empty
-// names.
+// Returns nullopt for an empty name. The parser rejects empty names on the command line, so an empty name
+// means that the option is absent.
 std::optional<std::filesystem::path> path_or_none(const std::string& name) {
   if (name.empty()) return std::nullopt;
   return name;
 }
 
-/// Throws UsageError if the file has an extension other than these. A name without an extension may be a
-/// folder.
+/// Throws UsageError if the extension of the file is not in `known`. Names of folders and names without an
+/// extension are allowed.
 void require_extension(const char* option, const std::string& name,
                        std::initializer_list<std::string_view> known) {
   const std::string extension = lower_case_extension(name);

@@ -65,8 +65,8 @@ enum class PcdBvCommand {
   mpi  ///< pcd_bv_mpi, which has no options for files of partial results.
 };
 
-/// Parses the command line. Returns the options, or for --help, --version and --print-config a text to be
-/// printed on standard output. Throws UsageError.
+/// Parses the command line and returns the options. For --help, --version and --print-config, returns a text
+/// for standard output instead. Throws UsageError.
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
                                                  PcdBvCommand command = PcdBvCommand::serial);
 

@@ -66,8 +66,8 @@ class OrderedResults {
  public:
   OrderedResults(const Options& options, std::size_t jobs, std::size_t workers);
 
-  /// Returns the number of the next job, or nullopt if there is none or stop() was called. Waits while an
-  /// earlier job is not finished and too many later results wait for it.
+  /// Returns the number of the next job, or nullopt if there is none or stop() was called. If an earlier job
+  /// is not finished and the next job is too far ahead of that job, waits.
   std::optional<std::size_t> next();
 
   /// Stores the result of a job. Then writes the stored results in order, up to the first job that has no

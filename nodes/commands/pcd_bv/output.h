@@ -28,7 +28,7 @@ class ReportWriter {
   /// Adds a piece of a report. `goes_on` is false for the first piece of each report.
   bool add(std::string&& piece, bool goes_on);
 
-  /// Completes the output after the last report. If there is a file, creates it.
+  /// Completes the output after the last report. If the reports go to a file, creates the file.
   bool finish();
 
  private:

@@ -30,9 +30,9 @@ struct Outcome {
   std::vector<ClusterEntry> entries() const;
 };
 
-/// Processes a job. Loads, segments, fits, verifies, and writes the labels, the mesh, the picture and the
-/// HTML page. Problems with inputs or files are not thrown. They are reported on standard error and change
-/// the status. For a failed input, `report.error` is set, too.
+/// Processes a job: loads the cloud, finds clusters, fits and checks volumes, and writes the labels, the
+/// mesh, the picture and the HTML page. Problems with inputs or files are not thrown, but reported on
+/// standard error. They change the status. For a failed input, `report.error` is set, too.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
 /// Reports failed fits and points outside of volumes on standard error. Returns the resulting status.

@@ -25,8 +25,8 @@ Execution execution_of(const Options& options);
 /// copied or moved.
 class SharePoints {
  public:
-  /// `range` holds the numbers of the points. The filter makes an additional pass over them to count dropped
-  /// points.
+  /// `range` holds the numbers of the points. The filter makes an additional pass over the points to count
+  /// the dropped ones.
   SharePoints(const Tiles& tiles, const PointRange& range, const std::optional<Eigen::Vector3d>& origin,
               const Options& options);
   SharePoints(const SharePoints&) = delete;
@@ -40,7 +40,7 @@ class SharePoints {
   FilteredView filtered_;
 };
 
-/// Returns the data that all shares of a cloud have in common, without any share.
+/// Returns a partial file with the data that all shares of a cloud have in common. The file has no share yet.
 PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
                            const Options& options);
 

@@ -20,9 +20,9 @@ class CommandLine {
   CommandLine(const std::string& command, const std::string& description, const std::string& footer);
   ~CommandLine();
 
-  /// Declare an option with a value. `type` is the placeholder of the value in the help text. A name without
-  /// dashes is a positional argument. `values` get all positional arguments, or the values of all repetitions
-  /// of the option.
+  /// Declare an option. An option() has a value, a flag() has none. `type` is the placeholder of the value in
+  /// the help text. A `name` without dashes declares positional arguments. `values` receives all positional
+  /// arguments, or the values of all repetitions of the option.
   void option(const char* name, std::string& value, const char* type, const std::string& help);
   void option(const char* name, std::vector<std::string>& values, const char* type, const std::string& help);
   void flag(const char* name, bool& value, const std::string& help);

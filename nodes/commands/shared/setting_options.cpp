@@ -41,13 +41,15 @@ std::pair<double, double> range_of(const StreamConfig& config) {
   return {config.pipeline.filter.range_min, config.pipeline.filter.range_max};
 }
 
-// Returns the option of a setting, with the name of the setting's part of its value: "--range MAX".
+// Returns the option of a setting. If only a part of the option's value belongs to the setting, appends the
+// name of this part: "--range MAX".
 std::string option_of(const Setting& setting) {
   const std::string option(setting.option);
   return setting.part.name.empty() ? option : option + ' ' + std::string(setting.part.name);
 }
 
-// Returns the help of an option, a line for each setting that it sets, with the choices and the default.
+// Returns the help of an option: one line, with the choices and the default, for each setting that the option
+// sets.
 std::string help_of(std::string_view option, const StreamConfig& defaults) {
   std::string help;
   visit_stream(defaults, [&](const Setting& setting, const auto& value) {
@@ -59,7 +61,8 @@ std::string help_of(std::string_view option, const StreamConfig& defaults) {
   return help;
 }
 
-// Takes the part of a setting from the front of an option's value; `rest` is what previous settings left.
+// Removes the part of a setting from the front of `rest` and returns this part. `rest` is the value of an
+// option without the parts of previous settings.
 std::optional<std::string> take_part(const Setting& setting, std::optional<std::string>& rest) {
   std::optional<std::string> part = std::exchange(rest, std::nullopt);
   const std::size_t colon = part && !setting.part.last ? part->find(':') : std::string::npos;

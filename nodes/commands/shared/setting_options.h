@@ -14,20 +14,20 @@
 namespace pcl_bv::detail {
 
 /// Returns a function that names settings by their options. A setting without an option has its key as its
-/// name. With `stream`, those of tracks and queues have options.
+/// name. The settings of tracks and queues have options only if `stream` is true.
 SettingName option_names(bool stream);
 
-/// The options that configure a command, namely --preset, --config, --range, --print-config and those of the
-/// settings (nodes/pipeline/config/settings.h). Options override the file, the file overrides the preset, and
-/// the preset overrides the defaults.
+/// The options that configure a command: --preset, --config, --print-config, the options for regions, and the
+/// options of the settings (nodes/pipeline/config/settings.h). Options override the file, the file overrides
+/// the preset, and the preset overrides the defaults.
 class SettingOptions {
  public:
-  /// Declares the options. With `stream`, also declares those of tracks and queues. Stores a reference to
-  /// `line`.
+  /// Declares the options. If `stream` is true, also declares the options of tracks and queues. Stores a
+  /// reference to `line`.
   SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream);
 
-  /// Returns the configuration of the parsed command line. If `range_from` is not null, it is set to the
-  /// origin of the range of distances, which is "--range", "--config FILE", "--preset NAME" or "the default;
+  /// Returns the configuration of the parsed command line. If `range_from` is not null, sets `*range_from`
+  /// to where the range of distances comes from: "--range", "--config FILE", "--preset NAME" or "the default;
   /// see --range". Throws UsageError.
   StreamConfig config(std::string* range_from = nullptr) const;
 

@@ -7,7 +7,7 @@
 // bytes are stored four times, and the shader computes one corner of the rectangle from each copy. Instancing
 // would need only one copy. It is not used, because software rendering takes about 15 us for each instance.
 //
-// A vertex of a triangle has 20 bytes: 3 float32, a normal of 4 int8, rgba.
+// A vertex of a triangle has 20 bytes: 3 float32 for the position, 4 int8 for the normal, and rgba.
 
 export const LINE_BYTES = 28;
 export const LINE_CORNERS = 4;

@@ -47,8 +47,9 @@ function lifted(colour, theme) {
   return colour.map((part) => part + (1 - part) * THEMES[theme].lift);
 }
 
-// Returns the colour of an object. It depends on the track id or, in mode "cluster" and for objects without a
-// track, on the cluster id. In mode "track", objects without a track have the plain colour.
+// Returns the colour of an object. It depends on the track id or, for objects without a track, on the cluster
+// id. In mode "cluster", the colour depends on the cluster id for all objects. In mode "track", objects
+// without a track have the plain colour.
 export function objectColour(cluster, mode, theme) {
   const tracked = typeof cluster.track === "number";
   if (mode === "track" && !tracked) return lifted(THEMES[theme].plain, theme);

@@ -23,7 +23,7 @@ function throughPlanes(planes, direction, pad) {
   return entry <= exit ? [entry, exit] : null;
 }
 
-// Returns the interval of t with a t^2 + 2 b t + c <= 0, or null.
+// Returns the interval of t in which `a * t^2 + 2 * b * t + c <= 0`, or null.
 function quadratic(a, b, c) {
   const root = b * b - a * c;
   if (root < 0 || a <= 0) return null;

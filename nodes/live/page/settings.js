@@ -7,7 +7,7 @@
 import { byId, element } from "./elements.js";
 
 const UNSET = "null";
-const ANSWER_MS = 2000; // a refusal within this time after the last change is treated as its answer
+const ANSWER_MS = 2000; // a refusal within this time after the last change is treated as an answer to it
 
 export class Settings {
   // send(message) sends a message to the server.
@@ -77,8 +77,8 @@ export class Settings {
     }
   }
 
-  // Shows the reason of a refusal at the field of the oldest pending change or else of a recent change.
-  // Returns false if there is no such change.
+  // Shows the reason of a refusal at the field of the oldest pending change. If no change is pending, shows
+  // the reason at the field of the last change, if that is recent. Returns false if there is no such field.
   refuse(reason) {
     const isRecent = performance.now() - this.lastChange.at < ANSWER_MS;
     const key = [...this.pendingKeys.values()][0] ?? (isRecent ? this.lastChange.key : null);

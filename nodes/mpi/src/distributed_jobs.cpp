@@ -21,7 +21,7 @@ std::size_t size_of_input(const Job& job) {
 }
 
 // Returns the rank of each job. The jobs are assigned in order of descending file size. Each job goes to the
-// rank whose jobs have the fewest bytes until then.
+// rank to which the fewest bytes have been assigned so far.
 std::vector<std::size_t> assign_ranks(const std::vector<Job>& jobs, std::size_t ranks) {
   std::vector<std::size_t> sizes, order(jobs.size()), owner(jobs.size()), load(ranks);
   for (const Job& job : jobs)

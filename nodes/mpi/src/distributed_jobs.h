@@ -34,8 +34,8 @@ class InterruptAction {
 };
 
 /// A collective call. Processes all jobs. The jobs are assigned to ranks in order of descending file size.
-/// Each job goes to the rank whose jobs have the fewest bytes until then. The first rank writes the results
-/// in the order of the jobs and returns the status of the run. The other ranks return Status::done.
+/// Each job goes to the rank to which the fewest bytes have been assigned so far. The first rank writes the
+/// results in the order of the jobs and returns the status of the run. The other ranks return Status::done.
 Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
                     InterruptAction& interrupted);
 

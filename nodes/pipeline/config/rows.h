@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The fields of list elements (rows) in the configuration, which are regions and classes.
+// The fields of rows. A row is an element of a list in the configuration, namely a region or a class.
 #pragma once
 
 #include <concepts>

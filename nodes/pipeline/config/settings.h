@@ -20,7 +20,8 @@ namespace [[gnu::visibility("default")]] detail {
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr double kFinite = std::numeric_limits<double>::max();
 
-/// A range of allowed numbers from `min` (excluded unless `closed`) to `max` (may be kNoLimit).
+/// The range of allowed numbers, from `min` to `max`. `min` itself is allowed only if `closed` is true. `max`
+/// is allowed and may be kNoLimit.
 struct NumberRange {
   double min = 0;
   double max = kFinite;
@@ -29,8 +30,8 @@ struct NumberRange {
   bool as_float = false;
 };
 
-/// The part of an option's value that belongs to a setting, if the option sets several settings. Their values
-/// have colons between them.
+/// The part of an option's value that belongs to a setting, if the option sets several settings. Colons
+/// separate the parts.
 struct OptionPart {
   std::string_view name{};  ///< "MIN" of "--range MIN:MAX"; empty if the setting has an option of its own.
   bool last = true;
@@ -138,7 +139,7 @@ void visit_runner(Runner& c, Visit&& visit) {
   visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.watchdog_s);
 }
 /// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the field of `c`, const if
-/// `c` is const. Its type is one of:
+/// `c` is const. The type of `value` is one of:
 /// - bool, double, std::size_t, std::string (the instruction set), Eigen::Vector3d (a direction) or an enum;
 /// - std::optional of a double, a std::size_t, a point or a FieldName;
 /// - std::vector of a std::string (methods), a RegionConfig or a ClassConfig.
@@ -170,8 +171,8 @@ void visit_stream(Stream& c, Visit&& visit) {
 /// Returns the range of the setting of a pipeline with this key.
 NumberRange range_of(std::string_view key);
 
-/// Return a value as text. Numbers have the fewest digits that read back exactly. A missing value is "null",
-/// and a missing limit is "unlimited".
+/// Return a value as text. Numbers have as few digits as read_text() needs to return the same number.
+/// A missing value is "null", and a missing limit is "unlimited".
 std::string to_text(bool value);
 std::string to_text(double value);
 std::string to_text(std::size_t value);

@@ -31,7 +31,7 @@ class SparseAssignment {
   void solve(std::size_t rows, std::size_t columns, const std::vector<AssignmentPair>& pairs,
              double unassigned_cost);
 
-  /// Returns the column of each row, or none.
+  /// Returns the column of each row; `none` for an unassigned row.
   const std::vector<std::size_t>& columns() const { return column_of_; }
 
  private:

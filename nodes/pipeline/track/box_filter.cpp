@@ -12,10 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kVoteDecay = 0.9;          // factor per frame of older votes
+constexpr double kVoteDecay = 0.9;          // share of weight that older votes keep per frame
 constexpr double kVoteLead = 2;             // lead over axis 0 with which another direction becomes axis 0
-constexpr double kMovingDecay = 0.5;        // factor per frame of older yaws in the mean yaw, moving object
-constexpr double kStaticDecay = 0.97;       // factor per frame of older yaws in the mean yaw, static object
+constexpr double kMovingDecay = 0.5;        // share of weight that older yaws keep per frame; moving object
+constexpr double kStaticDecay = 0.97;       // share of weight that older yaws keep per frame; static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
 
@@ -40,8 +40,8 @@ Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
   return result;
 }
 
-// Finds the slabs that contain all valid points. Widens the slabs slightly, so that Obb::contains() is true
-// for every point in spite of rounding errors.
+// Finds the slab along each axis that contains all valid points, relative to `origin`. Widens the slabs
+// slightly, so that Obb::contains() is true for every point in spite of rounding errors.
 void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
               Eigen::Vector3d& low, Eigen::Vector3d& high) {
   double farthest = 0;
@@ -108,7 +108,7 @@ double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& state) {
     sine_ = decay * sine_ + weight * std::sin(4 * yaw);
   }
   if (cosine_ == 0 && sine_ == 0) return 0;
-  // This is the rotation from the box to the mean yaw, radians.
+  // The result is the rotation from the yaw of the box to the mean yaw, radians.
   return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));
 }
 

@@ -34,26 +34,26 @@ class BoxFilter {
   /// Returns the same box with its axes in the order and directions of the last box, compared in the fixed
   /// frame. Empty boxes are returned unchanged.
   ///
-  /// Axis 0 of a moving object turns to the direction of motion. In each frame, the direction nearest to the
-  /// velocity gets a vote. The directions are those of axis 0 and axis 1, and their opposites. Older votes
-  /// decay. A direction with over two votes more than axis 0 becomes axis 0.
+  /// Axis 0 of a moving object turns to the direction of motion. The candidates are the directions of axis 0
+  /// and axis 1 and the two opposite directions. In each frame, the candidate nearest to the velocity gets a
+  /// vote. Older votes decay. A candidate with over two votes more than axis 0 becomes axis 0.
   Obb align_axes(const Obb& box, const BoxState& state);
 
   /// Returns a smoothed box around all points; `box` must come from align_axes().
   ///
-  /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
-  /// so it does not matter which side of the object was measured as the longer one.
+  /// If `smooth` is true, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90
+  /// degrees, so it does not matter which side of the object was measured as the longer one.
   ///
-  /// With `grow`, the filter stores a length and a width that approach the largest measured ones. In the
-  /// first five detections, the stored sizes grow without a limit, later by at most 0.15 m per frame. The
-  /// limit is needed because a cluster that contains two objects in one frame is larger, too. The box gets
+  /// If `grow` is true, the filter stores a length and a width that approach the largest measured ones. In
+  /// the first five detections, the stored sizes grow without a limit. Later they grow by at most 0.15 m per
+  /// frame, because a cluster that contains two objects in one frame is larger than the object. The box gets
   /// the stored or the measured size, whichever is larger. The box is extended on the side away from the
   /// sensor.
   ///
   /// A merged cluster changes neither the mean yaw nor the stored sizes. A separated cluster restarts the
   /// stored sizes.
   ///
-  /// The third axis is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
+  /// Axis 2 is unchanged. Every valid point is inside the returned box (Obb::contains()). Boxes that
   /// are empty or not upright are returned unchanged. O(points).
   Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
 
@@ -64,7 +64,7 @@ class BoxFilter {
   bool upright_;
   bool known_ = false;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // axes of the last box, in the fixed frame
-  std::array<double, 4> votes_{};                       // votes for axis 0, axis 1 and their opposites
+  std::array<double, 4> votes_{};                       // for axis 0, axis 1, opposite of 0, opposite of 1
   double cosine_ = 0, sine_ = 0;                        // decaying sums of the cosine and sine of 4 * yaw
   std::array<double, 2> sizes_{};
   std::size_t detections_ = 0;

@@ -33,7 +33,8 @@ class BoxGrid {
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& position, const Visit& visit) const {
     const double x = square(position.x()), y = square(position.y());
-    // Above 2^53, adding 1 does not change a double. An offset that does not change `x` is skipped.
+    // Above 2^53, adding 1 may not change a double. An offset that does not change `x` is skipped, so that no
+    // box is visited twice.
     for (const double offset : {-1.0, 0.0, 1.0}) {
       const double column = x + offset;
       if (offset != 0 && column == x) continue;

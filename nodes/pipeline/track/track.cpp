@@ -12,7 +12,7 @@ namespace {
 constexpr double kFaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
 constexpr double kFirstSpeed = 8;            // m/s; standard deviation of an unknown velocity
 constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise density of 1.7 m/s^2 every 0.1 s
-constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed, 57 degrees/s every 0.1 s
+constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed: 57 degrees/s every 0.1 s
 constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
 constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
 
@@ -159,7 +159,8 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
 
 double cost_of(const Track& track, const Aabb& box, double gate) {
   const BoxDifference difference = track.difference_to(box);
-  // The variance is not rotated into the sensor's axes, which is accurate enough for a gate.
+  // The variance along the axes of the fixed frame is accurate enough for a gate, so it is not rotated into
+  // the sensor's axes.
   const Eigen::Vector3d variance = track.motion.position_variance();
   const double slack = kFaceVariance + gate * gate / 16, max_variance = std::max(variance.x(), variance.y());
   double cost = 0;

@@ -41,7 +41,8 @@ struct Track {
   double yaw = 0, yaw_variance = 1;
   bool active = false, moving = false;
   std::optional<std::uint32_t> id;
-  std::optional<std::size_t> split_from;   // slot of the track whose expected box held this track's first box
+  // Slot of the track whose expected box contained the centre of this track's first box.
+  std::optional<std::size_t> split_from;
   std::size_t detections_since_split = 0;  // detections since the split or the last occlusion
 
   void start(const Aabb& box, const Pose& sensor);
@@ -56,7 +57,7 @@ struct Track {
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 
   /// Returns the reported state. `apparent_velocity` is the velocity of static points in the sensor's frame.
-  /// With `fixed`, the state is in the fixed frame, otherwise in the sensor's frame.
+  /// If `fixed` is true, the state is in the fixed frame, otherwise in the sensor's frame.
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent_velocity) const;
 
  private:

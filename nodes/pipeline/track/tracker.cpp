@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tracking predicts the tracks, selects plausible pairs, assigns boxes at minimum cost, then updates the
-// tracks.
+// Tracking predicts the tracks, selects plausible pairs of a track and a box, assigns boxes to tracks at
+// minimum cost, then updates the tracks.
 
 #include "tracker.h"
 
@@ -69,7 +69,7 @@ struct Tracker::State {
   std::uint32_t next_id = 0;
 };
 
-// Returns the velocity of a static point at `position` relative to the sensor.
+// Returns the velocity, relative to the sensor, of a static point at `position`.
 Eigen::Vector3d Tracker::State::apparent_velocity(const Eigen::Vector3d& position) const {
   if (!(step_seconds > 0)) return Eigen::Vector3d::Zero();
   const Eigen::Vector2d now = position.head<2>(), before = step.inverse() * now;

@@ -25,13 +25,13 @@ namespace [[gnu::visibility("default")]] detail {
 /// motion of the sensor (x, y, yaw) between frames from static boxes. If too few boxes agree
 /// (EgoMotion::estimate()), the tracker assumes that the sensor continues its last motion.
 ///
-/// A box may belong to a track if the smallest displacement of its faces and its change of size are
-/// plausible. For a track whose position is well known, the displacement is at most about TrackConfig::gate.
-/// All boxes are assigned jointly at minimum total cost (Kuhn 1955).
+/// A box may belong to a track if its shift from the expected box (BoxDifference::shift) and its change of
+/// size are plausible. For a track whose position is well known, the shift is at most about
+/// TrackConfig::gate. All boxes are assigned jointly at minimum total cost (Kuhn 1955).
 ///
 /// A track gets its id when it has TrackConfig::birth detections. A track is deleted after TrackConfig::death
 /// frames in a row without a detection. A track is occluded if its expected centre is inside the box of
-/// another object. Four frames in which a track is occluded are counted as one.
+/// another object. Four frames in which a track is occluded are counted as one frame without a detection.
 class Tracker {
  public:
   /// The track to which a box is assigned.

@@ -26,7 +26,8 @@ class LineFile {
   LineFile& operator=(const LineFile&) = delete;
 
   /// Appends `text` and `tail`. If the previous call of write() had a tail, overwrites that tail. Throws
-  /// IoError, and ClosedPipe if SIGPIPE is ignored.
+  /// IoError if the text cannot be written. If SIGPIPE is ignored, throws ClosedPipe for a pipe without a
+  /// reader.
   void write(std::string text, std::string_view tail = {});
 
   /// Closes the file. Throws IoError if the system only now reports an error of writing.

@@ -40,7 +40,7 @@ class NameReader {
     at_ += run.size();
     return run;
   }
-  // Reads a number of `count` digits. With `alone`, no further digit may follow. Returns -1 if there is no
+  // Reads a number of `count` digits. If `alone`, no further digit may follow. Returns -1 if there is no
   // such number.
   int number(std::size_t count, bool alone) {
     const std::string_view run = digits();
@@ -63,9 +63,9 @@ std::int64_t whole(std::string_view digits) {
   return read_whole_text(digits, value) ? value : -1;
 }
 
-// Reads hours, minutes, seconds and, if there is one, a fraction. With `apart`, hours, minutes and seconds
-// are separated by the same character (12-59-59), otherwise by nothing. Returns the seconds of the day, or -1
-// if there is no time.
+// Reads hours, minutes, seconds and, if there is one, a fraction. If `apart`, the same separator must precede
+// the minutes and the seconds (12-59-59). Otherwise there must be no separator. Returns the seconds of the
+// day, or -1 if there is no time.
 std::int64_t take_clock(NameReader& name, bool apart, ParsedTime& time) {
   const int hours = name.number(2, apart);
   const char between = name.here();

@@ -55,7 +55,7 @@ class Recorded final : public FrameSource {
   }
 
  private:
-  // Returns the number of clouds, as the index tells. Without an index, reads all messages to count the
+  // Returns the number of clouds according to the index. Without an index, reads all messages to count the
   // clouds.
   std::size_t count() {
     std::size_t messages = reader_->topics()[topic_].messages;

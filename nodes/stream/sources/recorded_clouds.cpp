@@ -97,8 +97,9 @@ void check_recording_content(const std::filesystem::path& file) {
       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
 }
 
-// Maximum number of skipped clouds that are stored. If several threads share the clouds of a file, some
-// clouds are requested shortly after later ones. Such clouds are then still stored.
+// Maximum number of skipped clouds that are stored. If several threads load clouds of one file, some clouds
+// are requested shortly after later clouds of the file. Without stored clouds, each such request would read
+// the file again.
 constexpr std::size_t kMaxSkipped = 16;
 
 struct RecordedClouds::State {

@@ -50,8 +50,8 @@ class RecordedClouds {
   /// Throws IoError if there is no cloud with this number, and MessageError if the message is not a cloud.
   RawCloud load(std::size_t number);
 
-  /// Returns the note of a loaded cloud. Returns an empty text if the cloud read before it had the same note,
-  /// as most clouds of a driver do.
+  /// Returns the note of a loaded cloud. If the cloud that was read before it has the same note, as is usual
+  /// for the clouds of one driver, returns an empty text.
   std::string new_note(std::size_t number) const;
 
   /// Returns a line for each damage of the file that has been found so far.

@@ -102,8 +102,8 @@ NameTimes interpretation_of(const Times& times) {
   return interpretation;
 }
 
-// Returns the last (or first) time of this kind in each name. Returns an empty list if a name has no such
-// time.
+// Returns the last time of this kind in each name or, if `last` is false, the first. Returns an empty list if
+// a name has no such time.
 Times times_of_kind(const std::vector<Times>& all, TimeKind kind, bool last) {
   Times times;
   const auto is_kind = [kind](const ParsedTime& time) { return time.kind == kind; };

@@ -63,22 +63,23 @@ struct Frame {
   std::chrono::steady_clock::time_point taken{};
 };
 
-/// Returns `noted`, a sensor position stored in a cloud, if it is usable. Returns nullopt for the origin,
-/// because clouds without a position store the origin. Also returns nullopt if a coordinate is not finite or
-/// exceeds kMaxCoordinate in magnitude.
+/// Returns `noted`, the sensor position that a cloud stores, if the position is usable. Returns nullopt for
+/// the origin, because clouds without a position store the origin. Also returns nullopt if a coordinate is
+/// not finite or exceeds kMaxCoordinate in magnitude.
 inline std::optional<Eigen::Vector3d> stored_sensor_position(const Eigen::Vector3d& noted) {
   // False for NaN.
   const bool is_position = (noted.array().abs() <= kMaxCoordinate).all() && !noted.isZero(0);
   return is_position ? std::optional(noted) : std::nullopt;
 }
 
-/// Returns VIEWPOINT of a .pcd file as a sensor position in the frame of the points. Returns nullopt if
-/// stored_sensor_position() does.
+/// Returns the sensor position in VIEWPOINT of a .pcd file, in the frame of the points. Returns nullopt if
+/// the position is not usable (stored_sensor_position()).
 inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
   return stored_sensor_position({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }
 
-/// Converts a time of the system clock (nanoseconds since 1970) to the steady clock, which nobody can set.
+/// Converts a time of the system clock, in nanoseconds since 1970, to a time of the steady clock. Nobody can
+/// set the steady clock.
 inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns) {
   const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));

@@ -27,8 +27,8 @@ namespace detail {
 struct Picture;
 }
 
-/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. The durations are counted in bins, each 1 %
-/// longer than the bin before. Never allocates.
+/// Percentiles of durations from 1 us to 1000 s, accurate to 1 %. Durations are counted in bins. The upper
+/// limit of a bin is 1 % above that of the bin before. Never allocates.
 class LatencyHistogram {
  public:
   /// Adds a duration in milliseconds. Durations below 1 us go into the first bin and durations above 1000 s
@@ -55,11 +55,11 @@ struct StageTimes {
   double decode = 0, filter = 0, ground = 0, cluster = 0, fit = 0, track = 0, total = 0;
 };
 
-/// Source of the time step between a tracked frame and the frame before.
+/// Source of the time step from the frame before to a tracked frame.
 enum class TrackTime : std::uint8_t {
-  /// The stamp advanced. The step is the difference of the stamps. Exception: if the frame before has
-  /// `recorded`, its stamp is not trusted. The step is then the difference of Frame::recorded_ns, if that
-  /// advanced.
+  /// The stamp advanced. The step is the difference of the stamps. Exception: if the frame before has the
+  /// source `recorded` and Frame::recorded_ns advanced, the step is the difference of Frame::recorded_ns. The
+  /// stamp of the frame before is then not trusted.
   stamps,
   recorded,  ///< The stamp did not advance. Frame::recorded_ns gives the step.
   none  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.
@@ -75,7 +75,7 @@ struct FrameResult {
   /// Indices of the points that passed the filter; see points_after_filter().
   std::vector<std::int32_t> passed_filter;
   GroundSplit ground;  ///< Ground and other points. `found` is false without ground removal.
-  /// Sensor position, which is the centre of the ground zones. It is the first of these that applies:
+  /// Sensor position, which is the centre of the ground zones. The first case that applies decides:
   /// 1. the origin, if no enabled setting depends on the position or the points are not in memory;
   /// 2. ground.sensor, if given;
   /// 3. Frame::sensor, if the points lie around it;
@@ -125,7 +125,7 @@ struct FrameResult {
 
 /// Returns for each point of the frame's cloud the number of its cluster, kLabelGround or kLabelNone. If
 /// frame.points has an index list, there is a label for each index from 0 to the largest one in the list.
-/// `result` must be that of `frame`.
+/// `result` must be the result of `frame`.
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
 /// Returns a warning if ground removal found no ground, or only ground, among at least 100 points. Otherwise
@@ -134,9 +134,9 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
 std::string ground_warning(const FrameResult& result, const SettingName& name = key_of_setting,
                            const std::string& better_up = "");
 
-/// Returns a warning if there are at least 100 finite points and more than half of them were dropped by their
-/// distance or in the box of the own vehicle (Counts::range). Otherwise returns an empty text. `from` tells
-/// where the range was set ("--preset table").
+/// Returns a warning if more than half of at least 100 finite points were out of range or in the box of the
+/// own vehicle (Counts::range). Otherwise returns an empty text. `from` tells where the range was set
+/// ("--preset table").
 std::string range_warning(const FrameResult& result, const std::string& from);
 
 /// Returns a warning if the frame is tracked and its stamp does not advance. Otherwise returns an empty text.
@@ -158,9 +158,9 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
 FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
 /// Returns a picture of the frame and its volumes, with ground.up upwards. With clustering, the picture shows
-/// the points that passed the filter in the colours of `labels` (from labels_of()) and the id of each
-/// cluster. Without clustering, the picture shows the points that passed the filter and are not ground. The
-/// picture refers to `frame`, `result` and `labels`.
+/// the id of each cluster and the points that passed the filter. `labels` (from labels_of()) determines the
+/// colours of the points. Without clustering, the picture shows the points that passed the filter and are not
+/// ground. The picture refers to `frame`, `result` and `labels`.
 detail::Picture picture_of(const Frame& frame, const FrameResult& result,
                            const std::vector<std::uint32_t>& labels);
 

@@ -66,7 +66,7 @@ struct ReplayOptions {
   /// stamp_in_name(), if possible in one whose stamps ascend. If no format gives ascending stamps, or if the
   /// files must be sorted by time, take_warnings() returns a warning. A name without a time gives a
   /// FrameError. In some folders, the fractions of seconds are whole numbers of milli-, micro- or nanoseconds
-  /// without leading zeros. There, 12.5 means 12.005 s.
+  /// without leading zeros. With milliseconds, 12.5 then means 12.005 s.
   ///
   /// For messages, the stamp is that of the header or, if the header's stamp is 0, the time of recording.
   bool own_stamps = false;

@@ -55,9 +55,9 @@ struct GroundConfig {
   /// Sensor position in the frame of the points, metres. Ground zones are centred there. If not given, the
   /// position is chosen as described at FrameResult::sensor.
   std::optional<Eigen::Vector3d> sensor;
-  /// Height above the ground, metres: with `zones`, of the sensor; with `plane`, of the origin. If not given,
-  /// the height is estimated. With `zones`, the height is ignored if the sensor's position is estimated (case
-  /// 5 of FrameResult::sensor).
+  /// Height of the sensor (`zones`) or of the origin (`plane`) above the ground, metres. If not given, the
+  /// height is estimated. With `zones`, the height is ignored if the sensor's position is estimated (case 5
+  /// of FrameResult::sensor).
   std::optional<double> sensor_height;
   /// Largest height of ground points above the ground surface, metres. If not given, the default of the
   /// method (GroundPlaneOptions, GroundZonesOptions).
@@ -86,7 +86,7 @@ struct ClusterConfig {
   double tolerance = 0.5;
   /// Objects with fewer points are dropped. If not given: 10, or 0 if `tolerance` is 0.
   std::optional<std::size_t> min_size;
-  /// `oversized` determines what happens to objects with more points.
+  /// Largest number of points of an object. `oversized` determines what happens to objects with more points.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
   /// Core condition of DBSCAN (Ester et al. 1996). Two points within the tolerance belong to one object only
   /// if at least one of them is a core point. A core point has at least `min_points` points within the
@@ -114,11 +114,11 @@ struct TrackConfig {
   bool grow = false;      ///< Give upright boxes the largest length and width seen of the object.
 };
 
-/// Returns how messages name a setting, given its key in the configuration file ("ground.up"), such as by an
-/// option of a command.
+/// A function that returns the name of a setting in messages, such as the option "--up" of a command. `key`
+/// is the key of the setting in the configuration file, such as "ground.up".
 using SettingName = std::function<std::string(std::string_view key)>;
 
-/// The SettingName that returns the key.
+/// The SettingName for messages that name settings by their keys.
 inline std::string key_of_setting(std::string_view key) {
   return std::string(key);
 }
@@ -137,8 +137,8 @@ struct PipelineConfig {
   std::string isa = "auto";  ///< Instruction set, a name that parse_isa() knows.
 
   /// Returns one line for each value that is not allowed. The line has the key as in the configuration file,
-  /// the value and the allowed range. If all values are allowed, returns one line for each combination that
-  /// is not.
+  /// the value and the allowed range. If each single value is allowed, returns one line for each combination
+  /// of values that is not allowed.
   std::vector<std::string> validate() const;
 
   /// Returns a warning for each setting that has no effect in combination with the others, such as

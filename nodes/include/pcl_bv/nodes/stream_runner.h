@@ -29,17 +29,18 @@ enum class QueuePolicy : std::uint8_t {
   block         ///< The sender waits, so that no frame is lost. Suits files.
 };
 
-/// Resolves `automatic`. If a sensor or a schedule determines when frames come (`paced`), returns
-/// drop_oldest. If each frame is read as soon as the queue has capacity, returns block. Any other policy is
-/// returned unchanged.
+/// Resolves `automatic`. If `paced`, a sensor or a schedule determines when frames come, and the result is
+/// drop_oldest. Otherwise each frame is read as soon as the queue has capacity, and the result is block. Any
+/// other policy is returned unchanged.
 QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
 struct RunnerConfig {
   std::size_t queue = 1;  ///< Maximum number of waiting frames, 1 to 100000.
   QueuePolicy policy = QueuePolicy::automatic;
-  double max_age_ms = 0;  ///< Frames that have waited longer are dropped; finite. 0: no limit.
-  double watchdog_s = 0;  ///< Seconds without a frame after which `on_silence` is called; finite. 0: never.
+  double max_age_ms = 0;  ///< Frames that have waited longer are dropped. 0: no limit. Must be finite.
+  /// Seconds without a frame after which `on_silence` is called. 0: never. Must be finite.
+  double watchdog_s = 0;
 };
 
 /// The complete configuration of a stream.
