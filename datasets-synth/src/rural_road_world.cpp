@@ -213,7 +213,8 @@ Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
     RoadPosition position{world.road.guess(at), 0};
     for (std::size_t k = 0; k < kSide; ++k) {
       const double across = y_ + kCell * static_cast<double>(k);
-      // Two steps are enough, because the guess is only 0.25 m away.
+      // Two steps are enough, because the guess is the result of the previous node, which is only 0.25 m
+      // away.
       position = world.road.road_position_of(at, across, position.along, 2);
       const auto column =
           static_cast<std::uint64_t>(static_cast<std::int64_t>(left) + static_cast<std::int64_t>(i));

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The header of .pcd and .bin files, and functions that read and write their points.
+// The header of .pcd files, and functions that read and write their points. A .bin file has no header. It
+// gets one that describes it as a binary .pcd file.
 #pragma once
 
 #include <array>

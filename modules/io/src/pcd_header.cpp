@@ -55,7 +55,7 @@ bool collect_header_lines(std::string_view start, bool more, KeywordLines& lines
     const std::size_t end = std::min(newline, start.size());
     const std::string_view line = start.substr(at, end - at);
     // An incomplete line is interpreted only if the file ends with this line, and if the line is a line DATA
-    // or the only line.
+    // or no keyword comes before it.
     if (newline == std::string_view::npos && (more || (!lines.empty() && !line.starts_with("DATA"))))
       return false;
     const std::string_view keyword = add_line(line, lines);

@@ -195,7 +195,9 @@ struct VelodyneReader::State {
   std::map<std::uint64_t, Address> addresses;
   std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;              // about packets; rewind() keeps them, so that no pass adds one twice
+  // Warnings about packets. rewind() keeps the list and warnings_added, so to read the file again adds no
+  // warning twice.
+  WarningList warnings;
   std::uint64_t warnings_added = 0;  // number of warnings of `packets` that are in `warnings`
   std::optional<std::size_t> warnings_before_note;  // number of `warnings` that precede sensors_note
   std::string sensors_note;

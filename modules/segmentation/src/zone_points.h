@@ -46,7 +46,7 @@ struct ZoneFrame : UpFrame {
 struct CellSummary {
   /// Height of the lowest point above the plane, metres. It is no_lowest for an empty cell.
   std::vector<float> lowest;
-  /// Whether an object stands in the cell, i.e. the cell has points 0.3 to 2 m above its lowest point.
+  /// Whether an object stands in the cell, i.e. the cell has points 0.3 to 2 m above its `lowest`.
   std::vector<std::uint8_t> has_object;
 };
 

@@ -65,8 +65,8 @@ double weighted_square(double weight, double beyond) {
   return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite; infinity * 0 is NaN
 }
 
-// Returns the relation for RegionShape::slabs and RegionShape::rounded. Compares the smallest and the largest
-// distance of the box from the centre along each axis.
+// Returns the relation for RegionShape::slabs and RegionShape::rounded. Along each axis of the region,
+// compares the smallest and the largest distance of the box from the centre with the extent of the region.
 Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
   bool inside = true;
   double smallest = 0, largest = 0;

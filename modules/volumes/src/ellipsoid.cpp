@@ -97,8 +97,9 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-// With N = axes', the ellipsoid is the unit ball transformed by N^-1 diag(radii). In each row, N^-1 differs
-// from `axes` by less than 4 orthonormality_error().
+// The ellipsoid is the unit ball transformed by N^-1 diag(radii), where N is the transpose of `axes_`. The
+// code uses `axes_` instead of N^-1. Each row of the difference is shorter than 4 *
+// orthonormality_error(axes_), and `margin` covers this.
 Aabb Ellipsoid::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -27,8 +27,8 @@ class LoadedCloud {
   /// Returns the origin that was subtracted; nullopt if no origin was requested.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
-  /// Throws IoError if a file has been changed. For a tiled cloud, checks all files. For any other cloud,
-  /// checks the file only if the cloud is not in memory.
+  /// Throws IoError if a file has been changed. For a tiled cloud, checks all files that have been opened.
+  /// For any other cloud, checks the file only if the cloud is not in memory.
   void require_unchanged() const;
 
   /// Moves the cloud in memory to the caller. Must be the last access to the points.

@@ -111,8 +111,8 @@ class Tiles final : public PointSource {
 
   mutable std::mutex mutex_;
   mutable std::list<std::shared_ptr<Slot>> open_;  // most recently used first
-  mutable std::vector<Identity> identities_;       // of each input that has been opened
-  mutable std::vector<std::string> notes_;         // of each input that has been read completely
+  mutable std::vector<Identity> identities_;       // one per input; Identity() until the input is opened
+  mutable std::vector<std::string> notes_;         // one per input; empty until the input is read completely
   mutable std::atomic<std::size_t> loaded_ = 0;
 };
 

@@ -251,7 +251,8 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
   const NumberedPoints points = representative_points(state);
   const PackedPoints packed(points, state.scalar);
   Supports supports = supports_of(state, points, packed.view(), execution);
-  // `farthest` answers with indices in the whole cloud, so the supports must have these indices, too.
+  // `farthest` returns indices into the whole cloud. The supports have indices into `points`, so these are
+  // replaced by indices into the whole cloud.
   for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
     supports.along[k].low_point.index = state.support_points[2 * k].index;
     supports.along[k].high_point.index = state.support_points[2 * k + 1].index;

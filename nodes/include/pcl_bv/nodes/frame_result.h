@@ -57,9 +57,9 @@ struct StageTimes {
 
 /// Source of the time step from the frame before to a tracked frame.
 enum class TrackTime : std::uint8_t {
-  /// The stamp advanced. The step is the difference of the stamps. Exception: if the frame before has the
-  /// source `recorded` and Frame::recorded_ns advanced, the step is the difference of Frame::recorded_ns. The
-  /// stamp of the frame before is then not trusted.
+  /// The stamp advanced. The step is the difference of the stamps, except after a frame whose TrackTime is
+  /// `recorded`. The stamp of that frame is not trusted. Therefore the step is then the difference of
+  /// Frame::recorded_ns, if that advanced.
   stamps,
   recorded,  ///< The stamp did not advance. Frame::recorded_ns gives the step.
   none  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.

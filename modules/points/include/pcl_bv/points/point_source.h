@@ -48,8 +48,8 @@ class PointSource {
   virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
 };
 
-/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, a copy of the points in
-/// memory is better.
+/// Returns a view of `count` points of a source. Copies no points. For kChunkPoints points or fewer, callers
+/// should copy the points into memory instead and use a view of the copy.
 inline PointView view_of(const PointSource& source, std::size_t count, ScalarType scalar) {
   PointView view;
   view.source = &source;

@@ -13,7 +13,8 @@ namespace pcl_bv::detail {
 
 /// Returns what PointView::subset() returns, without checks of the indices. O(1).
 inline PointView select_points(PointView points, const std::int32_t* indices, std::size_t count) {
-  // Without an index list, `data` of records is the address of point number `first`.
+  // For records without an index list, PointView::data is the address of point number `first`. With an index
+  // list, it must be the address of point number 0.
   const bool slice =
       points.indices == nullptr && points.order == PointOrder::records && points.data != nullptr;
   if (slice) points.data -= points.stride * points.first;

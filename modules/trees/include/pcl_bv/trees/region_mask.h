@@ -45,8 +45,9 @@ class RegionMask {
   explicit RegionMask(const std::vector<Region>& regions);
 
   /// Returns whether contains() holds for any of the inflated volumes. With padding 0 these are the volumes
-  /// themselves. A point outside that is nearer to a surface than the rounding error may be treated as
-  /// inside, as contains() of each type documents. Returns false if is_valid() does not hold for the point.
+  /// themselves. An outside point may be treated as inside if its distance from the surface is below the
+  /// rounding error, as contains() of each type documents. Returns false if is_valid() does not hold for the
+  /// point.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Resizes `inside` to points.count. Sets inside[i] to 1 if contains() holds for the i-th visited point,
