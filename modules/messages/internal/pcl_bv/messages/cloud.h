@@ -37,8 +37,11 @@ std::string skipped_fields_note(const msg::PointCloud2& cloud);
 /// Returns a copy of the cloud, row by row without padding, little-endian. If x, y or z is missing, X, Y or Z
 /// is used instead and renamed. The coordinates become float32 if all three are float32 or integers of 8 or
 /// 16 bits, which float32 represents exactly. Otherwise they become float64. Other fields keep their types. A
-/// field is left out for one of these reasons: - Its type is unknown. - It exceeds the record. - It is a
-/// second x, y or z. - It would make the records of the copy longer than twice point_step.
+/// field is left out for one of these reasons:
+/// - Its type is unknown.
+/// - It exceeds the record.
+/// - It is a second x, y or z.
+/// - It would make the records of the copy longer than twice point_step.
 ///
 /// RawCloud::note is skipped_fields_note(). A cloud without points gives an empty cloud. Throws as
 /// view_points(). Takes linear time in the number of points.
