@@ -178,7 +178,7 @@ void SpatialOrder<T>::split_for_threads(std::size_t runs, const ParallelPolicy& 
   }
 }
 
-template class SpatialOrder<float>;
-template class SpatialOrder<double>;
+template class detail::SpatialOrder<float>;
+template class detail::SpatialOrder<double>;
 
 }  // namespace pcl_bv
