@@ -74,8 +74,8 @@ TEST(DualSimplex, TheCornerIsInAllHalfSpacesAndTheWeightsProveItsProjection) {
   }
 }
 
-// The correction of the weights can fail where rounding errors make up most of the determinant. 63 was the
-// largest residual when every correction was taken.
+// Where rounding errors make up most of the determinant, a correction of the weights can make the residual larger.
+// The largest residual was 89 when every correction was taken.
 TEST(DualSimplex, NearlyParallelNormalsDoNotMakeTheCorrectionOfWeightsWorseThanNone) {
   Random random(84);
   double worst = 0;
@@ -83,11 +83,11 @@ TEST(DualSimplex, NearlyParallelNormalsDoNotMakeTheCorrectionOfWeightsWorseThanN
     Tangents body(random, 0);
     const Vector3d common = random.vector(1).normalized();
     for (int i = 0; i < 6; ++i) {
-      const Vector3d normal = common + 1e-8 * random.vector(1);
-      body.add(normal, 1 + 1e-8 * random.vector(1)[0]);
+      const Vector3d normal = common + 1e-7 * random.vector(1);
+      body.add(normal, 1 + 1e-7 * random.vector(1)[0]);
       body.add(-normal, 1);
     }
-    const Vector3d direction = random.vector(1).normalized();
+    const Vector3d direction = common + 0.3e-7 * random.vector(1);
     const DualSimplex simplex{body.normals, body.offsets, direction};
     const DualBasis basis = simplex.solve(simplex.start({0, 1, 2}, 3), 1e-13, 0);
     Vector3d rest = direction;
@@ -95,7 +95,7 @@ TEST(DualSimplex, NearlyParallelNormalsDoNotMakeTheCorrectionOfWeightsWorseThanN
       rest -= basis.weights[k] * simplex.normals[basis.sides[static_cast<std::size_t>(k)]];
     worst = std::max(worst, rest.lpNorm<1>());
   }
-  EXPECT_LT(worst, 20);
+  EXPECT_LT(worst, 1);
 }
 
 TEST(DualSimplex, OnlyCandidatesEnterTheBasis) {

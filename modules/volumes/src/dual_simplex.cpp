@@ -84,7 +84,8 @@ std::size_t most_violated(const DualSimplex& simplex, const Eigen::Vector3d& cor
 }
 
 // Returns direction - sum of weights[k] * normals[k].
-Eigen::Vector3d residual(const Frame& frame, const Eigen::Vector3d& direction, const Eigen::Vector3d& weights) {
+Eigen::Vector3d residual(const Frame& frame, const Eigen::Vector3d& direction,
+                         const Eigen::Vector3d& weights) {
   Eigen::Vector3d rest = direction;
   for (int k = 0; k < 3; ++k)
     rest -= weights[k] * frame.normals[static_cast<std::size_t>(k)];

@@ -50,7 +50,8 @@ class HalfSpaces {
 
   /// Returns the basis of the box.
   DualBasis start(const DualSimplex& simplex) const {
-    return simplex.start({size() - 6, size() - 5, size() - 4}, 3);
+    const std::size_t first = size() - box_sides;
+    return simplex.start({first, first + 1, first + 2}, box_sides / 2);
   }
   DualBound prove(const DualBasis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
   double bound(const DualBasis& basis, const Eigen::Vector3d& direction) const;

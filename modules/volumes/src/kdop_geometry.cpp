@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "kdop_support.h"
@@ -64,16 +65,17 @@ Aabb Kdop::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  std::optional<LocalSlabs> slabs;
   Eigen::Vector3d lower, upper;
   for (int k = 0; k < 3; ++k) {
     if (const std::size_t i = axis_slab(*set_, k); i < size()) {
       lower[k] = min(i);
       upper[k] = max(i);
-    } else {
-      const LocalSlabs slabs(*this);
-      lower[k] = -slabs.support_up(identity, -identity.col(k));
-      upper[k] = slabs.support_up(identity, identity.col(k));
+      continue;
     }
+    if (!slabs) slabs.emplace(*this);
+    lower[k] = -slabs->support_up(identity, -identity.col(k));
+    upper[k] = slabs->support_up(identity, identity.col(k));
   }
   return {lower, upper};
 }

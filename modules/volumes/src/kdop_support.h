@@ -25,7 +25,7 @@ class LocalSlabs {
   /// The matrix with p = basis_inverse() * s, where s are the projections of p on the basis directions.
   const Eigen::Matrix3d& basis_inverse() const { return basis_inverse_; }
 
-  /// Bounds relative to the origin, correctly rounded.
+  /// Bounds relative to the origin, rounded.
   double min(std::size_t i) const { return -offsets_[kdop_.size() + i] / scales_[i]; }
   double max(std::size_t i) const { return offsets_[i] / scales_[i]; }
 
