@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ground_checks.h"
+#include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -20,10 +21,7 @@ PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_lis
   sorted_list.assign(view.indices, end);
   std::sort(sorted_list.begin(), sorted_list.end());
   sorted_list.erase(std::unique(sorted_list.begin(), sorted_list.end()), sorted_list.end());
-  PointView sorted = view;
-  sorted.indices = sorted_list.data();
-  sorted.count = sorted_list.size();
-  return sorted;
+  return select_points(view, sorted_list);
 }
 
 // Returns the same as is_valid() of point_view.h, for arrays. Every finite float is within the coordinate
