@@ -78,9 +78,10 @@ std::string range_warning(const FrameResult& result, const std::string& from) {
   const std::size_t finite = result.points - result.counts.nonfinite, out = result.counts.range;
   constexpr std::size_t few = 100;
   if (finite < few || 2 * out <= finite) return {};
+  const std::string or_in_box = filter.own_box_min ? " or in the box of the own vehicle" : "";
   return std::to_string(out) + " of " + std::to_string(finite) + " points are outside the range of " +
-         to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")" +
-         (filter.own_box_min ? " or in the box of the own vehicle" : "");
+         to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from +
+         ")" + or_in_box;
 }
 
 std::string track_warning(const FrameResult& result) {

@@ -18,9 +18,9 @@ using testing::Not;
 
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
-std::string error_of(const std::string& yaml) {
+std::string error_of(const std::string& yaml, const std::string& name = "robot.yaml") {
   try {
-    parse_stream_config(yaml, "robot.yaml");
+    parse_stream_config(yaml, name);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -31,6 +31,17 @@ TEST(StreamConfig, WithoutKeysIsTheDefault) {
   for (const char* text : {"", "{}", "# nothing\n", "filter:\n"})
     EXPECT_EQ(to_yaml(parse_stream_config(text, "")), to_yaml(StreamConfig())) << text;
   EXPECT_TRUE(StreamConfig().validate().empty());
+}
+
+TEST(StreamConfig, ErrorsWithoutAFileNameHaveNeitherNameNorLine) {
+  EXPECT_THAT(error_of("\ncluster: {min_size: -1}", ""), testing::StartsWith("cluster.min_size: "));
+  EXPECT_THAT(error_of("filter: {range_min: 5, range_max: 1}", ""), testing::StartsWith("filter.range_max: "));
+  EXPECT_THAT(error_of("cluster: [", ""), testing::HasSubstr("invalid YAML"));
+}
+
+TEST(Settings, TheRangeOfAKeyThatDoesNotExistIsAnError) {
+  EXPECT_EQ(range_of("ground.max_slope_degrees").max, 89);
+  EXPECT_THROW(range_of("ground.max_slope"), std::logic_error);
 }
 
 TEST(StreamConfig, ReadsBackAsItIsPrinted) {

@@ -20,7 +20,8 @@ std::string shown_default(const Setting& setting, const std::string& value) {
   return value.empty() || value == "null" ? std::string(setting.unset) : value;
 }
 
-// Only streams have options for tracks and queues.
+// Returns whether the setting has an option. Settings of tracks and of the runner have options only in
+// commands for streams.
 bool has_option(const Setting& setting, bool stream) {
   const std::string_view stage = setting.key.substr(0, setting.key.find('.'));
   return !setting.option.empty() && (stream || (stage != "track" && stage != "runner"));
@@ -37,7 +38,7 @@ void keep_first_mentions(std::vector<std::string>& methods) {
   methods = std::move(once);
 }
 
-std::pair<double, double> range_of(const StreamConfig& config) {
+std::pair<double, double> range_limits(const StreamConfig& config) {
   return {config.pipeline.filter.range_min, config.pipeline.filter.range_max};
 }
 
@@ -158,9 +159,9 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
     from = "--preset " + preset_;
   }
   try {
-    const auto range = range_of(config);
+    const auto range = range_limits(config);
     if (line_.given("--config")) config = read_stream_config(file_, config);
-    if (range_of(config) != range) from = "--config " + file_;
+    if (range_limits(config) != range) from = "--config " + file_;
   } catch (const ConfigError& error) {
     throw UsageError(error.what());
   }

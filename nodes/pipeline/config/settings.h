@@ -138,6 +138,7 @@ void visit_runner(Runner& c, Visit&& visit) {
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.max_age_ms);
   visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.watchdog_s);
 }
+
 /// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the field of `c`, const if
 /// `c` is const. The type of `value` is one of:
 /// - bool, double, std::size_t, std::string (the instruction set), Eigen::Vector3d (a direction) or an enum;
@@ -168,7 +169,7 @@ void visit_stream(Stream& c, Visit&& visit) {
   visit_runner(c.runner, visit);
 }
 
-/// Returns the range of the setting of a pipeline with this key.
+/// Returns the range of the setting of a pipeline with this key. Throws std::logic_error if there is none.
 NumberRange range_of(std::string_view key);
 
 /// Return a value as text. Numbers have as few digits as read_text() needs to return the same number.

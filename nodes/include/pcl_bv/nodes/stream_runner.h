@@ -66,7 +66,7 @@ class ConfigError : public std::runtime_error {
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
 /// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name. If `name` is empty,
-/// errors have neither a name nor a line number.
+/// errors have neither a name nor the line of a key. Only errors of the YAML syntax have their line.
 StreamConfig parse_stream_config(const std::string& text, const std::string& name,
                                  const StreamConfig& defaults = {});
 
