@@ -18,8 +18,8 @@ inline constexpr bool kEmulated = true;
 inline constexpr bool kEmulated = false;
 #endif
 
-// Sanitizers run tests 3 to 10 times slower. They find their faults in the first few random cases, so tests whose claim
-// needs many cases have fewer there and under qemu.
+// Sanitizers run tests 3 to 10 times slower. They look for wrong use of memory and threads, not for wrong numbers, so
+// tests of many random cases have fewer there and under qemu.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kFewCases = true;
 #else
