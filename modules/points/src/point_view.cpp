@@ -4,6 +4,7 @@
 #include "pcl_bv/points/point_view.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -14,26 +15,37 @@ namespace {
 
 // The range of the indices of a view: `begin` is the smallest index, `end` is the largest index plus 1.
 struct IndexRange {
-  std::size_t begin = 0;
-  std::size_t end = 0;
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
 };
+
+// A loop without branches, which the compiler vectorizes: a third of the instructions of a test of each index.
+IndexRange range_of(const std::int32_t* indices, std::size_t count) {
+  if (count == 0) return {};
+  std::int32_t low = indices[0], high = indices[0];
+  for (std::size_t i = 1; i < count; ++i) {
+    low = std::min(low, indices[i]);
+    high = std::max(high, indices[i]);
+  }
+  return {low, std::int64_t{high} + 1};
+}
 
 IndexRange range_of(const PointView& points) {
   if (points.source != nullptr)
     throw std::invalid_argument("subset: the points must be in memory, not in a source");
-  if (points.indices == nullptr) return {points.first, points.first + points.count};
-  const auto [low, high] = std::minmax_element(points.indices, points.indices + points.count);
-  if (points.count == 0) return {};
-  return {static_cast<std::size_t>(*low), static_cast<std::size_t>(*high) + 1};
+  if (points.indices != nullptr) return range_of(points.indices, points.count);
+  return {static_cast<std::int64_t>(points.first), static_cast<std::int64_t>(points.first + points.count)};
 }
 
 PointView select_checked(const PointView& points, const IndexRange& range, const std::int32_t* selected,
                          std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) {
-    const auto index = static_cast<std::size_t>(selected[i]);
-    if (selected[i] >= 0 && index >= range.begin && index < range.end) continue;
+  const IndexRange wanted = range_of(selected, size);
+  if (size != 0 && (wanted.begin < range.begin || wanted.end > range.end)) {
+    const auto* outside = std::find_if(selected, selected + size, [&](std::int32_t index) {
+      return index < range.begin || index >= range.end;
+    });
     throw std::out_of_range(
-        "point index " + std::to_string(selected[i]) + " is outside the cloud, whose indices are " +
+        "point index " + std::to_string(*outside) + " is outside the cloud, whose indices are " +
         (range.begin == range.end ? std::string("none")
                                   : std::to_string(range.begin) + " to " + std::to_string(range.end - 1)));
   }
