@@ -27,6 +27,7 @@ constexpr std::string_view kSynth = "synth:", kDds = "dds:";
 // Returns the times of the files. Sorts the files by time if their names are in another order.
 NameTimes times_of(std::vector<std::filesystem::path>& files) {
   std::vector<std::string> stems;
+  stems.reserve(files.size());
   for (const std::filesystem::path& file : files)
     stems.push_back(file.stem().string());
   NameTimes times = times_of_names(stems);

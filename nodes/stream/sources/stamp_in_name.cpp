@@ -133,6 +133,7 @@ std::string order_warning(const std::vector<std::int64_t>& stamps, const std::ve
 
 NameTimes detail::times_of_names(const std::vector<std::string>& stems) {
   std::vector<Times> all;
+  all.reserve(stems.size());
   for (const std::string& stem : stems)
     all.push_back(times_in(stem));
   std::optional<NameTimes> found;
