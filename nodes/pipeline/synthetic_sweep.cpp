@@ -29,7 +29,8 @@ Upright point_on_ground(std::size_t i, double share, double sensor_height) {
 // The points of an object follow a low-discrepancy sequence. If an object has 30 or more points, neighbours
 // are nearer to each other than 0.5 m.
 Upright point_on_object(std::size_t i, double sensor_height) {
-  const auto object = static_cast<double>(i % object_count), n = static_cast<double>(i / object_count);
+  const std::size_t number_on_object = i / object_count;
+  const auto object = static_cast<double>(i % object_count), n = static_cast<double>(number_on_object);
   const double distance = 6 + object / 3, angle = golden_angle * object;
   const double u = std::fmod(n * 0.7548776662466927, 1), v = std::fmod(n * 0.5698402909980532, 1);
   return {distance * std::cos(angle) + 2 * u, distance * std::sin(angle), 0.5 + 1.2 * v - sensor_height};
