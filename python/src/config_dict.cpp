@@ -55,7 +55,8 @@ std::string yaml_map(const py::dict& map, const std::string& prefix, YamlCounter
     if (!PyUnicode_Check(name.ptr())) raise_type_error(kConfigName, "a text as key", name);
     const auto key = name.cast<std::string>();
     yaml.append(yaml.empty() ? "" : ", ").append(quoted(key)).append(": ");
-    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, counters);
+    const std::string path = prefix.empty() ? key : std::string(prefix).append(".").append(key);
+    yaml += yaml_of(value, path, counters);
   }
   return '{' + yaml + '}';
 }
