@@ -186,7 +186,7 @@ dds_entity_t create_cdr_topic(dds_entity_t participant, const std::string& name,
     ddsi_sertype_fini(made.get());
     return topic;
   }
-  made.release();  // Cyclone DDS owns the type now
+  static_cast<void>(made.release());  // Cyclone DDS owns the type now
   if (registered != nullptr) *registered = known;
   return topic;
 }
