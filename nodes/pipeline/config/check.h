@@ -15,7 +15,8 @@
 
 #include "pcl_bv/nodes/stream_runner.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// A setting whose value is not allowed.
 struct ConfigProblem {
@@ -48,4 +49,5 @@ void read_setting(const Setting& setting, std::string_view text, T& value) {
   }
 }
 
-}  // namespace pcl_bv::detail
+}  // namespace detail
+}  // namespace pcl_bv

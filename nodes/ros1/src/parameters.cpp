@@ -57,7 +57,7 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
   if (!parameters.getParam("", all) || all.getType() != XmlRpc::XmlRpcValue::TypeStruct) return config;
   YAML::Node tree = yaml_of(all);
   const auto take = [&](const char* key) {
-    const std::string text = tree[key] && tree[key].IsScalar() ? tree[key].Scalar() : std::string();
+    std::string text = tree[key] && tree[key].IsScalar() ? tree[key].Scalar() : std::string();
     tree.remove(key);
     return text;
   };

@@ -11,7 +11,8 @@
 #include "name_times.h"
 #include "pcl_bv/nodes/frame_source.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Poses from the file of ReplayOptions::poses.
 class Poses {
@@ -53,4 +54,5 @@ bool has_recording_extension(const std::filesystem::path& file);
 /// extensions and for folders.
 void check_recording_content(const std::filesystem::path& file);
 
-}  // namespace pcl_bv::detail
+}  // namespace detail
+}  // namespace pcl_bv
