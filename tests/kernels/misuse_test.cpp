@@ -287,6 +287,12 @@ TEST(Misuse, SubsetsOfPointsThatAreNotThereAreRefused) {
   EXPECT_TRUE(refused(cloud.view().slice(3, 4), {2}));
   EXPECT_TRUE(refused(cloud.view().slice(3, 4), {7}));
   EXPECT_TRUE(refused(PointView(), {0}));
+  const std::vector<std::int32_t> wrong = {-1, 3};  // a view does not check its indices
+  PointView unchecked = cloud.view();
+  unchecked.indices = wrong.data();
+  unchecked.count = wrong.size();
+  EXPECT_TRUE(refused(unchecked, {-1}));
+  EXPECT_TRUE(refused(unchecked, {3}));
   const std::vector<std::int32_t> list = {5, 4, 6}, one = {1};
   EXPECT_TRUE(refused(cloud.view().subset(list), {3}));
   EXPECT_TRUE(refused(cloud.view().subset(list), {7}));
