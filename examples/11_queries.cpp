@@ -5,7 +5,7 @@
 // of a ray and the contact of a robot arm.
 #include <pcl_bv/trees/collision.h>
 #include <pcl_bv/trees/point_tree.h>
-#include <pcl_bv/volumes/frustum.h>
+#include <pcl_bv/volumes/hull.h>
 
 #include <iostream>
 #include <vector>

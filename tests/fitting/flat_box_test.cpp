@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "hull/planar_hull.h"
+#include "pcl_bv/volumes/planar_hull.h"
 
 namespace pcl_bv::detail {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pair_volumes.h"
-#include "pcl_bv/volumes/frustum.h"
+#include "pcl_bv/volumes/hull.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv::detail {

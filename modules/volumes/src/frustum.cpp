@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/volumes/frustum.h"
+#include "pcl_bv/volumes/hull.h"
 
 #include <algorithm>
 #include <cmath>

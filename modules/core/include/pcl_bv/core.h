@@ -21,5 +21,4 @@
 #include "pcl_bv/trees/region_mask.h"
 #include "pcl_bv/trees/volume_tree.h"
 #include "pcl_bv/volumes/any_volume.h"
-#include "pcl_bv/volumes/frustum.h"
 #include "pcl_bv/volumes/pair_queries.h"

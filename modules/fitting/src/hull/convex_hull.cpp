@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "hull/planar_hull.h"
 #include "hull/quickhull.h"
 #include "local_frame.h"
+#include "pcl_bv/volumes/planar_hull.h"
 
 namespace pcl_bv::detail {
 namespace {

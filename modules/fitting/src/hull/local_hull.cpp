@@ -7,9 +7,9 @@
 
 #include "hull/convex_hull.h"
 #include "hull/inner_polytope.h"
-#include "hull/planar_hull.h"
 #include "map_chunks.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/planar_hull.h"
 #include "same_points.h"
 #include "schedule.h"
 

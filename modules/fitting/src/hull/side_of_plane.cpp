@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "hull/convex_hull.h"
-#include "hull/exact_difference.h"
+#include "pcl_bv/numeric/exact_difference.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 

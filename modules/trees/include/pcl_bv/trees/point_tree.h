@@ -117,7 +117,7 @@ class PointTree {
   bool any_near(const Eigen::Vector3d& point, double distance) const;
 
   /// Returns whether contains() of the volume holds for any point. Returns false for an empty volume.
-  /// frustum.h converts a view frustum to a Hull.
+  /// frustum() converts a view frustum to a Hull.
   bool any_inside(const Sphere& sphere) const;
   bool any_inside(const AnyVolume& volume) const;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "hull/planar_hull.h"
+#include "pcl_bv/volumes/planar_hull.h"
 
 #include <gtest/gtest.h>
 

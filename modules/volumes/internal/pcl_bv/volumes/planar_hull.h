@@ -8,7 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Returns the positions of the corners of the convex hull, counter-clockwise, beginning with the corner that
 /// has the smallest (x, y). No three corners are collinear and no two are equal. Of equal points only the
@@ -20,4 +21,5 @@ std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points)
 /// if c is on the line.
 int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
-}  // namespace pcl_bv::detail
+}  // namespace detail
+}  // namespace pcl_bv

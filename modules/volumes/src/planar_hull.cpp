@@ -3,14 +3,15 @@
 
 // Double arithmetic decides nearly every orientation, rational arithmetic the others.
 
-#include "hull/planar_hull.h"
+#include "pcl_bv/volumes/planar_hull.h"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
-#include "hull/exact_difference.h"
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/exact_difference.h"
+#include "pcl_bv/volumes/convex_chain.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -59,17 +60,6 @@ std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& poi
   return positions;
 }
 
-// Appends a point to the chain that begins at position `first` of `chain`. Before that, removes corners from
-// the end of this chain until the chain turns left at its last corner. The corners before `first` belong to
-// the lower chain, which is complete.
-void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, std::size_t first,
-                  std::vector<std::size_t>& chain) {
-  while (chain.size() >= first + 2 &&
-         orientation(points[chain[chain.size() - 2]], points[chain.back()], points[next]) <= 0)
-    chain.pop_back();
-  chain.push_back(next);
-}
-
 int compare(double a, double b) {
   return a < b ? -1 : a > b ? 1 : 0;
 }
@@ -101,23 +91,16 @@ int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
 
 std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points) {
   if (points.empty()) return {};
-  std::vector<std::size_t> order = outside_octagon(points);
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+  const auto before = [&](std::size_t i, std::size_t j) {
     if (points[i].x() != points[j].x()) return points[i].x() < points[j].x();
     if (points[i].y() != points[j].y()) return points[i].y() < points[j].y();
     return i < j;
-  });
+  };
   const auto equal = [&](std::size_t i, std::size_t j) { return points[i] == points[j]; };
-  order.erase(std::unique(order.begin(), order.end(), equal), order.end());
-  if (order.size() < 3) return order;
-  std::vector<std::size_t> chain;
-  for (const std::size_t i : order)
-    extend_chain(points, i, 0, chain);
-  const std::size_t lower = chain.size() - 1;
-  for (std::size_t k = order.size() - 1; k-- > 0;)
-    extend_chain(points, order[k], lower, chain);
-  chain.pop_back();  // the first corner, which was appended a second time
-  return chain;
+  const auto turn = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return orientation(points[i], points[j], points[k]);
+  };
+  return convex_chain(outside_octagon(points), before, equal, turn);
 }
 
 }  // namespace pcl_bv::detail
