@@ -80,6 +80,11 @@ Fitted<Hull> fit_hull(const PointView& points, const Execution& execution) {
       [&](auto& made) { return detail::fit_hull(points, made.volume, execution); });
 }
 
+Fitted<Prism> fit_prism(const PointView& points, const PrismOptions& options, const Execution& execution) {
+  return make_fitted<Fitted<Prism>>(
+      [&](auto& made) { return detail::fit_prism(points, options, made.volume, execution); });
+}
+
 Fitted<Cylinder> fit_cylinder(const PointView& points, const Execution& execution) {
   return make_fitted<Fitted<Cylinder>>(
       [&](auto& made) { return detail::fit_cylinder(points, made.volume, execution); });
@@ -129,6 +134,12 @@ std::vector<Fitted<Hull>> fit_hull(const PointView& points, const IndexLists& cl
                                    const Execution& execution) {
   return fit_each(points, clusters, execution,
                   [](const PointView& view, const Execution& own) { return fit_hull(view, own); });
+}
+
+std::vector<Fitted<Prism>> fit_prism(const PointView& points, const IndexLists& clusters,
+                                     const PrismOptions& options, const Execution& execution) {
+  return fit_each(points, clusters, execution,
+                  [&](const PointView& view, const Execution& own) { return fit_prism(view, options, own); });
 }
 
 std::vector<Fitted<Cylinder>> fit_cylinder(const PointView& points, const IndexLists& clusters,

@@ -40,6 +40,11 @@ EstimationResult obb(const PointView& points, const MethodOptions& options, AnyV
   return detail::fit_obb(points, {method, options.up}, volume.emplace<Obb>(), execution);
 }
 
+EstimationResult prism(const PointView& points, const MethodOptions& options, AnyVolume& volume,
+                       const FitExecution& execution) {
+  return detail::fit_prism(points, options.up, volume.emplace<Prism>(), execution);
+}
+
 EstimationResult ellipsoid(const PointView& points, const MethodOptions&, AnyVolume& volume,
                            const FitExecution& execution) {
   EllipsoidCertificate certificate;
@@ -83,6 +88,7 @@ const std::vector<Row>& rows() {
       {{"obb-min", {"obb"}, "obb"}, {obb<ObbMethod::minimal>, {}, hull}},
       {{"obb-yaw", {}, "obb", upright}, {obb<ObbMethod::yaw>, Set::dop26}},
       {{"obb-lshape", {}, "obb", upright, all_points}, {obb<ObbMethod::lshape>, Set::dop26}},
+      {{"prism", {}, "prism", upright}, {prism, Set::dop26}},
       {{"cylinder", {}, "cylinder"}, {plain<Cylinder, detail::fit_cylinder>, Set::dop26, hull}},
       {{"capsule", {}, "capsule"}, {plain<Capsule, detail::fit_capsule>, Set::dop26, hull}},
       {{"ellipsoid", {}, "ellipsoid"}, {ellipsoid, Set::dop26, hull}},

@@ -113,6 +113,51 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
   return worst;
 }
 
+// Tests the half-plane of the edge from a to b. Returns 0 if the point is inside, otherwise its distance from
+// the edge's line. `u`, `v` and `bound` are the rounded coordinates and their error bound.
+double violation(const Prism& prism, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                 const Eigen::Vector3d& p, double u, double v, double bound) {
+  const double x = b.x() - a.x(), y = b.y() - a.y();
+  const double left = x * (v - a.y()), right = y * (u - a.x());
+  const double error = 0x1p-50 * (std::abs(left) + std::abs(right)) +
+                       2 * (std::abs(x) + std::abs(y)) * bound + kSmallestNormal;
+  if (left - right >= error) return 0.0;
+  const ExactVector at = exact(p);
+  const Rational edge_x = Rational(b.x()) - Rational(a.x()), edge_y = Rational(b.y()) - Rational(a.y());
+  const Rational along_u = dot3(exact(prism.axes().col(0)), at) - Rational(a.x());
+  const Rational along_v = dot3(exact(prism.axes().col(1)), at) - Rational(a.y());
+  return excess_distance(Rational(edge_y * along_u - edge_x * along_v), std::hypot(x, y));
+}
+
+// The half-planes of one or two corners do not bound the outline, but its box does.
+double violation(const Prism& prism, const Eigen::Vector3d& p) {
+  const std::vector<Eigen::Vector2d>& outline = prism.outline();
+  Eigen::Vector3d low(outline[0].x(), outline[0].y(), prism.low());
+  Eigen::Vector3d high(outline[0].x(), outline[0].y(), prism.high());
+  for (const Eigen::Vector2d& corner : outline) {
+    low.head<2>() = low.head<2>().cwiseMin(corner);
+    high.head<2>() = high.head<2>().cwiseMax(corner);
+  }
+  double worst = 0;
+  Eigen::Vector3d rounded, bounds;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d n = prism.axes().col(i);
+    rounded[i] = dot3(n, p);
+    bounds[i] = dot_error(n, p);
+    if (rounded[i] - bounds[i] >= low[i] && rounded[i] + bounds[i] <= high[i]) continue;
+    const Rational along = dot3(exact(n), exact(p));
+    worst = std::max(worst, excess_distance(Rational(low[i]) - along, 1.0));
+    worst = std::max(worst, excess_distance(along - Rational(high[i]), 1.0));
+  }
+  if (outline.size() < 2) return worst;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d& next = outline[i + 1 < outline.size() ? i + 1 : 0];
+    worst = std::max(
+        worst, violation(prism, outline[i], next, p, rounded[0], rounded[1], bounds.head<2>().maxCoeff()));
+  }
+  return worst;
+}
+
 // Let U = 2^-53. q = p - center has a relative error of U, and the axis has about length 1. The errors of
 // q . axis and of |q x axis|, including the error of the axis' length, are below 32 U |q|_1.
 double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {

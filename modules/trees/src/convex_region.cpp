@@ -69,6 +69,17 @@ class Planes {
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
+  // Sets a minimum for the error of the surface, for planes computed from coordinates of this magnitude.
+  void allow_rounding_of(double magnitude) {
+    region_.surface_error = std::max(region_.surface_error, 0x1p-45 * magnitude);
+  }
+
+  // Limits the region to a box, which must contain every point for which contains() is true.
+  void limit(const Aabb& box) {
+    region_.low = coordinates(vector(region_.low).cwiseMax(box.min()));
+    region_.high = coordinates(vector(region_.high).cwiseMin(box.max()));
+  }
+
   // Returns the region. A side of its box is infinite if no plane is perpendicular to the axis there. Fitted
   // volumes have planes for all six sides.
   const ConvexRegion& region() const { return region_; }
@@ -107,6 +118,65 @@ ConvexRegion region_of(const Hull& hull) {
   Planes planes(hull.aabb());
   for (const HullPlane& plane : hull.planes())
     planes.add(plane.normal, plane.offset);
+  return planes.region();
+}
+
+Eigen::Vector2d outward(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return Eigen::Vector2d(b.y() - a.y(), a.x() - b.x()).stableNormalized();
+}
+
+// Returns sin(a / 2) for the smallest interior angle a of the outline.
+double sine_of_sharpest(const std::vector<Eigen::Vector2d>& outline) {
+  double least = 1;
+  const std::size_t count = outline.size();
+  for (std::size_t i = 0; i < count && count > 2; ++i) {
+    const Eigen::Vector2d &at = outline[i], &next = outline[(i + 1) % count];
+    least = std::min(least, 0.5 * (outward(outline[(i + count - 1) % count], at) + outward(at, next)).norm());
+  }
+  return least;
+}
+
+// Returns a box that contains every point for which contains() is true. The error bound of a side is below
+// 2^-47 of the largest coordinate. Beyond a corner it is divided by the sine, but contains() also tests the
+// box of the outline.
+Aabb box_of_contained(const Prism& prism) {
+  const Aabb box = prism.aabb();
+  Eigen::Vector2d low = prism.outline()[0], high = low;
+  for (const Eigen::Vector2d& corner : prism.outline()) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const double rounding = margin(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()));
+  const double beyond_corner =
+      std::min(0x1p-7 * rounding / sine_of_sharpest(prism.outline()), 1.001 * (high - low).stableNorm());
+  const Eigen::Vector3d by = Eigen::Vector3d::Constant(rounding + beyond_corner);
+  return {box.min() - by, box.max() + by};
+}
+
+// The normals are rotated and rounded, so each has a relative error below 2^-50. The error of the edge's
+// direction is within the same bound, because the difference of two doubles is rounded once.
+ConvexRegion region_of(const Prism& prism) {
+  const std::vector<Eigen::Vector2d>& outline = prism.outline();
+  const Aabb box = prism.aabb();
+  Planes planes(box);
+  planes.add(prism.up(), prism.high());
+  planes.add(-prism.up(), -prism.low());
+  const Eigen::Vector3d east = prism.axes().col(0), north = prism.axes().col(1);
+  Eigen::Vector2d low = outline[0], high = outline[0];
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d &a = outline[i], &b = outline[i + 1 < outline.size() ? i + 1 : 0];
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+    if (a == b) continue;
+    const Eigen::Vector2d n = outward(a, b);
+    planes.add(n.x() * east + n.y() * north, n.x() * a.x() + n.y() * a.y());
+  }
+  planes.add(east, high.x());
+  planes.add(-east, -low.x());
+  planes.add(north, high.y());
+  planes.add(-north, -low.y());
+  planes.allow_rounding_of(box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).sum());
+  planes.limit(box_of_contained(prism));
   return planes.region();
 }
 

@@ -9,6 +9,7 @@
 
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/volumes/outline.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -79,6 +80,8 @@ struct Inflate {
       plane.offset = add_up(plane.offset, support_growth(plane.normal, padding));
     return Hull(hull.vertices(), hull.triangles(), planes, hull.rank());
   }
+
+  AnyVolume operator()(const Prism& prism) const { return inflated_prism(prism, padding); }
 
   // Returns an m with which the volume is nearly minimal. At the minimum, m^2 is the mean of the r^2 with the
   // weights 1/R^2. With any m > 0 the volume contains all points within `padding` of the ellipsoid.

@@ -37,7 +37,8 @@ double contains_margin(const Aabb& box) {
 PositionBounds extent_of(const AnyVolume& volume) {
   const Aabb box = aabb(volume);
   if (empty(volume)) return {coordinates(box.min()), coordinates(box.max())};
-  if (std::holds_alternative<Kdop>(volume) || std::holds_alternative<Hull>(volume)) {
+  if (std::holds_alternative<Kdop>(volume) || std::holds_alternative<Hull>(volume) ||
+      std::holds_alternative<Prism>(volume)) {
     const ConvexRegion region = convex_region(volume);
     return {coordinates(vector(region.low).cwiseMin(box.min())),
             coordinates(vector(region.high).cwiseMax(box.max()))};

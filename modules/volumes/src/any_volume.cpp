@@ -53,7 +53,7 @@ AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transfor
 
 std::string_view shape_name(const AnyVolume& volume) {
   static constexpr std::array<std::string_view, std::variant_size_v<AnyVolume>> kNames = {
-      "aabb", "kdop", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull"};
+      "aabb", "kdop", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull", "prism"};
   return kNames.at(volume.index());
 }
 

@@ -102,12 +102,6 @@ std::array<double, 6> axis_bounds(const std::vector<HullPlane>& planes) {
   return bounds;
 }
 
-double support_along_axis(const SupportShape& shape, std::size_t side) {
-  const auto k = static_cast<int>(side % 3);
-  const double sign = side < 3 ? 1 : -1;
-  return add_up(shape.support_value_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
-}
-
 }  // namespace
 
 Hull::Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
@@ -210,8 +204,10 @@ Aabb Hull::aabb() const {
   if (std::count(bounds.begin(), bounds.end(), kInfinity) > 0) {
     const std::shared_ptr<const SupportShape> shape = make_polytope(*this);
     if (!std::isfinite(shape->size)) return box;
+    const Aabb proven = box_of(*shape);
     for (std::size_t side = 0; side < bounds.size(); ++side) {
-      if (bounds[side] == kInfinity) bounds[side] = support_along_axis(*shape, side);
+      const auto k = static_cast<int>(side % 3);
+      if (bounds[side] == kInfinity) bounds[side] = side < 3 ? proven.max()[k] : -proven.min()[k];
     }
   }
   box.extend(-Eigen::Vector3d(bounds[3], bounds[4], bounds[5]));

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The shapes of all kinds of volumes except k-DOPs and hulls. With U = 2^-53, three products and two sums are
-// off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of this sum,
-// plus the smallest normal number. The factor of 8 U also covers the rounding when an error bound is added.
-// The smallest normal number covers underflow.
+// The shapes of all kinds of volumes except k-DOPs, hulls and prisms. With U = 2^-53, three products and two
+// sums are off by at most 3.01 U of the sum of the products' magnitudes. The error bounds are 8 U = 2^-50 of
+// this sum, plus the smallest normal number. The factor of 8 U also covers the rounding when an error bound
+// is added. The smallest normal number covers underflow.
 #include "shape.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "skew_axes.h"
 
 namespace pcl_bv::detail {
 
@@ -69,52 +70,6 @@ class AabbShape final : public SupportShape {
   Aabb box_;
   Eigen::Vector3d low_, high_;
 };
-
-// The components y of d along the axes, with d = A y + r. The columns of A are the axes, which are nearly
-// orthonormal. One step of refinement reduces r to rounding errors. `residual` is an upper bound of |r|,
-// namely the sum of the magnitudes of r's components and of their error bounds. The error of a component is
-// at most 4.01 U of its terms.
-struct Components {
-  Components(const Eigen::Matrix3d& axes, const Eigen::Vector3d& d) {
-    for (int i = 0; i < 3; ++i)
-      y[i] = dot3(axes.col(i), d);
-    Eigen::Vector3d rest;
-    for (int j = 0; j < 3; ++j)
-      rest[j] = d[j] - dot3(axes.row(j), y);
-    for (int i = 0; i < 3; ++i)
-      y[i] += dot3(axes.col(i), rest);
-    for (int j = 0; j < 3; ++j) {
-      const double a = axes(j, 0) * y[0], b = axes(j, 1) * y[1], c = axes(j, 2) * y[2];
-      const double terms = ((std::abs(a) + std::abs(b)) + std::abs(c)) + std::abs(d[j]);
-      residual += std::abs(d[j] - ((a + b) + c)) + 0x1p-50 * terms;
-    }
-  }
-
-  Eigen::Vector3d y;
-  double residual = 0;
-};
-
-// Returns the dual basis q_i of the axes as columns: axis i . q_i = 1, and q_i is perpendicular to the other
-// axes. Computes the basis from the axes by one correction of their deviation from orthonormal. The result is
-// accurate to 1e-24.
-Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
-  Eigen::Matrix3d result = axes;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const double off = (i == j ? 1.0 : 0.0) - dot3(axes.col(i), axes.col(j));
-      for (int k = 0; k < 3; ++k)
-        result(k, i) += off * axes(k, j);
-    }
-  }
-  return result;
-}
-
-Eigen::Vector3d linear_combination(const Eigen::Matrix3d& columns, const Eigen::Vector3d& s) {
-  return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
-}
-
-// Upper bound of |q| / |s|, where s_i = axis i . q and the axes are orthonormal to 1e-12.
-constexpr double kSkewFactor = 1 + 0x1p-36;
 
 class ObbShape final : public SupportShape {
  public:
@@ -251,6 +206,7 @@ struct Maker {
   }
   Result operator()(const Ellipsoid& v) const { return std::make_shared<EllipsoidShape>(v); }
   Result operator()(const Hull& v) const { return make_polytope(v); }
+  Result operator()(const Prism& v) const { return make_polytope(v); }
 };
 
 }  // namespace
@@ -260,6 +216,14 @@ std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume) {
   std::shared_ptr<SupportShape> shape = std::visit(Maker(), volume);
   if (shape) shape->kind = static_cast<int>(volume.index());
   return shape;
+}
+
+Aabb box_of(const SupportShape& shape) {
+  const auto support_value = [&](int k, double sign) {
+    return add_up(shape.support_value_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
+  };
+  return {-Eigen::Vector3d(support_value(0, -1), support_value(1, -1), support_value(2, -1)),
+          {support_value(0, 1), support_value(1, 1), support_value(2, 1)}};
 }
 
 }  // namespace pcl_bv::detail

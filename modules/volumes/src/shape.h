@@ -52,6 +52,11 @@ std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume);
 
 std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop);
 std::shared_ptr<SupportShape> make_polytope(const Hull& hull);
+std::shared_ptr<SupportShape> make_polytope(const Prism& prism);
+
+/// Returns a box that contains every point of the core, from the support values along the coordinate axes.
+/// The size of the shape must be finite.
+Aabb box_of(const SupportShape& shape);
 
 /// Returns sqrt(x^2 + y^2 + z^2) with a relative error of at most 4 * 2^-53, in the whole range of double.
 double length3(const Eigen::Vector3d& v);

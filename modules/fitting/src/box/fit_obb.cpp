@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "box/obb_axes.h"
+#include "box/outline.h"
 #include "box/symmetric_eigen.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/numeric/constants.h"
@@ -18,15 +18,6 @@
 
 namespace pcl_bv::detail {
 namespace {
-
-Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
-  const double largest = up.cwiseAbs().maxCoeff();
-  if (!up.allFinite() || !(largest >= 1e-30 && largest <= 1e30)) {
-    throw std::invalid_argument("fit_obb: up must be finite with its largest component from 1e-30 to 1e30");
-  }
-  const Eigen::Vector3d scaled = up / largest;
-  return scaled / std::sqrt(scaled.squaredNorm());
-}
 
 EstimationResult fit_pca(const PointView& points, Obb& box, const FitExecution& execution) {
   const Summary summary = summarize_bounds(points, execution);
@@ -59,7 +50,7 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const FitExecuti
 
 EstimationResult fit_upright(const PointView& points, const ObbOptions& options, Obb& box,
                              const FitExecution& execution) {
-  const Eigen::Vector3d up = unit_up(options.up);
+  const Eigen::Vector3d up = unit_up("fit_obb", options.up);
   if (options.method == ObbMethod::lshape) require_all_points(execution, "obb-lshape");
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used > 0) {

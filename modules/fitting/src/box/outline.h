@@ -11,9 +11,15 @@
 #include "local_frame.h"
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/kernels/half_spaces.h"
+#include "same_points.h"
 #include "small_vector.h"
 
 namespace pcl_bv::detail {
+
+/// Returns up / |up|. Throws std::invalid_argument, which begins with the name of the fit, unless `up` is in
+/// the range of ObbOptions::up.
+Eigen::Vector3d unit_up(const char* fit, const Eigen::Vector3d& up);
 
 /// The plane perpendicular to `up`, with the orthonormal axes `east` and `north`.
 struct Ground {
@@ -27,6 +33,31 @@ struct Ground {
 
   Eigen::Vector3d up, east, north;
 };
+
+/// Returns the vertical half-spaces through the edges of the polygon of the extremal points seen from above
+/// (Akl, Toussaint 1978). In exact arithmetic, each point that list_outside() does not list is strictly
+/// inside this polygon, with the coordinates ground.east . p and ground.north . p. `supports` must have the
+/// set dop26 and SupportDetail::points. Without half-spaces, every point is listed.
+HalfSpaces outline_half_spaces(const PointView& points, const Supports& supports, const LocalFrame& frame,
+                               const Ground& ground);
+
+/// Calls visit(p) for the valid points of a chunk that are not inside the half-spaces, in the order of the
+/// chunk.
+template <typename Visit>
+void for_each_outside(UsableIsa isa, const PointView& chunk, const Supports& supports,
+                      const HalfSpaces& inside, const Visit& visit) {
+  std::array<std::uint32_t, kBlockPoints> positions;
+  for (std::size_t k = 0; k * kBlockPoints < chunk.count; ++k) {
+    const PointView block = block_of(chunk, k);
+    const std::size_t count = list_outside(isa, block, inside, positions.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Coordinates p = load_point(block, positions[i]);
+      if (!is_valid(p)) continue;
+      require_same_points(within(supports, p));
+      visit(p);
+    }
+  }
+}
 
 /// Corners of a convex polygon, counter-clockwise. Up to 1024 corners are stored without an allocation. For a
 /// small cluster, of which a sweep can have thousands, an allocation would take longer than computing the

@@ -255,6 +255,27 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
   ObbOptions options_;
 };
 
+/// Estimates an upright prism over the convex hull of the points seen from above. See fit_prism().
+template <typename PointT>
+class PrismEstimation : public BoundingVolumeEstimation<PointT, Prism> {
+ public:
+  using Ptr = pcl::shared_ptr<PrismEstimation>;
+  using ConstPtr = pcl::shared_ptr<const PrismEstimation>;
+
+  /// Sets the direction against gravity. The default is z. The length of `up` does not matter, but compute()
+  /// throws std::invalid_argument unless the largest component of `up` is from 1e-30 to 1e30 in magnitude.
+  void setUpAxis(const Eigen::Vector3d& up) { options_.up = up; }
+  const Eigen::Vector3d& getUpAxis() const { return options_.up; }
+
+ protected:
+  Fitted<Prism> fit(const PointView& points, const Execution& execution) const override {
+    return fit_prism(points, options_, execution);
+  }
+
+ private:
+  PrismOptions options_;
+};
+
 /// Estimates the smallest ellipsoid. See fit_ellipsoid().
 template <typename PointT>
 class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {

@@ -103,6 +103,17 @@ Fitted<Obb> fit_obb(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& in
 }
 
 template <typename PointT>
+Fitted<Prism> fit_prism(const pcl::PointCloud<PointT>& cloud, const PrismOptions& options = {},
+                        const Execution& execution = {}) {
+  return fit_prism(point_view(cloud), options, execution);
+}
+template <typename PointT>
+Fitted<Prism> fit_prism(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                        const PrismOptions& options = {}, const Execution& execution = {}) {
+  return fit_prism(point_view(cloud, indices), options, execution);
+}
+
+template <typename PointT>
 Fitted<Hull> fit_hull(const pcl::PointCloud<PointT>& cloud, const Execution& execution = {}) {
   return fit_hull(point_view(cloud), execution);
 }

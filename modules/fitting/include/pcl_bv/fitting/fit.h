@@ -25,6 +25,7 @@
 #include "pcl_bv/volumes/hull.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/obb.h"
+#include "pcl_bv/volumes/prism.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -107,6 +108,23 @@ Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options = {}, con
 /// computes the hull of the m remaining points, usually in O(m log m) (Barber, Dobkin, Huhdanpaa 1996).
 Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 
+/// Fits an upright prism around the points. Its outline is the exact convex hull of the points seen from
+/// above. Its heights are the exact minimum and maximum along `up`. Coordinates are in the points' unit.
+///
+/// If `up` is a coordinate axis, the corners of the outline are coordinates of points, and no smaller prism
+/// along this axis encloses the points. Otherwise no double may represent a coordinate along the axes; then
+/// the outline and the heights are rounded outward, by a few units in the last place of the coordinates. The
+/// rank is that of the points. Points that are flat seen from above give an outline of one or two corners if
+/// `up` is a coordinate axis, otherwise an outline that is a few rounding steps wide.
+///
+/// Empty input and errors are as for fit_aabb(). Throws std::invalid_argument for an `up` outside its range,
+/// too. The bits are the same for every execution and every order of the points.
+///
+/// O(n): two passes, and a third one if `up` is no coordinate axis. O(m log m) for the m points near the
+/// outline (Akl, Toussaint 1978; Andrew 1979).
+Fitted<Prism> fit_prism(const PointView& points, const PrismOptions& options = {},
+                        const Execution& execution = {});
+
 /// Fits a small cylinder around the points. The axis is the best that a search finds. The search tries
 /// directions over the hemisphere and improves the best of them step by step. For this axis, radius and
 /// height are the minimum. There is no proof that no other axis is better.
@@ -149,6 +167,8 @@ std::vector<Fitted<Obb>> fit_obb(const PointView& points, const IndexLists& clus
                                  const ObbOptions& options = {}, const Execution& execution = {});
 std::vector<Fitted<Hull>> fit_hull(const PointView& points, const IndexLists& clusters,
                                    const Execution& execution = {});
+std::vector<Fitted<Prism>> fit_prism(const PointView& points, const IndexLists& clusters,
+                                     const PrismOptions& options = {}, const Execution& execution = {});
 std::vector<Fitted<Cylinder>> fit_cylinder(const PointView& points, const IndexLists& clusters,
                                            const Execution& execution = {});
 std::vector<Fitted<Capsule>> fit_capsule(const PointView& points, const IndexLists& clusters,

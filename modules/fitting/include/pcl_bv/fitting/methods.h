@@ -16,7 +16,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Options of the methods. A method ignores options that it does not use.
 struct MethodOptions {
   SphereGrowth growth = SphereGrowth::deferred;   ///< Used by all spheres but sphere-exact.
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< ObbOptions::up, used by obb-yaw and obb-lshape.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Used by obb-yaw, obb-lshape and prism.
 };
 
 namespace detail {
@@ -28,7 +28,7 @@ struct Method {
   std::string_view name;                  ///< The canonical name, as written into results, e.g. "dop26".
   std::vector<std::string_view> aliases;  ///< Other accepted names.
   std::string_view shape;         ///< The result of shape_name(); empty for `best`, whose shape varies.
-  bool upright = false;           ///< Whether the boxes are upright and MethodOptions::up is used.
+  bool upright = false;           ///< Whether the volumes are upright and MethodOptions::up is used.
   bool needs_all_points = false;  ///< Whether points deep inside the cloud can change the volume.
   const detail::MethodFit* implementation = nullptr;  ///< Not null for the methods of methods().
 

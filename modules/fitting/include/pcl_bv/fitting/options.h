@@ -83,6 +83,16 @@ struct ObbOptions {
   Eigen::Vector3d up;
 };
 
+/// Options of fit_prism().
+struct PrismOptions {
+  // Not explicit, so that a direction can be passed alone.
+  PrismOptions(const Eigen::Vector3d& u = Eigen::Vector3d::UnitZ()) : up(u) {}
+
+  /// The direction against gravity. Its length does not matter, but its largest component must be from 1e-30
+  /// to 1e30 in magnitude.
+  Eigen::Vector3d up;
+};
+
 /// Proof that a sphere cannot be smaller: up to four points p_i of the cloud and weights w_i >= 0 with sum 1.
 /// With c = sum w_i p_i, every sphere around these points has a squared radius of at least
 /// sum w_i |p_i - c|^2.

@@ -40,6 +40,8 @@ EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, Sp
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
                          const FitExecution& execution);
 EstimationResult fit_hull(const PointView& points, Hull& hull, const FitExecution& execution);
+EstimationResult fit_prism(const PointView& points, const PrismOptions& options, Prism& prism,
+                           const FitExecution& execution);
 EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const FitExecution& execution);
 EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const FitExecution& execution);
 EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,

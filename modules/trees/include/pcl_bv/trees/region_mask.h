@@ -28,6 +28,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// - Ellipsoid: a radius r becomes sqrt(r^2 + padding^2 + padding (r^2 / m + m)). The number m between the
 ///   smallest and the largest radius is chosen so that the volume is nearly minimal (Kurzhanski, Valyi 1997).
 ///   Equal radii become r + padding; unequal radii have to grow by more.
+/// - Prism: the heights move by the padding. The outline grows by a regular polygon of 16 sides around a
+/// circle
+///   with this radius, so no point of the inflated prism is farther above, below or beside the prism
+///   than 1.02 times the padding.
 struct Region {
   /// The volume before inflation.
   AnyVolume volume;

@@ -17,12 +17,13 @@
 #include "pcl_bv/volumes/hull.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/obb.h"
+#include "pcl_bv/volumes/prism.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A volume of any kind.
-using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb, Cylinder, Capsule, Ellipsoid, Hull>;
+using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb, Cylinder, Capsule, Ellipsoid, Hull, Prism>;
 
 /// Each function below calls the stored volume's member function of the same name.
 bool empty(const AnyVolume& volume);
@@ -39,7 +40,7 @@ Mesh mesh(const AnyVolume& volume);
 AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transform);
 
 /// Returns the name of the volume's type as used in results: "aabb", "kdop", "sphere", "obb", "cylinder",
-/// "capsule", "ellipsoid" or "hull".
+/// "capsule", "ellipsoid", "hull" or "prism".
 std::string_view shape_name(const AnyVolume& volume);
 
 }  // namespace pcl_bv

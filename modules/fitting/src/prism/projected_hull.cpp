@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Double arithmetic decides nearly every comparison and orientation, exact arithmetic the others. The exact
+// coordinates decide which points are corners, so that the corners of a cloud are those of its extreme
+// points, and a Partial gives the same bits as the cloud.
+
+#include "prism/projected_hull.h"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/convex_chain.h"
+#include "pcl_bv/volumes/planar_hull.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+// Returns the exact value of axis . (b - a).
+Rational exact_step(const Eigen::Vector3d& axis, const Coordinates& a, const Coordinates& b) {
+  Rational sum = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    sum += Rational(axis[static_cast<int>(k)]) * (Rational(b[k]) - Rational(a[k]));
+  return sum;
+}
+
+bool is_coordinate_axis(const Eigen::Vector3d& axis) {
+  return axis.cwiseAbs().maxCoeff() == 1 && taxicab3(axis) == 1;
+}
+
+}  // namespace
+
+// With U = 2^-53, three products and two sums are off by at most 3.01 U of the sum of the products'
+// magnitudes. The bound is 4 U of this sum, plus the smallest normal number for products that underflow.
+GroundProjection::GroundProjection(const Ground& ground, const Supports& supports)
+    : axes_{ground.east, ground.north} {
+  for (const Eigen::Vector3d& axis : axes_) {
+    if (is_coordinate_axis(axis)) continue;
+    double terms = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double farthest = std::max(std::abs(supports.along[k].low), std::abs(supports.along[k].high));
+      terms += std::abs(axis[static_cast<int>(k)]) * farthest;
+    }
+    error_bound_ = std::max(error_bound_, 0x1p-51 * terms + kSmallestNormal);
+  }
+}
+
+ProjectedPoint GroundProjection::project(const Coordinates& p) const {
+  return {p, {dot3(axes_[0], p), dot3(axes_[1], p)}};
+}
+
+int GroundProjection::compare(const ProjectedPoint& a, const ProjectedPoint& b, int axis) const {
+  const double difference = a.at[axis] - b.at[axis];
+  if (std::abs(difference) > 4 * error_bound_) return difference < 0 ? -1 : 1;
+  if (a.point == b.point) return 0;
+  Expansion exact;
+  exact.add_dot(axes_[axis], a.point).add_dot(Eigen::Vector3d(-axes_[axis]), b.point);
+  return exact.is_lossless() ? exact.sign() : exact_step(axes_[axis], b.point, a.point).sign();
+}
+
+// Let e be the error bound. The differences of coordinates are off by at most 2 e and one rounding. The
+// margin of 8 e exceeds the effect of 2 e on the products, and 32 e^2 exceeds the product of two errors.
+int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c) const {
+  const Eigen::Vector2d ab = b.at - a.at, ac = c.at - a.at;
+  const double left = ab.x() * ac.y(), right = ab.y() * ac.x();
+  const double lengths =
+      (std::abs(ab.x()) + std::abs(ab.y())) + (std::abs(ac.x()) + std::abs(ac.y())) + 4 * error_bound_;
+  const double rounding =
+      0x1p-50 * (std::abs(left) + std::abs(right)) + 8 * error_bound_ * lengths + kSmallestNormal;
+  if (std::abs(left - right) > rounding) return left > right ? 1 : -1;
+  const Rational exact = exact_step(axes_[0], a.point, b.point) * exact_step(axes_[1], a.point, c.point) -
+                         exact_step(axes_[1], a.point, b.point) * exact_step(axes_[0], a.point, c.point);
+  return exact.sign();
+}
+
+void GroundProjection::keep_corners(std::vector<ProjectedPoint>& points) const {
+  std::vector<std::size_t> corners;
+  if (is_exact()) {
+    std::vector<Eigen::Vector2d> flat;
+    flat.reserve(points.size());
+    for (const ProjectedPoint& p : points)
+      flat.push_back(p.at);
+    corners = planar_hull(flat);
+  } else {
+    const auto order = [&](std::size_t i, std::size_t j) {
+      const int first = compare(points[i], points[j], 0);
+      return first != 0 ? first : compare(points[i], points[j], 1);
+    };
+    std::vector<std::size_t> all(points.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    corners = convex_chain(
+        std::move(all),
+        [&](std::size_t i, std::size_t j) {
+          const int sign = order(i, j);
+          return sign != 0 ? sign < 0 : i < j;
+        },
+        [&](std::size_t i, std::size_t j) { return order(i, j) == 0; },
+        [&](std::size_t i, std::size_t j, std::size_t k) { return turn(points[i], points[j], points[k]); });
+  }
+  std::vector<ProjectedPoint> kept;
+  kept.reserve(corners.size());
+  for (const std::size_t i : corners)
+    kept.push_back(points[i]);
+  points = std::move(kept);
+}
+
+PlaneBox GroundProjection::box(const Coordinates& p) const {
+  Expansion u, v;
+  u.add_dot(axes_[0], p);
+  v.add_dot(axes_[1], p);
+  return {{u.down(), v.down()}, {u.up(), v.up()}};
+}
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/volumes/prism.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "bounds.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/obb.h"
+#include "pcl_bv/volumes/outline.h"
+#include "pcl_bv/volumes/planar_hull.h"
+#include "prism_sides.h"
+#include "projection.h"
+#include "ray_clip.h"
+#include "shape.h"
+
+namespace pcl_bv {
+
+using namespace detail;
+
+namespace {
+
+void check_prism(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("Prism: ") + what);
+}
+
+// Returns whether the corners are those of their convex hull in the same order, from any first corner on.
+bool is_strictly_convex(const std::vector<Eigen::Vector2d>& outline) {
+  const std::vector<std::size_t> corners = planar_hull(outline);
+  if (corners.size() != outline.size()) return false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] != (corners[0] + i) % corners.size()) return false;
+  }
+  return true;
+}
+
+// Returns whether each axis is parallel to a coordinate axis. Axes that are orthonormal to 1e-12 are then a
+// permutation of the coordinate axes, up to their signs.
+bool is_permutation(const Eigen::Matrix3d& axes) {
+  return (axes.array() == 0 || axes.cwiseAbs().array() == 1).all();
+}
+
+// Upper bound of |p - center| over all p of the prism. The factor covers axes that are not exactly
+// orthonormal, and the rounding of the centre.
+double radius_up(const Prism& prism) {
+  const PrismSides sides(prism);
+  const Eigen::Vector3d size(add_up(sides.high().x(), -sides.low().x()),
+                             add_up(sides.high().y(), -sides.low().y()), add_up(prism.high(), -prism.low()));
+  const Eigen::Vector3d farthest(sides.low().cwiseAbs().cwiseMax(sides.high().cwiseAbs()).maxCoeff(),
+                                 std::abs(prism.low()), std::abs(prism.high()));
+  return 1.001 * (norm_up(size) + 0x1p-48 * taxicab3(farthest)) + kSmallestNormal;
+}
+
+// How a transform M p + t moves one coordinate. Let a be the old axis, a' the new axis, c the centre and c'
+// its rounded image. With d = M' a' - sign a, the new coordinate a' . (M p + t) is sign (a . p) + shift + e.
+// The shift is a' . c' - sign (a . c). The error e is d . (p - c) + a' . (M c + t - c').
+class MovedAxis {
+ public:
+  MovedAxis(const Eigen::Isometry3d& transform, const Eigen::Vector3d& old_axis,
+            const Eigen::Vector3d& new_axis, double sign, const Eigen::Vector3d& center, double radius)
+      : sign_(sign) {
+    const TransformedPoint moved = transform_point(transform, center);
+    const double turned = difference_up(transform.linear().transpose(), new_axis, sign, old_axis);
+    error_ = add_up(multiply_up(turned, radius), multiply_up(1.001, moved.error));
+    shift_.add_dot(new_axis, moved.point).add_dot(Eigen::Vector3d(-sign * old_axis), center);
+  }
+
+  double down(double coordinate) const { return at(coordinate).add(-error_).down() + 0.0; }
+  double up(double coordinate) const { return at(coordinate).add(error_).up() + 0.0; }
+  double sign() const { return sign_; }
+
+ private:
+  Expansion at(double coordinate) const { return Expansion(shift_).add(sign_ * coordinate); }
+
+  double sign_, error_;
+  Expansion shift_;
+};
+
+}  // namespace
+
+Prism::Prism() : axes_(Eigen::Matrix3d::Identity()), low_(kInfinity), high_(-kInfinity) {}
+
+Prism::Prism(const Eigen::Matrix3d& axes, std::vector<Eigen::Vector2d> outline, double low, double high)
+    : Prism() {
+  const FloatEnvironment environment;
+  if (outline.empty() || low > high) return;
+  check_prism(std::isfinite(low) && std::isfinite(high), "low and high must be finite");
+  check_prism(orthonormality_error(axes) <= 1e-12 && dot3(cross3(axes.col(0), axes.col(1)), axes.col(2)) > 0,
+              "axes must be right-handed and orthonormal to 1e-12");
+  for (Eigen::Vector2d& corner : outline) {
+    check_prism(corner.allFinite() && corner.cwiseAbs().maxCoeff() <= 1e101,
+                "corners must be finite, within 1e101");
+    corner = corner.array() + 0.0;
+  }
+  check_prism(is_strictly_convex(outline),
+              "the outline must be a convex polygon, counter-clockwise, with no three corners on a line");
+  *this = PrismAccess::make(axes.array() + 0.0, std::move(outline), low + 0.0, high + 0.0);
+}
+
+bool Prism::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
+  if (empty() || !(point.cwiseAbs().maxCoeff() <= 1e120) || !point.allFinite()) return false;
+  const Projection h = project(axes_.col(2), point);
+  if (!(h.value + h.error >= low_ && h.value - h.error <= high_)) return false;
+  const Projection u = project(axes_.col(0), point), v = project(axes_.col(1), point);
+  const PrismSides sides(*this);
+  const auto between = [](const Projection& p, double low, double high) {
+    return p.value + p.error >= low && p.value - p.error <= high;
+  };
+  if (!between(u, sides.low().x(), sides.high().x()) || !between(v, sides.low().y(), sides.high().y()))
+    return false;
+  return sides.all_of([&](const Eigen::Vector2d& corner, const Eigen::Vector2d& edge) {
+    const SideValue side = PrismSides::cross(edge, relative(u, corner.x()), relative(v, corner.y()));
+    return side.value + side.error >= 0;
+  });
+}
+
+std::optional<RayInterval> Prism::intersect(const Eigen::Vector3d& origin,
+                                            const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
+    const auto keep_between = [&](const Projection& start, const Projection& step, double low, double high) {
+      ray.keep(step.low(), high - start.low());
+      ray.keep(-step.high(), start.high() - low);
+    };
+    const auto along = [&](int i, const Eigen::Vector3d& p) { return project(axes_.col(i), p); };
+    const auto widened = [](const Projection& p) { return Projection{p.value, 2 * p.error}; };
+    keep_between(along(2, origin), along(2, direction), low_, high_);
+    const Projection u = widened(along(0, origin)), v = widened(along(1, origin));
+    const Projection du = widened(along(0, direction)), dv = widened(along(1, direction));
+    const PrismSides sides(*this);
+    keep_between(u, du, sides.low().x(), sides.high().x());
+    keep_between(v, dv, sides.low().y(), sides.high().y());
+    sides.all_of([&](const Eigen::Vector2d& corner, const Eigen::Vector2d& edge) {
+      const SideValue start = PrismSides::cross(edge, relative(u, corner.x()), relative(v, corner.y()));
+      const SideValue step = PrismSides::cross(edge, du, dv);
+      ray.keep(-step.value - 2 * step.error, start.value + 2 * start.error);
+      return true;
+    });
+  });
+}
+
+Aabb Prism::aabb() const {
+  const FloatEnvironment environment;
+  if (empty()) return {};
+  if (!is_permutation(axes_)) return box_of(*make_polytope(*this));
+  const PrismSides sides(*this);
+  const Eigen::Vector3d low(sides.low().x(), sides.low().y(), low_),
+      high(sides.high().x(), sides.high().y(), high_);
+  Aabb box;
+  for (const Eigen::Vector3d& corner : {low, high})
+    box.extend(Eigen::Vector3d((axes_ * corner).array() + 0.0));  // exact: one product of each sum is not 0
+  return box;
+}
+
+Prism Prism::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
+  if (empty()) return {};
+  const Eigen::Matrix3d m = transform.linear();
+  Eigen::Matrix3d from_up;
+  from_up << m * axes_.col(2), m * axes_.col(0), m * axes_.col(1);
+  const Eigen::Matrix3d turned = orthonormal_axes(from_up);
+  Eigen::Matrix3d axes;
+  axes << turned.col(1), turned.col(2), turned.col(0);
+  axes.array() += 0.0;
+  // A reflection would make the axes left-handed, so it negates the second coordinate.
+  const double mirror = dot3(axes.col(1), m * axes_.col(1)) < 0 ? -1 : 1;
+  const Eigen::Vector3d middle = center();
+  const double radius = radius_up(*this);
+  const auto moved = [&](int i, double sign) {
+    return MovedAxis(transform, axes_.col(i), axes.col(i), sign, middle, radius);
+  };
+  const MovedAxis u = moved(0, 1), v = moved(1, mirror), h = moved(2, 1);
+  std::vector<PlaneBox> boxes;
+  for (const Eigen::Vector2d& corner : outline_)
+    boxes.push_back({{u.down(corner.x()), v.down(corner.y())}, {u.up(corner.x()), v.up(corner.y())}});
+  return PrismAccess::make(axes, outline_around(boxes), h.down(low_), h.up(high_));
+}
+
+bool operator==(const Prism& a, const Prism& b) {
+  const FloatEnvironment environment;
+  return a.axes() == b.axes() && a.outline() == b.outline() && a.low() == b.low() && a.high() == b.high();
+}
+
+}  // namespace pcl_bv
