@@ -96,7 +96,7 @@ points: (N, 3 or more) float32 or float64 with any positive distance between row
     records with fields x, y, z. They are not copied. Points that are not finite are dropped and counted.
 method: a name of pcl_bv.methods() or its alias, or a list of them. 'all': every method but hull and best.
 labels: an integer for each point, or Clusters. One volume is fitted per label, and none for negative labels.
-up: the direction opposite to gravity, used by obb-yaw and obb-lshape: 'x', '-z', ... or three numbers.
+up: the direction opposite to gravity, used by obb-yaw, obb-lshape and prism: 'x', '-z', ... or three numbers.
 growth: how sphere-ritter and sphere-epos* grow the sphere: 'sequential', 'stationary' or 'deferred'.
 threads: number of threads; 0: all processors. isa: one of instruction_sets. Neither changes the result.
 

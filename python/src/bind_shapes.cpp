@@ -154,6 +154,22 @@ void bind_slabs(py::module_& module) {
   property<Hull>(hull, "rank", 3, "Number of dimensions that the hull spans, 0 to 3.");
 }
 
+void bind_prism(py::module_& module) {
+  auto prism = bind<Prism>(module, "Prism", prism_doc,
+                           [](const py::tuple& a) { return make_prism(a[0], a[1], a[2], a[3]); });
+  prism.def(py::init([](py::handle axes, py::handle outline, py::handle low, py::handle high) {
+              return object_of(make_prism(axes, outline, low, high));
+            }),
+            "axes"_a, "outline"_a, "low"_a, "high"_a, init_doc(prism_doc).c_str());
+  property<Prism>(prism, "axes", 0, "(3, 3): axes[0] and axes[1] span the plane, axes[2] is up.");
+  property<Prism>(prism, "outline", 1, "(n, 2): corners along axes[0] and axes[1], counter-clockwise.");
+  property<Prism>(prism, "low", 2, "Smallest height along axes[2]; infinity if empty.");
+  property<Prism>(prism, "high", 3, "Largest height along axes[2]; -infinity if empty.");
+  prism.def_property_readonly(
+      "footprint_area", [](const ShapeObject<Prism>& v) { return v.shape().footprint_area(); },
+      "Area of the outline.");
+}
+
 void bind_round(py::module_& module) {
   auto sphere =
       bind<Sphere>(module, "Sphere", sphere_doc, [](const py::tuple& a) { return make_sphere(a[0], a[1]); });
@@ -199,6 +215,7 @@ void bind_round(py::module_& module) {
 void bind_shapes(py::module_& module) {
   bind_boxes(module);
   bind_slabs(module);
+  bind_prism(module);
   bind_round(module);
 }
 

@@ -91,6 +91,13 @@ Capsule make_capsule(py::handle a, py::handle b, py::handle radius) {
 Ellipsoid make_ellipsoid(py::handle center, py::handle axes_rows, py::handle radii) {
   return {three_numbers(center, "center"), axes(axes_rows), three_numbers(radii, "radii")};
 }
+Prism make_prism(py::handle axes_rows, py::handle outline, py::handle low, py::handle high) {
+  const py::array_t<double> numbers = table(outline, "outline", 2);
+  std::vector<Eigen::Vector2d> corners;
+  for (py::ssize_t i = 0; i < numbers.size(); i += 2)
+    corners.emplace_back(numbers.data()[i], numbers.data()[i + 1]);
+  return {axes(axes_rows), std::move(corners), real(low, "low"), real(high, "high")};
+}
 Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::handle rank) {
   const py::array_t<double> corners = table(faces, "faces", 3), sides = table(planes, "planes", 4);
   std::vector<Hull::Triangle> triangles;

@@ -18,6 +18,7 @@ Sphere make_sphere(py::handle center, py::handle radius);
 Cylinder make_cylinder(py::handle center, py::handle axis, py::handle radius, py::handle half_height);
 Capsule make_capsule(py::handle a, py::handle b, py::handle radius);
 Ellipsoid make_ellipsoid(py::handle center, py::handle axes, py::handle radii);
+Prism make_prism(py::handle axes, py::handle outline, py::handle low, py::handle high);
 Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::handle rank);
 
 inline constexpr const char* aabb_doc = R"(Aabb(min, max)
@@ -107,6 +108,19 @@ faces. A fitted hull has the planes of its faces and of its axis-aligned box.
 >>> hull = pcl_bv.fit([[0., 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], 'hull')
 >>> hull.vertices.shape, hull.faces.shape, hull.planes.shape, hull.rank
 ((4, 3), (4, 3), (7, 4), 3)
+)";
+
+inline constexpr const char* prism_doc = R"(Prism(axes, outline, low, high)
+--
+
+An upright prism over a convex polygon. A point p has the coordinates u = axes[0] . p, v = axes[1] . p and
+h = axes[2] . p. The prism is the set of all p with low <= h <= high whose (u, v) is inside the outline, which
+has counter-clockwise corners. Without corners or with low > high, the prism is empty.
+
+>>> import numpy, pcl_bv
+>>> prism = pcl_bv.Prism(numpy.eye(3), [[0, 0], [2, 0], [0, 2]], 0, 1)
+>>> prism.volume, prism.footprint_area, prism.contains([1, 1, 0.5])
+(2.0, 2.0, True)
 )";
 
 inline constexpr const char* overlaps_doc = R"(overlaps(self, other, /)

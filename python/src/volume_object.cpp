@@ -73,6 +73,12 @@ struct ReprText {
            ", faces=" + std::to_string(hull.triangles().size());
     append(text, "volume", hull.volume());
   }
+  void operator()(const Prism& prism) {
+    text = "corners=" + std::to_string(prism.outline().size());
+    append(text, "low", prism.low());
+    append(text, "high", prism.high());
+    append(text, "footprint_area", prism.footprint_area());
+  }
 };
 
 py::array slabs(const SlabVector& v) {
@@ -162,6 +168,14 @@ py::tuple arguments_of(const Hull& hull) {
   }
   return py::make_tuple(array_of(hull.vertices()), read_only(std::move(faces)), read_only(std::move(planes)),
                         hull.rank());
+}
+
+py::tuple arguments_of(const Prism& prism) {
+  Eigen::MatrixXd outline(static_cast<Eigen::Index>(prism.outline().size()), 2);
+  for (std::size_t i = 0; i < prism.outline().size(); ++i)
+    outline.row(static_cast<Eigen::Index>(i)) = prism.outline()[i].transpose();
+  return py::make_tuple(array_of(Eigen::MatrixXd(prism.axes().transpose())), array_of(outline), prism.low(),
+                        prism.high());
 }
 
 py::tuple fit_state(const VolumeObject& volume) {

@@ -51,6 +51,7 @@ py::tuple arguments_of(const Cylinder& cylinder);
 py::tuple arguments_of(const Capsule& capsule);
 py::tuple arguments_of(const Ellipsoid& ellipsoid);
 py::tuple arguments_of(const Hull& hull);
+py::tuple arguments_of(const Prism& prism);
 
 /// These functions convert the result of a fit to and from the state that pickle stores.
 py::tuple fit_state(const VolumeObject& volume);

@@ -91,6 +91,29 @@ inline bool holds(const Hull& hull, const Coordinates& p) {
   return !hull.empty();
 }
 
+inline bool holds(const Prism& prism, const Coordinates& p) {
+  const Eigen::Vector3d east = prism.axes().col(0), north = prism.axes().col(1), up = prism.up();
+  if (prism.empty() || !exactly_between(prism.low(), up, p, prism.high())) return false;
+  const std::vector<Eigen::Vector2d>& outline = prism.outline();
+  Eigen::Vector2d low = outline[0], high = low;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+    const RoundedDot u = rounded_dot(east, p), v = rounded_dot(north, p);
+    const double x = b.x() - a.x(), y = b.y() - a.y();
+    const double left = x * (v.value - a.y()), right = y * (u.value - a.x());
+    const double terms =
+        std::abs(x) * (v.terms + std::abs(a.y())) + std::abs(y) * (u.terms + std::abs(a.x()));
+    if (left - right > kClearly * terms + kUnderflow) continue;
+    const Rational edge_x = Rational(b.x()) - Rational(a.x()), edge_y = Rational(b.y()) - Rational(a.y());
+    if (edge_x * (exact_dot(north, p) - Rational(a.y())) < edge_y * (exact_dot(east, p) - Rational(a.x())))
+      return false;
+  }
+  if (outline.size() > 2) return true;  // otherwise the half-planes leave it unbounded
+  return exactly_between(low.x(), east, p, high.x()) && exactly_between(low.y(), north, p, high.y());
+}
+
 inline void expect_encloses(const AnyVolume& volume, const PointView& points) {
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);

@@ -39,6 +39,7 @@ def numbers_of(volume):
         "capsule": ("a", "b", "radius"),
         "ellipsoid": ("center", "axes", "radii"),
         "hull": ("vertices", "faces", "planes"),
+        "prism": ("axes", "outline", "low", "high"),
     }[volume.shape]
     return {name: getattr(volume, name) for name in fields}
 

@@ -63,6 +63,14 @@ inline std::vector<double> numbers(const Hull& hull) {
   return all;
 }
 
+inline std::vector<double> numbers(const Prism& prism) {
+  std::vector<double> all(prism.axes().data(), prism.axes().data() + 9);
+  for (const Eigen::Vector2d& corner : prism.outline())
+    all.insert(all.end(), corner.begin(), corner.end());
+  all.insert(all.end(), {prism.low(), prism.high()});
+  return all;
+}
+
 inline std::vector<double> numbers(const AnyVolume& volume) {
   return std::visit([](const auto& shape) { return numbers(shape); }, volume);
 }
@@ -87,6 +95,13 @@ inline std::vector<double> scaled_numbers(const Cylinder& cylinder, double facto
 
 inline std::vector<double> scaled_numbers(const Ellipsoid& ellipsoid, double factor) {
   return numbers(Ellipsoid(ellipsoid.center() * factor, ellipsoid.axes(), ellipsoid.radii() * factor));
+}
+
+inline std::vector<double> scaled_numbers(const Prism& prism, double factor) {
+  std::vector<Eigen::Vector2d> outline = prism.outline();
+  for (Eigen::Vector2d& corner : outline)
+    corner *= factor;
+  return numbers(Prism(prism.axes(), outline, prism.low() * factor, prism.high() * factor));
 }
 
 inline std::vector<double> scaled_numbers(const Hull& hull, double factor) {

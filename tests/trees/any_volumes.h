@@ -29,6 +29,9 @@ inline std::vector<AnyVolume> volumes_of_every_kind(Random& random, const Scale&
   all.push_back(Capsule(cloud[0], cloud[0], 0.3 * s));
   all.push_back(Ellipsoid(random.point(scale), random.isometry(1).linear(), Vector3d(s, 0.5 * s, 0)));
   all.push_back(Ellipsoid(random.point(scale), random.isometry(1).linear(), Vector3d::Zero()));
+  all.push_back(prism_around({cloud[0], cloud[1]}, orthonormal_axes(random.isometry(1).linear())));
+  all.push_back(prism_around({cloud[0], cloud[1]}, Eigen::Matrix3d::Identity()));
+  all.push_back(prism_around({cloud[0]}, Eigen::Matrix3d::Identity()));
   for (const auto& set : kdop_sets())
     all.push_back(around(Kdop(set), cloud));
   if (s >= 1e-100 && s <= 1e38) {  // Hull::transformed() multiplies

@@ -42,7 +42,8 @@ Bounds bounded(const Bounds& box, const Aabb& finite) {
 }
 
 bool has_planes(const AnyVolume& volume) {
-  return std::holds_alternative<Kdop>(volume) || std::holds_alternative<Hull>(volume);
+  return std::holds_alternative<Kdop>(volume) || std::holds_alternative<Hull>(volume) ||
+         std::holds_alternative<Prism>(volume);
 }
 
 TEST(ConvexRegion, HasABoxAroundTheVolumeLargerByTheMargin) {

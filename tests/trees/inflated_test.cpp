@@ -82,6 +82,24 @@ TEST(Inflated, PlanesMoveOutwardByThePaddingWhateverTheLengthOfTheirNormals) {
     EXPECT_EQ(plane.offset, plane.normal.sum() > 0 ? 2.5 : 0.5);
 }
 
+TEST(Inflated, APrismGrowsByAtLeastThePaddingAndByTwoPercentMoreAtMost) {
+  Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    const Prism prism = testing::prism_around(random.cloud({"", 3, 1}, Span::solid, 3 + i % 20),
+                                              orthonormal_axes(random.isometry(1).linear()));
+    const Prism larger = std::get<Prism>(inflated(prism, 0.25));
+    EXPECT_NEAR(larger.high() - prism.high(), 0.25, 1e-12);
+    EXPECT_NEAR(prism.low() - larger.low(), 0.25, 1e-12);
+    for (int k = 0; k < 50; ++k) {
+      const double angle = 0.1 * k;
+      const Vector3d outward = std::cos(angle) * prism.axes().col(0) + std::sin(angle) * prism.axes().col(1);
+      const double step = outward.dot(larger.support(outward) - prism.support(outward));
+      EXPECT_GE(step, 0.25 - 1e-12) << "seed 4, " << i;
+      EXPECT_LE(step, 0.25 * 1.02) << "seed 4, " << i;
+    }
+  }
+}
+
 TEST(Inflated, AnEllipsoidOfEqualRadiiGrowsLikeASphere) {
   const Ellipsoid ball({1, 2, 3}, Eigen::Matrix3d::Identity(), {2, 2, 2});
   const Vector3d radii = std::get<Ellipsoid>(inflated(ball, 0.5)).radii();
@@ -114,7 +132,7 @@ TEST(Inflated, WithoutPaddingOrContentsIsTheVolumeItself) {
     EXPECT_EQ(inflated(volume, 0), volume) << shape_name(volume);
   for (const AnyVolume& volume :
        {AnyVolume(Aabb()), AnyVolume(Kdop()), AnyVolume(Sphere()), AnyVolume(Obb()), AnyVolume(Cylinder()),
-        AnyVolume(Capsule()), AnyVolume(Ellipsoid()), AnyVolume(Hull())}) {
+        AnyVolume(Capsule()), AnyVolume(Ellipsoid()), AnyVolume(Hull()), AnyVolume(Prism())}) {
     EXPECT_TRUE(empty(inflated(volume, 1))) << shape_name(volume);
   }
 }

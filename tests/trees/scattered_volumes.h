@@ -28,7 +28,8 @@ inline std::vector<AnyVolume> odd_volumes(double size) {
           Cylinder(),
           Capsule(),
           Ellipsoid(),
-          Hull()};
+          Hull(),
+          Prism()};
 }
 
 /// At least `count`, around the scale's place and up to `spread` extents from it.

@@ -20,12 +20,14 @@ TEST(AnyVolume, NamesItsShape) {
   EXPECT_EQ(shape_name(Capsule()), "capsule");
   EXPECT_EQ(shape_name(Ellipsoid()), "ellipsoid");
   EXPECT_EQ(shape_name(Hull()), "hull");
+  EXPECT_EQ(shape_name(Prism()), "prism");
 }
 
 TEST(AnyVolume, ForwardsToTheVolumeHeld) {
   const Aabb box({0, 0, 0}, {1, 2, 4});
   const AnyVolume volumes[] = {box, Kdop().extend(box.min()).extend(box.max()), Sphere({0.5, 1, 2}, 3),
-                               Obb(box)};
+                               Obb(box),
+                               Prism(Eigen::Matrix3d::Identity(), {{0, 0}, {1, 0}, {1, 2}, {0, 2}}, 0, 4)};
   for (const AnyVolume& v : volumes) {
     SCOPED_TRACE(shape_name(v));
     EXPECT_FALSE(empty(v));
@@ -77,6 +79,9 @@ TEST(AnyVolume, OfAnyShapeIsUnequalToAnotherOneOnly) {
   expect_unequal(Ellipsoid(o, Eigen::Matrix3d::Identity(), {1, 2, 3}),
                  Ellipsoid(o, Eigen::Matrix3d::Identity(), {1, 2, 4}));
   expect_unequal(Hull({a}, {}, {{a, 1}}, 0), Hull({b}, {}, {{b, 2}}, 0));
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  expect_unequal(Prism(axes, {{0, 0}}, 1, 2), Prism(axes, {{0, 1}}, 1, 2));
+  expect_unequal(Prism(axes, {{0, 0}}, 1, 2), Prism(axes, {{0, 0}}, 1, 3));
 }
 
 TEST(AnyVolume, AnEmptyOneIsUnequalToOthers) {
@@ -89,6 +94,7 @@ TEST(AnyVolume, AnEmptyOneIsUnequalToOthers) {
   expect_unequal(Capsule(), Capsule(o, a, 1));
   expect_unequal(Ellipsoid(), Ellipsoid(o, Eigen::Matrix3d::Identity(), {1, 2, 3}));
   expect_unequal(Hull(), Hull({a}, {}, {{a, 1}}, 0));
+  expect_unequal(Prism(), Prism(Eigen::Matrix3d::Identity(), {{0, 0}}, 1, 2));
 }
 
 TEST(AnyVolume, IsAnEmptyBoxAtFirst) {

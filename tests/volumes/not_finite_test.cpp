@@ -10,7 +10,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/any_volume.h"
-#include "pcl_bv/volumes/frustum.h"
+#include "pcl_bv/volumes/hull.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -35,7 +35,10 @@ std::vector<AnyVolume> one_of_each_kind() {
           Ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {1, 2, 3}),
           Ellipsoid({0, 0, 0}, turned, {1, 2, 3}),
           frustum(Eigen::Isometry3d::Identity(), 1, 10, 1, 1),
-          Hull({{0, 0, 0}}, {}, {{{1, 1, 1}, 1}, {{1, 0, 0}, 1}}, 3)};
+          Hull({{0, 0, 0}}, {}, {{{1, 1, 1}, 1}, {{1, 0, 0}, 1}}, 3),
+          Prism(Eigen::Matrix3d::Identity(), {{-1, -1}, {1, -1}, {0, 2}}, -1, 1),
+          Prism(Eigen::Matrix3d::Identity(), {{-1, -1}, {1, 1}}, -1, 1),
+          Prism(orthonormal_axes(turned), {{-1, -1}, {1, -1}, {0, 2}}, -1, 1)};
 }
 
 std::vector<Vector3d> points_not_finite() {

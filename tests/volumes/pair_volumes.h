@@ -19,7 +19,7 @@
 namespace pcl_bv::testing {
 using namespace detail;
 
-inline constexpr int kKinds = 8;
+inline constexpr int kKinds = 9;
 
 inline bool inside(const AnyVolume& volume, const ExactPoint& p) {
   return std::visit([&](const auto& v) { return inside(v, p); }, volume);
@@ -91,7 +91,8 @@ struct Form {
         std::vector<Vector3d> vertices;
         for (const Vector3d& p : points)
           vertices.push_back(at + t * p);
-        return hull_around(vertices);
+        if (kind == 7) return hull_around(vertices);
+        return prism_around(vertices, axes);
       }
     }
   }
@@ -136,6 +137,8 @@ inline AnyVolume point_volume(int kind, const Vector3d& p) {
       return Capsule(p, p, 0);
     case 6:
       return Ellipsoid(p, axes, Vector3d::Zero());
+    case 8:
+      return prism_around({p}, axes);
     default: {
       std::vector<HullPlane> planes;
       for (int k = 0; k < 3; ++k) {
@@ -148,8 +151,8 @@ inline AnyVolume point_volume(int kind, const Vector3d& p) {
 }
 
 inline AnyVolume empty_volume(int kind) {
-  static const AnyVolume all[kKinds] = {Aabb(),     Kdop(),    Sphere(),    Obb(),
-                                        Cylinder(), Capsule(), Ellipsoid(), Hull()};
+  static const AnyVolume all[kKinds] = {Aabb(),    Kdop(),      Sphere(), Obb(),  Cylinder(),
+                                        Capsule(), Ellipsoid(), Hull(),   Prism()};
   return all[kind];
 }
 

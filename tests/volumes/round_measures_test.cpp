@@ -186,7 +186,8 @@ TEST(RoundVolumes, AFlatHullIsMeasuredByItsPolygon) {
 TEST(RoundVolumes, EmptyOnesAreEmpty) {
   for (const AnyVolume& volume :
        {AnyVolume(Cylinder()), AnyVolume(Capsule()), AnyVolume(Ellipsoid()), AnyVolume(Hull()),
-        AnyVolume(Cylinder({0, 0, 0}, {0, 0, 1}, -1, 1)), AnyVolume(Capsule({0, 0, 0}, {0, 0, 1}, -1)),
+        AnyVolume(Prism()), AnyVolume(Cylinder({0, 0, 0}, {0, 0, 1}, -1, 1)),
+        AnyVolume(Capsule({0, 0, 0}, {0, 0, 1}, -1)),
         AnyVolume(Ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {1, -1, 1}))}) {
     SCOPED_TRACE(shape_name(volume));
     EXPECT_TRUE(empty(volume));

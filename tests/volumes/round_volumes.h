@@ -5,13 +5,18 @@
 // kind.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "exact.h"
+#include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/volumes/any_volume.h"
+#include "pcl_bv/volumes/outline.h"
 
 namespace pcl_bv::testing {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 inline ExactPoint minus(const ExactPoint& a, const ExactPoint& b) {
@@ -54,6 +59,37 @@ inline bool inside(const Hull& hull, const ExactPoint& p) {
   return true;
 }
 
+inline bool inside(const Prism& prism, const ExactPoint& p) {
+  const Rational u = dot(prism.axes().col(0), p), v = dot(prism.axes().col(1), p), h = dot(prism.up(), p);
+  if (prism.empty() || h < Rational(prism.low()) || h > Rational(prism.high())) return false;
+  Vector2d low = prism.outline()[0], high = low;
+  for (std::size_t i = 0; i < prism.outline().size(); ++i) {
+    const Vector2d &a = prism.outline()[i], &b = prism.outline()[(i + 1) % prism.outline().size()];
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+    const Rational left = (Rational(b.x()) - Rational(a.x())) * (v - Rational(a.y()));
+    const Rational right = (Rational(b.y()) - Rational(a.y())) * (u - Rational(a.x()));
+    if (left < right) return false;
+  }
+  return u >= Rational(low.x()) && u <= Rational(high.x()) && v >= Rational(low.y()) &&
+         v <= Rational(high.y());
+}
+
+/// The prism of the points along the axes, around what rounding leaves of their coordinates.
+inline Prism prism_around(const std::vector<Vector3d>& points, const Eigen::Matrix3d& axes) {
+  std::vector<detail::PlaneBox> boxes;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector3d& p : points) {
+    detail::Expansion along[3];
+    for (int i = 0; i < 3; ++i)
+      along[i].add_dot(axes.col(i), p);
+    boxes.push_back({{along[0].down(), along[1].down()}, {along[0].up(), along[1].up()}});
+    low = std::min(low, along[2].down());
+    high = std::max(high, along[2].up());
+  }
+  return {axes, detail::outline_around(boxes), low, high};
+}
+
 inline Hull cube(const Vector3d& low, double side) {
   std::vector<Vector3d> corners;
   for (int i = 0; i < 8; ++i)
@@ -89,7 +125,9 @@ inline std::vector<AnyVolume> volumes(Random& random, const Scale& scale) {
           Capsule(a, a + random.vector(s), 0.3 * s),
           Ellipsoid(random.point(scale), axes, Vector3d(s, 0.5 * s, 0.1 * s)),
           Ellipsoid(random.point(scale), axes, Vector3d(s, 1e-3 * s, 1e-5 * s)),
-          cube(random.point(scale), s)};
+          cube(random.point(scale), s),
+          prism_around(random.cloud(scale, Span::solid, 12), orthonormal_axes(random.isometry(1).linear())),
+          prism_around(random.cloud(scale, Span::solid, 12), Eigen::Matrix3d::Identity())};
 }
 
 }  // namespace pcl_bv::testing

@@ -41,6 +41,15 @@ template <typename Shape>
 CsvShape csv_shape(const Shape& shape) {
   if constexpr (requires { shape.half_extents(), shape.quaternion(); }) {
     return {2 * shape.half_extents(), shape.quaternion(), {}};
+  } else if constexpr (requires { shape.outline(), shape.axes(); }) {
+    const auto& outline = shape.outline();
+    Eigen::Vector2d low = outline.front(), high = low;
+    for (const Eigen::Vector2d& corner : outline) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    const Eigen::Vector2d size = high - low;
+    return {Eigen::Vector3d(size.x(), size.y(), shape.high() - shape.low()), rotation_of(shape.axes()), {}};
   } else if constexpr (requires { shape.radii(), shape.axes(); }) {
     return {2 * shape.radii(), rotation_of(shape.axes()), {}};
   } else if constexpr (requires { shape.axis(), shape.half_height(), shape.radius(); }) {

@@ -89,6 +89,15 @@ Hull read_hull(const Json& json) {
   return {std::move(vertices), std::move(faces), std::move(planes), rank};
 }
 
+std::vector<Eigen::Vector2d> outline_of(const Json& value) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const Json& corner : list_of("outline", value)) {
+    if (!corner.is_array() || corner.size() != 2) refuse("outline", "two numbers are wanted", corner);
+    outline.emplace_back(number_of("outline", corner[0]), number_of("outline", corner[1]));
+  }
+  return outline;
+}
+
 AnyVolume read_shape(const Json& json) {
   const Json& name = member(json, "shape");
   const auto point = [&](const char* key) { return vector_of(key, member(json, key)); };
@@ -108,6 +117,8 @@ AnyVolume read_shape(const Json& json) {
   if (shape == "capsule") return Capsule(point("a"), point("b"), number("radius"));
   if (shape == "ellipsoid") return Ellipsoid(point("center"), axes("axes"), point("radii"));
   if (shape == "hull") return read_hull(json);
+  if (shape == "prism")
+    return Prism(axes("axes"), outline_of(member(json, "outline")), number("low"), number("high"));
   refuse(abbreviated(name) + " is no shape");
 }
 

@@ -66,6 +66,11 @@ void add_numbers(const Hull& hull, JsonText& json) {
   if (hull.rank() < 3) json.add("rank", hull.rank());
 }
 
+void add_numbers(const Prism& prism, JsonText& json) {
+  add_axes(prism.axes(), json);
+  json.add("outline", prism.outline()).add("low", prism.low()).add("high", prism.high());
+}
+
 void add_volume(const VolumeEntry& entry, JsonText& json) {
   json.begin('{').add("shape", shape_name(entry.volume)).add("method", entry.method);
   if (!entry.failed.empty()) {

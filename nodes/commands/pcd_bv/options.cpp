@@ -122,7 +122,8 @@ void reject_useless(const CommandLine& line, const PipelineConfig& config) {
   const bool useful = upright || config.ground.method != GroundMethod::none || line.given("--ground") ||
                       line.given("--image");
   if (line.given("--up") && !useful)
-    throw UsageError("--up: only useful with --ground, --image or an upright box, obb-yaw or obb-lshape");
+    throw UsageError(
+        "--up: only useful with --ground, --image or an upright box or prism: obb-yaw, obb-lshape, prism");
 }
 
 void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {

@@ -92,6 +92,21 @@ const TESTS = {
       const length = norm(p) || 1;
       return { n: scale(p, 1 / length), d: (p[3] - dot(p, from)) / length };
     }), direction, pad),
+  prism: (v, from, direction, pad) => {
+    const [u0, v0, h0] = v.axes.map((axis) => dot(axis, from));
+    const sides = v.outline.flatMap(([a, b], i) => {
+      const [c, d] = v.outline[(i + 1) % v.outline.length];
+      const length = Math.hypot(c - a, d - b);
+      if (length === 0) return [];
+      const [x, y] = [(d - b) / length, (a - c) / length];
+      return [{ n: add(scale(v.axes[0], x), scale(v.axes[1], y)), d: x * (a - u0) + y * (b - v0) }];
+    });
+    const box = [0, 1].flatMap((k) => {
+      const along = v.outline.map((corner) => corner[k] - [u0, v0][k]);
+      return slab(v.axes[k], Math.min(...along), Math.max(...along));
+    });
+    return throughPlanes([...sides, ...box, ...slab(v.axes[2], v.low - h0, v.high - h0)], direction, pad);
+  },
   sphere: (v, from, direction, pad) => throughSphere(sub(v.center, from), v.radius + pad, direction),
   ellipsoid: (v, from, direction, pad) =>
     throughEllipsoid(sub(v.center, from), v.axes, v.radii.map((r) => r + pad), direction),

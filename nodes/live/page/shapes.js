@@ -103,6 +103,28 @@ function flatOutline(at) {
   return [{ n, corners: [...at].sort((p, q) => angle(p) - angle(q)) }];
 }
 
+// Returns the corners of a prism at a height, relative to the origin. `origin` is subtracted in the prism's own
+// axes, in which the outline is stored.
+function ringOf({ axes, outline }, height, origin) {
+  const from = axes.map((axis) => dot(axis, origin));
+  return outline.map(([u, v]) => {
+    const at = [u - from[0], v - from[1], height - from[2]];
+    return axes.reduce((p, axis, k) => pointAlong(p, axis, at[k]), [0, 0, 0]);
+  });
+}
+
+function drawPrism(batch, v, o, paint) {
+  const [low, high] = [ringOf(v, v.low, o), ringOf(v, v.high, o)];
+  const sides = low.map((corner, i) => {
+    const next = (i + 1) % low.length;
+    const [along, across] = [v.outline[next][0] - v.outline[i][0], v.outline[next][1] - v.outline[i][1]];
+    const n = unit(add(scale(v.axes[0], across), scale(v.axes[1], -along)));
+    return { n, corners: [corner, low[next], high[next], high[i]] };
+  });
+  const ends = [{ n: scale(v.axes[2], -1), corners: low.slice().reverse() }, { n: v.axes[2], corners: high }];
+  drawPolygons(batch, [...sides, ...ends], paint);
+}
+
 const meters = (x) => Number(x.toPrecision(4)).toString();
 const product = (sizes) => `${sizes.map(meters).join(" × ")} m`;
 const middleOf = (a, b) => scale(add(a, b), 0.5);
@@ -153,6 +175,12 @@ export const SHAPES = {
     center: (v) => middleOf(v.a, v.b),
     size: (v) => `radius ${meters(v.radius)} m, length ${meters(norm(sub(v.b, v.a)) + 2 * v.radius)} m`,
     draw: (batch, v, o, paint) => drawCapsule(batch, sub(v.a, o), sub(v.b, o), v.radius, paint),
+  },
+  prism: {
+    center: (v) => scale([...ringOf(v, v.low, [0, 0, 0]), ...ringOf(v, v.high, [0, 0, 0])].reduce(add),
+      0.5 / v.outline.length),
+    size: (v) => `${v.outline.length} corners, height ${meters(v.high - v.low)} m`,
+    draw: drawPrism,
   },
   hull: {
     center: (v) => (v.vertices.length > 0 ? scale(v.vertices.reduce(add), 1 / v.vertices.length) : [0, 0, 0]),

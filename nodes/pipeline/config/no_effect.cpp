@@ -12,8 +12,8 @@
 namespace pcl_bv {
 namespace {
 
-bool is_upright(const Method* method) {
-  return method->upright;
+bool is_upright_box(const Method* method) {
+  return method->upright && method->shape == "obb";
 }
 
 bool is_growing_sphere(const Method* method) {
@@ -28,7 +28,7 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
     if (set && !useful) lines.push_back(name(key) + ": has no effect without " + needed);
   };
   const std::vector<const Method*> all = methods();
-  const bool upright = std::any_of(all.begin(), all.end(), is_upright),
+  const bool upright = std::any_of(all.begin(), all.end(), is_upright_box),
              sphere = std::any_of(all.begin(), all.end(), is_growing_sphere);
   check("track.smooth", track.smooth, track.enabled, name("track.enabled"));
   check("track.grow", track.grow, track.enabled, name("track.enabled"));
