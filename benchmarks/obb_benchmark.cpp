@@ -65,6 +65,17 @@ void dito_against_its_passes(benchmark::State& state, const std::string& name) {
       });
 }
 
+// Both need the outline seen from above. The box also measures its axes on all points.
+void prism_against_yaw(benchmark::State& state, const std::string& name, const Eigen::Vector3d& up) {
+  const ObbCloud& cloud = obb_cloud(name);
+  MethodOptions options;
+  options.up = up;
+  AnyVolume volume;
+  compare(
+      state, [&] { volume = *find_method("prism")->fit(cloud.view(), options); },
+      [&] { volume = *find_method("obb-yaw")->fit(cloud.view(), options); });
+}
+
 constexpr std::size_t kClusters = 100, kClusterPoints = 300;
 
 std::vector<PointView> clusters() {
@@ -143,6 +154,8 @@ void add_all() {
       turns(peer.name + " over " + peer.against + '/' + cloud, against_peer, cloud, &peer,
             find_method(peer.against));
     turns("obb-dito14 over its two passes/" + cloud, dito_against_its_passes, cloud);
+    turns("prism over obb-yaw/" + cloud, prism_against_yaw, cloud, Eigen::Vector3d(0, 0, 1));
+    turns("prism over obb-yaw, tilted/" + cloud, prism_against_yaw, cloud, Eigen::Vector3d(0.1, 0.2, 1));
   }
   for (const ObbPeer& peer : obb_peers()) {
     if (peer.against == "obb-pca") {

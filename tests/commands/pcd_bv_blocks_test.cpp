@@ -19,7 +19,7 @@ using namespace detail;
 namespace {
 
 const std::string kVolumes =
-    "aabb,dop14,dop26,sphere,sphere-ritter,obb-pca,obb-dito14,obb-min,obb-yaw,obb-lshape,capsule,hull";
+    "aabb,dop14,dop26,sphere,sphere-ritter,obb-pca,obb-dito14,obb-min,obb-yaw,obb-lshape,prism,capsule,hull";
 
 // With bad points and dead beams.
 std::vector<float> random_points(std::size_t n, unsigned seed) {

@@ -83,6 +83,22 @@ bool hull_holds(const Json& volume, const Coordinates& p) {
   return true;
 }
 
+bool prism_holds(const Json& volume, const Coordinates& p) {
+  std::array<Rational, 3> at;
+  for (std::size_t i = 0; i < 3; ++i)
+    at[i] = exact_dot(triple(volume["axes"][i]), p);
+  const auto number = [](const Json& value) { return Rational(value.get<double>()); };
+  if (at[2] < number(volume["low"]) || at[2] > number(volume["high"])) return false;
+  const Json& outline = volume["outline"];
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Json &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const Rational left = (number(b[0]) - number(a[0])) * (at[1] - number(a[1]));
+    const Rational right = (number(b[1]) - number(a[1])) * (at[0] - number(a[0]));
+    if (left < right) return false;
+  }
+  return true;
+}
+
 bool holds(const Json& volume, const Coordinates& p) {
   const std::string shape = volume["shape"];
   if (shape == "sphere") {
@@ -102,6 +118,7 @@ bool holds(const Json& volume, const Coordinates& p) {
   if (shape == "capsule") return capsule_holds(volume, {p.x, p.y, p.z});
   if (shape == "ellipsoid") return ellipsoid_holds(volume, {p.x, p.y, p.z});
   if (shape == "hull") return hull_holds(volume, p);
+  if (shape == "prism") return prism_holds(volume, p);
   const Json axes = shape == "kdop" ? volume["directions"] : Json::parse("[[1,0,0],[0,1,0],[0,0,1]]");
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Rational at = exact_dot(triple(axes[i]), p);

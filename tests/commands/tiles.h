@@ -21,8 +21,8 @@ using Points = std::vector<std::array<float, 3>>;
 
 /// Methods that can be fitted to partial results.
 inline const std::string kServed =
-    "aabb,dop6,dop14,dop18,dop26,sphere,obb-pca,obb-dito14,obb-min,obb-yaw,cylinder,capsule,ellipsoid,hull,"
-    "best";
+    "aabb,dop6,dop14,dop18,dop26,sphere,obb-pca,obb-dito14,obb-min,obb-yaw,prism,cylinder,capsule,ellipsoid,"
+    "hull,best";
 
 inline std::string path_of(const std::string& folder, std::size_t number) {
   return folder + '/' + std::string(number < 10 ? "0" : "") + std::to_string(number) + ".pcd";

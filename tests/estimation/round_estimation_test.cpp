@@ -42,6 +42,9 @@ void expect_follows_indices_and_batches(Estimation& estimation) {
 }
 
 TEST(RoundEstimations, FollowIndicesAndBatches) {
+  PrismEstimation<pcl::PointXYZ> prism;
+  prism.setUpAxis({0, -1, 0});
+  expect_follows_indices_and_batches<PrismEstimation<pcl::PointXYZ>, Prism>(prism);
   HullEstimation<pcl::PointXYZ> hull;
   expect_follows_indices_and_batches<HullEstimation<pcl::PointXYZ>, Hull>(hull);
   CylinderEstimation<pcl::PointXYZ> cylinder;

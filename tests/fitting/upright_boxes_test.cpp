@@ -34,7 +34,7 @@ const std::array<Vector3d, 9> kUps{Vector3d(0, 0, 1),  Vector3d(0, 0, -1),      
 std::vector<const Method*> upright_methods() {
   std::vector<const Method*> found;
   for (const Method& method : methods())
-    if (method.upright) found.push_back(&method);
+    if (method.upright && method.shape == "obb") found.push_back(&method);
   return found;
 }
 

@@ -140,7 +140,7 @@ TEST_F(BillionPoints, InAPlaneTakeSixteenMegabytesForEveryMethod) {
     p = {100 * random(), 100 * random(), 1.5F};
   });
   expect_little_memory(path, {"dop26", "sphere-epos98", "sphere", "obb-pca", "obb-dito14", "obb-yaw",
-                              "obb-lshape", "obb-min", "cylinder", "capsule", "ellipsoid", "hull"});
+                              "obb-lshape", "obb-min", "prism", "cylinder", "capsule", "ellipsoid", "hull"});
 }
 
 // Nearly all of them are vertices of its hull.

@@ -57,7 +57,7 @@ double outside(const std::vector<Vector2d>& hull, int x, int y) {
 std::vector<Vector3d> surface(const AnyVolume& volume) {
   std::vector<Vector3d> points;
   if (shape_name(volume) == "aabb" || shape_name(volume) == "kdop" || shape_name(volume) == "obb" ||
-      shape_name(volume) == "hull")
+      shape_name(volume) == "hull" || shape_name(volume) == "prism")
     return mesh(volume).vertices;
   for (int i = 0; i < 60; ++i) {
     for (int j = 0; j <= 30; ++j) {
@@ -136,13 +136,13 @@ TEST_P(Shapes, FillTheirSilhouetteAndNothingElse) {
 
 INSTANTIATE_TEST_SUITE_P(Page, Shapes,
                          testing::Values("aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid",
-                                         "hull"),
+                                         "prism", "hull"),
                          [](const auto& shape) { return std::string(shape.param); });
 
 TEST_F(Page, CoordinatesOfUtmSizeDrawAsSmallOnesDo) {
   const Vector3d far(500123, 4500321, 512);
   std::vector<std::vector<AnyVolume>> near_clusters, far_clusters;
-  for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull"}) {
+  for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"}) {
     const Vector3d at(6 * static_cast<int>(near_clusters.size()), 0, 0);
     near_clusters.push_back({fitted(method, lump(at, 3))});
     Eigen::Isometry3d shift = Eigen::Isometry3d::Identity();
@@ -172,16 +172,16 @@ TEST_F(Page, FlatEmptyAndFailedVolumesDrawWhatTheyHave) {
   const std::vector<float> square = {0, 0, 1, 4, 0, 1, 4, 4, 1, 0, 4, 1, 2, 2, 1};
   std::vector<std::vector<AnyVolume>> clusters;
   for (const std::vector<float>& points : {point, line, square}) {
-    for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull"})
+    for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"})
       clusters.push_back({fitted(method, points)});
   }
   Json report = report_of(clusters);
   report["clusters"].push_back(
-      {{"id", 24},
+      {{"id", 27},
        {"points", 0},
        {"volumes", Json::array({{{"shape", "aabb"}, {"method", "aabb"}, {"empty", true}}})}});
   report["clusters"].push_back(
-      {{"id", 25},
+      {{"id", 28},
        {"points", 9},
        {"volumes", Json::array({{{"shape", "hull"}, {"method", "hull"}, {"failed", "Qhull gave up"}}})}});
   show(report, {{-5, -5, -5, no_label}, {9, 9, 9, no_label}});
@@ -201,7 +201,7 @@ TEST_F(Page, FlatEmptyAndFailedVolumesDrawWhatTheyHave) {
 
 TEST_F(Page, FlatPolytopesDrawTheirOutline) {
   const std::vector<float> square = {0, 0, 1, 4, 0, 1, 4, 4, 1, 0, 4, 1, 2, 2, 1};
-  for (const char* method : {"aabb", "dop26", "obb", "hull"}) {
+  for (const char* method : {"aabb", "dop26", "obb", "prism", "hull"}) {
     show(report_of({{fitted(method, square)}}), {{-5, -5, -5, no_label}, {9, 9, 9, no_label}});
     const Picture picture = settled();
     for (const Vector2d& at : project({{4, 2, 1}, {0, 2, 1}, {2, 0, 1}, {2, 4, 1}}))

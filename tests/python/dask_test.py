@@ -20,7 +20,7 @@ import pcl_bv
 
 faulthandler.dump_traceback_later(540, exit=True)  # where it hangs; its workers end with this process
 
-METHODS = ["aabb", "dop26", "sphere", "obb-pca", "obb-dito14", "obb", "obb-yaw", "cylinder", "capsule", "ellipsoid", "hull"]
+METHODS = ["aabb", "dop26", "sphere", "obb-pca", "obb-dito14", "obb", "obb-yaw", "cylinder", "capsule", "ellipsoid", "hull", "prism"]
 # Some parts are empty, some of one point.
 CUTS = [0, 0, 1, 900, 25_000, 25_001, 40_000, 70_000, 70_000]
 

@@ -163,7 +163,7 @@ class Files(unittest.TestCase):
     def test_volumes_come_back_from_json_bit_by_bit(self):
         points = normal(200, 45)
         volumes = pcl_bv.fit(points, ["aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid",
-                                      "hull"])
+                                      "prism", "hull"])
         path = self.folder / "v.json"
         pcl_bv.write(path, volumes)
         self.assertEqual(pcl_bv.read_volumes(path), volumes)

@@ -33,7 +33,7 @@ def samples():
 
 
 def made_samples():
-    methods = ["aabb", "dop14", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull"]
+    methods = ["aabb", "dop14", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull", "prism"]
     volumes = pcl_bv.fit(POINTS, methods)
     pipeline = pcl_bv.Pipeline(cluster={"tolerance": 1.0, "min_size": 3}, ground={"method": "plane"},
                                track={"enabled": True, "birth": 1}, filter={"range_min": 0.1}, volumes=["aabb", "sphere"])

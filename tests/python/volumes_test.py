@@ -31,6 +31,12 @@ def inside(volume, point):
         return all(low <= d <= high for low, d, high in zip(exact(volume.min), along, exact(volume.max)))
     if volume.shape == "hull":
         return all(dot(exact(n[:3]), p) <= Fraction(float(n[3])) for n in volume.planes)
+    if volume.shape == "prism":
+        u, v, h = (dot(exact(axis), p) for axis in volume.axes)
+        outline = [exact(corner) for corner in volume.outline]
+        edges = zip(outline, outline[1:] + outline[:1])
+        return volume.low <= h <= volume.high and all(
+            (b[0] - a[0]) * (v - a[1]) >= (b[1] - a[1]) * (u - a[0]) for a, b in edges)
     q = [a - b for a, b in zip(p, exact(volume.center))]
     if volume.shape == "sphere":
         return dot(q, q) <= Fraction(volume.radius) ** 2
@@ -51,7 +57,7 @@ class Volumes(unittest.TestCase):
     def test_every_point_is_inside_in_exact_arithmetic(self):
         points = normal(300, 21, np.float32) * np.float32([100, 1e-3, 5]) + np.float32(1000)
         for method in ("aabb", "dop14", "dop26", "hull", "sphere", "sphere-ritter", "obb", "obb-pca",
-                       "obb-yaw", "ellipsoid"):
+                       "obb-yaw", "prism", "ellipsoid"):
             volume = pcl_bv.fit(points, method)
             self.assertTrue(all(inside(volume, p) for p in points), method)
             outside = np.array(volume.center) + [1e6, 0, 0]

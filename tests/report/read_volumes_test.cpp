@@ -72,6 +72,18 @@ TEST_F(ReadVolumes, SayWhatIsWrong) {
   EXPECT_THROW(read_volumes("/nonexistent.json"), IoError);
 }
 
+TEST_F(ReadVolumes, OutlinesOfPrismsAreConvexPolygons) {
+  const auto prism = [](const std::string& outline) {
+    return R"({"shape":"prism","axes":[[1,0,0],[0,1,0],[0,0,1]],"outline":)" + outline + R"(,"low":0,"high":2})";
+  };
+  EXPECT_EQ(read(prism("[[0,0],[1,0],[0,1]]")).front(),
+            AnyVolume(Prism(Eigen::Matrix3d::Identity(), {{0, 0}, {1, 0}, {0, 1}}, 0, 2)));
+  EXPECT_THAT(error_of(prism("[[0,0],[0,1],[1,0]]")), HasSubstr("convex"));
+  EXPECT_THAT(error_of(prism("[[0,0,0]]")), HasSubstr("outline: two numbers"));
+  EXPECT_THAT(error_of(prism("3")), HasSubstr("outline: a list"));
+  EXPECT_THAT(error_of(prism("[]")), HasSubstr("empty"));
+}
+
 const std::string kBall = R"({"shape":"sphere","center":[0,0,0],"radius":1})";
 
 TEST_F(ReadVolumes, ThatCannotBeReadAmongOthersAreRefusedByName) {

@@ -87,6 +87,13 @@ TEST(ReportJson, RoundShapesHaveTheirOwnNumbers) {
               HasSubstr(R"("center":[1,2,3],"axes":[[0,1,0],[0,0,1],[1,0,0]],"radii":[3,2,1])"));
 }
 
+TEST(ReportJson, APrismHasItsAxesOutlineAndHeights) {
+  Eigen::Matrix3d axes;
+  axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  EXPECT_THAT(report_json(report_of({{"prism", Prism(axes, {{0, 0}, {1, 0}, {0, 2.5}}, -1, 3), {}}})),
+              HasSubstr(R"("axes":[[0,1,0],[0,0,1],[1,0,0]],"outline":[[0,0],[1,0],[0,2.5]],"low":-1,"high":3)"));
+}
+
 TEST(ReportJson, AHullHasItsRankOnlyWhereItIsFlat) {
   const std::vector<HullPlane> planes = {{{-1, 0, 0}, 0}, {{0, -1, 0}, 0}, {{0, 0, -1}, 0}, {{1, 1, 1}, 1}};
   const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

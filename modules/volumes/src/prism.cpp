@@ -61,28 +61,33 @@ double radius_up(const Prism& prism) {
   return 1.001 * (norm_up(size) + 0x1p-48 * taxicab3(farthest)) + kSmallestNormal;
 }
 
-// How a transform M p + t moves one coordinate. Let a be the old axis, a' the new axis, c the centre and c'
-// its rounded image. With d = M' a' - sign a, the new coordinate a' . (M p + t) is sign (a . p) + shift + e.
-// The shift is a' . c' - sign (a . c). The error e is d . (p - c) + a' . (M c + t - c').
+// How a transform M p + t moves one coordinate. Let a be the old axis, a' the new axis and c the centre. With
+// d = M' a' - sign a, which is tiny, the new coordinate a' . (M p + t) is sign (a . p) + a' . t + d . c +
+// d . (p - c). The last term is the error, together with the rounding of d.
 class MovedAxis {
  public:
   MovedAxis(const Eigen::Isometry3d& transform, const Eigen::Vector3d& old_axis,
             const Eigen::Vector3d& new_axis, double sign, const Eigen::Vector3d& center, double radius)
       : sign_(sign) {
-    const TransformedPoint moved = transform_point(transform, center);
-    const double turned = difference_up(transform.linear().transpose(), new_axis, sign, old_axis);
-    error_ = add_up(multiply_up(turned, radius), multiply_up(1.001, moved.error));
-    shift_.add_dot(new_axis, moved.point).add_dot(Eigen::Vector3d(-sign * old_axis), center);
+    Eigen::Vector3d d;
+    for (int k = 0; k < 3; ++k) {
+      Expansion tilt;
+      d[k] = tilt.add(-sign * old_axis[k]).add_dot(transform.linear().col(k), new_axis).value();
+      const double rounding = tilt.add(-d[k]).magnitude_up();
+      error_ = add_up(error_, multiply_up(rounding, add_up(std::abs(center[k]), radius)));
+      shift_.add_product(new_axis[k], transform(k, 3)).add_product(d[k], center[k]);
+    }
+    error_ = add_up(error_, multiply_up(norm_up(d), radius));
   }
 
   double down(double coordinate) const { return at(coordinate).add(-error_).down() + 0.0; }
   double up(double coordinate) const { return at(coordinate).add(error_).up() + 0.0; }
-  double sign() const { return sign_; }
 
  private:
   Expansion at(double coordinate) const { return Expansion(shift_).add(sign_ * coordinate); }
 
-  double sign_, error_;
+  double sign_;
+  double error_ = 0;
   Expansion shift_;
 };
 
