@@ -142,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(Page, Shapes,
 TEST_F(Page, CoordinatesOfUtmSizeDrawAsSmallOnesDo) {
   const Vector3d far(500123, 4500321, 512);
   std::vector<std::vector<AnyVolume>> near_clusters, far_clusters;
-  for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"}) {
+  for (const char* method :
+       {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"}) {
     const Vector3d at(6 * static_cast<int>(near_clusters.size()), 0, 0);
     near_clusters.push_back({fitted(method, lump(at, 3))});
     Eigen::Isometry3d shift = Eigen::Isometry3d::Identity();
@@ -172,7 +173,8 @@ TEST_F(Page, FlatEmptyAndFailedVolumesDrawWhatTheyHave) {
   const std::vector<float> square = {0, 0, 1, 4, 0, 1, 4, 4, 1, 0, 4, 1, 2, 2, 1};
   std::vector<std::vector<AnyVolume>> clusters;
   for (const std::vector<float>& points : {point, line, square}) {
-    for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"})
+    for (const char* method :
+         {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"})
       clusters.push_back({fitted(method, points)});
   }
   Json report = report_of(clusters);

@@ -15,7 +15,8 @@ namespace {
 TEST_F(Page, PickingGivesTheObjectUnderThePixel) {
   std::vector<std::vector<AnyVolume>> clusters;
   std::vector<Vector3d> middles;
-  for (const char* method : {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"}) {
+  for (const char* method :
+       {"aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "prism", "hull"}) {
     const auto number = static_cast<int>(clusters.size());
     const Vector3d at(8 * (number % 4), 8 * (number / 4), 0);
     clusters.push_back({fitted(method, lump(at, 2))});

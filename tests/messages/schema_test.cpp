@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pcl_bv/messages/polygon.h"
 #include "pcl_bv/messages/results.h"
 
 namespace pcl_bv::detail {
@@ -27,7 +28,8 @@ TEST(Schemas, HoldEachTypeThatTheyNameOnce) {
 TEST(Schemas, AreThereForEveryMessage) {
   for (const char* type :
        {msg::PointCloud2::ros_type, msg::Detection3DArray::ros_type, msg::MarkerArray::ros_type,
-        msg::SceneUpdate::ros_type, msg::DiagnosticArray::ros_type, msg::TFMessage::ros_type})
+        msg::SceneUpdate::ros_type, msg::DiagnosticArray::ros_type, msg::TFMessage::ros_type,
+        msg::PolygonStamped::ros_type})
     EXPECT_GT(schema_of(type).size(), 100U) << type;
 }
 

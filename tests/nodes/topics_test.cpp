@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "frames.h"
+#include "pcl_bv/messages/polygon.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "stream/topics/scene.h"
 
@@ -17,7 +18,7 @@ namespace {
 // Frames of a street, with every shape and tracks.
 struct Street {
   Street() : xyz(street(4)) {
-    config.volumes = {"sphere", "obb-lshape", "aabb", "dop26", "cylinder", "ellipsoid", "capsule"};
+    config.volumes = {"sphere", "obb-lshape", "aabb", "dop26", "cylinder", "ellipsoid", "capsule", "prism"};
     config.track.enabled = true;
     config.track.birth = 2;
     pipeline.set_config(config);
@@ -32,6 +33,20 @@ struct Street {
   Frame frame;
   FrameResult result;
 };
+
+TEST(Topics, HaveTheFootprintOfAPrismAsAPolygon) {
+  Street street;
+  street.process(0);
+  const Prism prism(Eigen::Matrix3d::Identity(), {{0, 0}, {4, 0.5}, {0, 3}}, 1, 3);
+  msg::PolygonStamped message;
+  fill_footprint(street.frame, prism, message);
+  EXPECT_EQ(message.header.frame_id, "lidar");
+  ASSERT_EQ(message.polygon.points.size(), 3U);
+  const msg::Point32& corner = message.polygon.points[1];
+  EXPECT_EQ((std::array{corner.x, corner.y, corner.z}), (std::array{4.0F, 0.5F, 1.0F}));
+  fill_footprint(street.frame, Prism(), message);
+  EXPECT_TRUE(message.polygon.points.empty());
+}
 
 TEST(Topics, HaveADetectionForEachObjectWithItsTrack) {
   Street street;
@@ -80,7 +95,7 @@ TEST(Topics, HaveAMarkerForEachVolumeAndDeleteWhatEnds) {
       EXPECT_EQ(marker.type == msg::Marker::LINE_LIST, !marker.points.empty()) << marker.ns;
       EXPECT_EQ(marker.points.size() % 2, 0U);
     }
-    EXPECT_EQ(added, 7 * street.result.clusters.size());
+    EXPECT_EQ(added, 8 * street.result.clusters.size());
     EXPECT_EQ(alive.size(), added);  // all that is shown is of this frame
   }
 }
@@ -100,7 +115,7 @@ TEST(Topics, HaveAnEntityForEachObjectAndDeleteWhatEnds) {
       EXPECT_EQ(entity.cubes.size(), 2U);
       EXPECT_EQ(entity.spheres.size(), 2U);  // and the ellipsoid
       EXPECT_EQ(entity.cylinders.size(), 1U);
-      EXPECT_EQ(entity.lines.size(), 2U);
+      EXPECT_EQ(entity.lines.size(), 3U);
       EXPECT_EQ(entity.texts.size(), 1U);
     }
     EXPECT_EQ(alive.size(), street.result.clusters.size());

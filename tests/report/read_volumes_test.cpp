@@ -74,7 +74,8 @@ TEST_F(ReadVolumes, SayWhatIsWrong) {
 
 TEST_F(ReadVolumes, OutlinesOfPrismsAreConvexPolygons) {
   const auto prism = [](const std::string& outline) {
-    return R"({"shape":"prism","axes":[[1,0,0],[0,1,0],[0,0,1]],"outline":)" + outline + R"(,"low":0,"high":2})";
+    return R"({"shape":"prism","axes":[[1,0,0],[0,1,0],[0,0,1]],"outline":)" + outline +
+           R"(,"low":0,"high":2})";
   };
   EXPECT_EQ(read(prism("[[0,0],[1,0],[0,1]]")).front(),
             AnyVolume(Prism(Eigen::Matrix3d::Identity(), {{0, 0}, {1, 0}, {0, 1}}, 0, 2)));

@@ -90,8 +90,9 @@ TEST(ReportJson, RoundShapesHaveTheirOwnNumbers) {
 TEST(ReportJson, APrismHasItsAxesOutlineAndHeights) {
   Eigen::Matrix3d axes;
   axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  EXPECT_THAT(report_json(report_of({{"prism", Prism(axes, {{0, 0}, {1, 0}, {0, 2.5}}, -1, 3), {}}})),
-              HasSubstr(R"("axes":[[0,1,0],[0,0,1],[1,0,0]],"outline":[[0,0],[1,0],[0,2.5]],"low":-1,"high":3)"));
+  EXPECT_THAT(
+      report_json(report_of({{"prism", Prism(axes, {{0, 0}, {1, 0}, {0, 2.5}}, -1, 3), {}}})),
+      HasSubstr(R"("axes":[[0,1,0],[0,0,1],[1,0,0]],"outline":[[0,0],[1,0],[0,2.5]],"low":-1,"high":3)"));
 }
 
 TEST(ReportJson, AHullHasItsRankOnlyWhereItIsFlat) {

@@ -200,6 +200,22 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
   }
 }
 
+/// Fills a geometry_msgs/PolygonStamped with the footprint of a prism, as costmaps read it: the corners of
+/// the outline at the height low(), counter-clockwise seen from above, rounded to float. Rounding can move a
+/// corner inward by half a unit in the last place of its coordinates. An empty prism gives no points.
+template <class Polygon>
+void fill_footprint(const Frame& frame, const Prism& prism, Polygon& message) {
+  topics::set_header(frame, message.header);
+  message.polygon.points.clear();
+  for (const Eigen::Vector3d& corner : prism.footprint()) {
+    message.polygon.points.emplace_back();
+    auto& point = message.polygon.points.back();
+    point.x = static_cast<float>(corner.x());
+    point.y = static_cast<float>(corner.y());
+    point.z = static_cast<float>(corner.z());
+  }
+}
+
 /// The set of markers or entities that viewers show. It is stored in order to delete the markers or entities
 /// of objects that have ended.
 class ShownObjects {
