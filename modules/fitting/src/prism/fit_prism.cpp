@@ -32,6 +32,7 @@ ProjectedPoints corners_from_above(const PointView& points, const Supports& supp
       points, worthwhile(execution, Work::outline, points.count),
       [&](const PointView& chunk) {
         ProjectedPoints found;
+        found.reserve(std::min<std::size_t>(chunk.count, 256));
         for_each_outside(execution.isa, chunk, supports, inside,
                          [&](const Coordinates& p) { found.push_back(projection.project(p)); });
         projection.keep_corners(found);

@@ -59,7 +59,7 @@ ProjectedPoint GroundProjection::project(const Coordinates& p) const {
 int GroundProjection::compare(const ProjectedPoint& a, const ProjectedPoint& b, int axis) const {
   const double difference = a.at[axis] - b.at[axis];
   if (std::abs(difference) > 4 * error_bound_) return difference < 0 ? -1 : 1;
-  if (a.point == b.point) return 0;
+  if (is_exact() || a.point == b.point) return 0;
   Expansion exact;
   exact.add_dot(axes_[axis], a.point).add_dot(Eigen::Vector3d(-axes_[axis]), b.point);
   return exact.is_lossless() ? exact.sign() : exact_step(axes_[axis], b.point, a.point).sign();
@@ -68,6 +68,7 @@ int GroundProjection::compare(const ProjectedPoint& a, const ProjectedPoint& b, 
 // Let e be the error bound. The differences of coordinates are off by at most 2 e and one rounding. The
 // margin of 8 e exceeds the effect of 2 e on the products, and 32 e^2 exceeds the product of two errors.
 int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c) const {
+  if (is_exact()) return orientation(a.at, b.at, c.at);
   const Eigen::Vector2d ab = b.at - a.at, ac = c.at - a.at;
   const double left = ab.x() * ac.y(), right = ab.y() * ac.x();
   const double lengths =
@@ -81,29 +82,20 @@ int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, con
 }
 
 void GroundProjection::keep_corners(std::vector<ProjectedPoint>& points) const {
-  std::vector<std::size_t> corners;
-  if (is_exact()) {
-    std::vector<Eigen::Vector2d> flat;
-    flat.reserve(points.size());
-    for (const ProjectedPoint& p : points)
-      flat.push_back(p.at);
-    corners = planar_hull(flat);
-  } else {
-    const auto order = [&](std::size_t i, std::size_t j) {
-      const int first = compare(points[i], points[j], 0);
-      return first != 0 ? first : compare(points[i], points[j], 1);
-    };
-    std::vector<std::size_t> all(points.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    corners = convex_chain(
-        std::move(all),
-        [&](std::size_t i, std::size_t j) {
-          const int sign = order(i, j);
-          return sign != 0 ? sign < 0 : i < j;
-        },
-        [&](std::size_t i, std::size_t j) { return order(i, j) == 0; },
-        [&](std::size_t i, std::size_t j, std::size_t k) { return turn(points[i], points[j], points[k]); });
-  }
+  const auto order = [&](std::size_t i, std::size_t j) {
+    const int first = compare(points[i], points[j], 0);
+    return first != 0 ? first : compare(points[i], points[j], 1);
+  };
+  std::vector<std::size_t> all(points.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> corners = convex_chain(
+      std::move(all),
+      [&](std::size_t i, std::size_t j) {
+        const int sign = order(i, j);
+        return sign != 0 ? sign < 0 : i < j;
+      },
+      [&](std::size_t i, std::size_t j) { return order(i, j) == 0; },
+      [&](std::size_t i, std::size_t j, std::size_t k) { return turn(points[i], points[j], points[k]); });
   std::vector<ProjectedPoint> kept;
   kept.reserve(corners.size());
   for (const std::size_t i : corners)
