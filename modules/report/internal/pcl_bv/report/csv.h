@@ -16,7 +16,7 @@ namespace [[gnu::visibility("default")]] detail {
 /// - cx, cy, cz: the center().
 /// - sx, sy, sz: the full size along the shape's own axes. For an upright box (obb-yaw, obb-lshape), this
 ///   size is the length, width and height. The own z axis of a cylinder or capsule is along the axis of the
-///   shape.
+///   shape. A prism has the size of its outline along its first two axes, and its height.
 /// - qx, qy, qz, qw: the unit quaternion that rotates the world's axes to the shape's axes.
 /// - radius: the radius of a sphere, cylinder or capsule. A sphere has no size.
 ///
