@@ -136,9 +136,9 @@ double sine_of_sharpest(const std::vector<Eigen::Vector2d>& outline) {
   return least;
 }
 
-// Returns a box that contains every point for which contains() is true. The error bound of a side is below
-// 2^-47 of the largest coordinate. Beyond a corner it is divided by the sine, but contains() also tests the
-// box of the outline.
+// Returns a box that contains every point for which contains() is true, and every ray's interval. The error
+// bounds of a side are below 2^-46 of the largest coordinate. Beyond a corner they are divided by the sine,
+// but the box of the outline is also tested.
 Aabb box_of_contained(const Prism& prism) {
   const Aabb box = prism.aabb();
   Eigen::Vector2d low = prism.outline()[0], high = low;
@@ -148,7 +148,7 @@ Aabb box_of_contained(const Prism& prism) {
   }
   const double rounding = margin(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()));
   const double beyond_corner =
-      std::min(0x1p-7 * rounding / sine_of_sharpest(prism.outline()), 1.001 * (high - low).stableNorm());
+      std::min(0x1p-5 * rounding / sine_of_sharpest(prism.outline()), 1.001 * (high - low).stableNorm());
   const Eigen::Vector3d by = Eigen::Vector3d::Constant(rounding + beyond_corner);
   return {box.min() - by, box.max() + by};
 }

@@ -179,6 +179,7 @@ Mesh Prism::mesh() const {
     bottom.push_back(count - 1 - i);
     top.push_back(count + i);
   }
+  if (count == 1) mesh.faces = {{0, 1}};
   if (count > 2) mesh.faces.insert(mesh.faces.end(), {bottom, top});
   return mesh;
 }

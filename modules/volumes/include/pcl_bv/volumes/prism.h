@@ -90,7 +90,7 @@ class Prism {
   Aabb aabb() const;
 
   /// Returns the mesh of the prism: the corners at the height low, then those at the height high. The last
-  /// two faces are bottom and top.
+  /// two faces are bottom and top. A segment has only its two sides. A point has one face of two vertices.
   Mesh mesh() const;
 
   /// Returns the transformed prism. The result contains the exact value of `transform * p` for every point p
