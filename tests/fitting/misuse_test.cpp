@@ -160,7 +160,7 @@ TEST(Misuse, FitsOfHullsRefusePointsThatChangeAfterTheirExtremes) {
   const TestCloud<float> cloud = test::gaussian<float>(3000, 8);
   for (const TestCloud<float>& later : successors(cloud)) {
     for (const char* name :
-         {"obb-min", "obb-yaw", "obb-lshape", "cylinder", "capsule", "ellipsoid", "hull", "best"}) {
+         {"obb-min", "obb-yaw", "obb-lshape", "prism", "cylinder", "capsule", "ellipsoid", "hull", "best"}) {
       CopyingSource<float> source(cloud);
       source.later = &later;
       // obb-min looks for a first valid point before its supports.
