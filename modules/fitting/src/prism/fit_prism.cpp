@@ -22,6 +22,20 @@ namespace {
 
 using ProjectedPoints = std::vector<ProjectedPoint>;
 
+// Throws std::invalid_argument if the corners do not extend as far as the supports. If `up` is a coordinate
+// axis, points with the smallest and the largest coordinate along each other axis are corners.
+void require_same_extents(const ProjectedPoints& corners, const Supports& supports,
+                          const Eigen::Vector3d& up) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (up[static_cast<int>(k)] != 0) continue;
+    const auto before = [k](const ProjectedPoint& a, const ProjectedPoint& b) {
+      return a.point[k] < b.point[k];
+    };
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), before);
+    require_same_points(low->point[k] == supports.along[k].low && high->point[k] == supports.along[k].high);
+  }
+}
+
 ProjectedPoints corners_from_above(const PointView& points, const Supports& supports, const Ground& ground,
                                    const GroundProjection& projection, const FitExecution& execution) {
   const LocalFrame frame(supports);
@@ -48,20 +62,6 @@ ProjectedPoints corners_from_above(const PointView& points, const Supports& supp
   if (chunk_count(points.count) > 1) projection.keep_corners(corners);
   if (projection.is_exact()) require_same_extents(corners, supports, ground.up);
   return corners;
-}
-
-// Throws std::invalid_argument if the corners do not extend as far as the supports. If `up` is a coordinate
-// axis, points with the smallest and the largest coordinate along each other axis are corners.
-void require_same_extents(const ProjectedPoints& corners, const Supports& supports,
-                          const Eigen::Vector3d& up) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (up[static_cast<int>(k)] != 0) continue;
-    const auto before = [k](const ProjectedPoint& a, const ProjectedPoint& b) {
-      return a.point[k] < b.point[k];
-    };
-    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), before);
-    require_same_points(low->point[k] == supports.along[k].low && high->point[k] == supports.along[k].high);
-  }
 }
 
 std::vector<Eigen::Vector2d> outline_of(const ProjectedPoints& corners, const GroundProjection& projection) {
