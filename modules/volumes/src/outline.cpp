@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "bounds.h"
-#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/planar_hull.h"
@@ -64,9 +63,9 @@ std::vector<Eigen::Vector2d> outline_around(const std::vector<PlaneBox>& boxes) 
   }
   Corners outer = hull_of(points);
   if (widest == 0) return outer;
-  // The half diagonal of a box is 0.71 `widest`, and the low corner of a box is off its middle by the same.
-  // The last term exceeds the rounding error of a moved corner.
-  const double distance = 1.5 * widest + 0x1p-51 * farthest + kSmallestNormal;
+  // The diagonal of a box is at most sqrt(2) times `widest`. The second term is sqrt(2) times the rounding of
+  // the coordinates of a moved corner.
+  const double distance = 1.415 * widest + 0x1.7p-53 * farthest;
   Corners all;
   add_moved_corners(outer, distance, all);
   for (const auto& [low, high] : boxes) {
