@@ -112,7 +112,7 @@ Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 /// above. Its heights are the exact minimum and maximum along `up`. Coordinates are in the points' unit.
 ///
 /// If `up` is a coordinate axis, the corners of the outline are coordinates of points, and no smaller prism
-/// along this axis encloses the points. Otherwise no double may represent a coordinate along the axes; then
+/// along this axis encloses the points. Otherwise the coordinates along the axes are usually no doubles, so
 /// the outline and the heights are rounded outward, by a few units in the last place of the coordinates. The
 /// rank is that of the points. Points that are flat seen from above give an outline of one or two corners if
 /// `up` is a coordinate axis, otherwise an outline that is a few rounding steps wide.
