@@ -116,6 +116,10 @@ def rows(stream):
         ("--cluster 0.5:0.01", BASE, BASE + ["--cluster", "0.5:0.01"]),
         ("--min-size 50", BASE, BASE + ["--min-size", "50"]),
         ("--max-size 500", BASE, BASE + LARGE),
+        ("--min-extent 0.3,0.3,0.5", BASE, BASE + ["--min-extent", "0.3,0.3,0.5"]),
+        *((f"--min-extent {limit}", BASE, BASE + ["--min-extent", limit]) for limit in ("1,0,0", "0,0.3,0", "0,0,0.5")),
+        *((f"--max-extent {limit}", BASE, BASE + ["--max-extent", limit])
+          for limit in ("10,inf,inf", "inf,3,inf", "inf,inf,3")),
         ("--oversized keep, of 500", BASE + LARGE, BASE + LARGE + ["--oversized", "keep"]),
         ("--oversized split, of 500", BASE + LARGE, BASE + LARGE + ["--oversized", "split"]),
         ("--oversized split", BASE, BASE + ["--oversized", "split"]),

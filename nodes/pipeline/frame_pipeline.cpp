@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "class_table.h"
+#include "extent_limits.h"
 #include "filter.h"
 #include "ground.h"
 #include "pcl_bv/fitting/fit_into.h"
@@ -79,6 +80,8 @@ struct FramePipeline::State {
   void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
+  void make_views(const PointView& cloud, const FrameResult& result);
+  void limit_extents(const Prepared& now, const PointView& cloud, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
 
   mutable std::mutex mutex;
@@ -88,7 +91,8 @@ struct FramePipeline::State {
   GroundZones zones;
   EuclideanClusterer clusterer;
   ClassClusterer class_clusterer;
-  std::vector<PointView> views;
+  std::vector<PointView> views;  // points of each cluster
+  ExtentLimits extents;
   TrackedVolumes tracks;
 };
 
@@ -161,6 +165,19 @@ void make_one_cluster(const ClusterConfig& config, const PointView& points, Fram
     all.indices.assign(points.indices, points.indices + points.count);
 }
 
+void FramePipeline::State::make_views(const PointView& cloud, const FrameResult& result) {
+  views.clear();
+  for (std::size_t i = 0; i < result.clusters.size(); ++i)
+    views.push_back(result.points_of(i, cloud));
+}
+
+void FramePipeline::State::limit_extents(const Prepared& now, const PointView& cloud, FrameResult& result) {
+  const ClusterConfig& config = now.config.cluster;
+  if (!config.min_extent && !config.max_extent) return;
+  make_views(cloud, result);
+  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of);
+}
+
 void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
                                          FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
@@ -176,6 +193,7 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
                             now.classes.class_options(), result.clusters, result.class_of, now.execution);
   }
+  limit_extents(now, frame.points, result);
   // Frees the memory of the clustering before the fits. Otherwise the clustering and the volumes would be in
   // memory at the same time: 550 MB and 300 MB for a million clusters of four points.
   constexpr std::size_t many = 250'000;
@@ -190,9 +208,7 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
-  views.clear();
-  for (std::size_t i = 0; i < result.clusters.size(); ++i)
-    views.push_back(result.points_of(i, cloud));
+  make_views(cloud, result);
   const std::size_t methods = now.methods.size();
   result.methods.assign(now.methods.begin(), now.methods.end());
   result.volumes.resize(views.size() * methods);

@@ -176,6 +176,9 @@ py::object python_value(const std::string& name) {
 py::object python_value(const FieldName& field) {
   return py::str(field.name);
 }
+py::object python_value(const UprightSize& size) {
+  return py::list(py::make_tuple(size.along, size.across, size.up));
+}
 py::object python_value(const Eigen::Vector3d& v) {
   return py::str(to_text(v));
 }

@@ -217,6 +217,10 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   refused({"--range", "5"}, "--range: '5' lacks :MAX");
   refused({"--range", "5:1"}, "--range MAX: 1 is below --range MIN, 5");
   refused({"--cluster", "1", "--min-size", "9", "--max-size", "8"}, "--max-size: 8 is below --min-size, 9");
+  refused({"--cluster", "1", "--max-extent", "5,5,1", "--min-extent", "0,0,2"},
+          "--max-extent: up: 1 is below --min-extent, 2");
+  refused({"--cluster", "1", "--max-extent", "5,5"}, "--max-extent: does not have three numbers");
+  refused({"--min-extent", "1,1,1"}, "--min-extent: only useful with --cluster");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
   refused({"--class", "label"}, "--class: only useful with --cluster");
 }

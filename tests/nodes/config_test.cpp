@@ -50,6 +50,8 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.pipeline.ground = {
       GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12};
   config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4, 0, Oversized::split};
+  config.pipeline.cluster.min_extent = {0.2, 0.1, 1.0 / 3};
+  config.pipeline.cluster.max_extent = {12, std::numeric_limits<double>::infinity(), 4};
   config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.filter.regions = {{"robot arm.json", false, 0.1}, {"hall.json", true, 0}};
   config.pipeline.volumes = {"dop26", "sphere-exact"};
@@ -70,6 +72,10 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
   EXPECT_EQ(read.pipeline.cluster.min_points, 4U);
   EXPECT_EQ(read.pipeline.cluster.oversized, Oversized::split);
+  ASSERT_TRUE(read.pipeline.cluster.min_extent && read.pipeline.cluster.max_extent);
+  EXPECT_EQ(read.pipeline.cluster.min_extent->up, 1.0 / 3);
+  EXPECT_EQ(read.pipeline.cluster.max_extent->along, 12);
+  EXPECT_EQ(read.pipeline.cluster.max_extent->across, std::numeric_limits<double>::infinity());
   EXPECT_EQ(read.pipeline.growth, SphereGrowth::stationary);
   ASSERT_EQ(read.pipeline.filter.regions.size(), 2U);
   EXPECT_EQ(read.pipeline.filter.regions[0].file, "robot arm.json");
@@ -228,6 +234,17 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"cluster: {tolerance: -0.5}", "cluster.tolerance: -0.5 is not at least 0"},
       {"cluster: {min_size: -3}", "cluster.min_size: '-3' is not a whole number of at least 0 (points)"},
       {"cluster: {min_size: 20, max_size: 10}", "cluster.max_size: 10 is below cluster.min_size, 20"},
+      {"cluster: {min_extent: 0.2}", "cluster.min_extent: '0.2' is not a list of three numbers or null"},
+      {"cluster: {min_extent: [0.2, 0.2]}", "cluster.min_extent: does not have three numbers"},
+      {"cluster: {min_extent: [0, high, 0]}", "cluster.min_extent: 'high' is not a number"},
+      {"cluster: {min_extent: [0, 0, -1]}", "cluster.min_extent: up: -1 is not at least 0 and finite"},
+      {"cluster: {min_extent: [.inf, 0, 0]}", "cluster.min_extent: along: inf is not at least 0 and finite"},
+      {"cluster: {max_extent: [5, .nan, 3]}", "cluster.max_extent: '.nan' is not a number"},
+      {"cluster: {max_extent: [5, 0, 3]}", "cluster.max_extent: across: 0 is not above 0"},
+      {"cluster: {min_extent: [0, 0, 2], max_extent: [5, unlimited, 1.5]}",
+       "cluster.max_extent: up: 1.5 is below cluster.min_extent, 2"},
+      {"cluster: {tolerance: 0, min_extent: [0, 0, 2]}",
+       "cluster.min_extent: needs a cluster.tolerance above 0: with 0, all points are one object"},
       {"filter: {regions: [{file: a.json, pad: 1}]}", "filter.regions: unknown key 'pad' of a region"},
       {"filter: {regions: [{keep: true}]}", "filter.regions: a region has neither a file nor volumes"},
       {"filter: {regions: [{file: a.json, padding: -1}]}", "filter.regions: padding: -1 is not at least 0"},

@@ -26,6 +26,8 @@ PipelineConfig all_shapes() {
   PipelineConfig config;
   config.volumes = {"aabb", "dop26", "sphere-exact", "sphere-epos26", "obb-dito14", "obb-yaw"};
   config.track.enabled = true;
+  config.cluster.min_extent = {0.1, 0.05, 0.1};
+  config.cluster.max_extent = {25, 15, 9};
   return config;
 }
 

@@ -65,7 +65,7 @@ TEST(RemoteParameters, ChangeThePipelineAllOrNothing) {
   EXPECT_EQ(
       change(R"({"cluster.tolerance":0.25,"ground.method":"plane","volumes":"aabb, dop14","ground.up":"0,0,2",
                       "track.enabled":true,"cluster.min_size":"null","filter.own_box_min":[-1,-1,-1],
-                      "filter.own_box_max":[1,1,1]})"),
+                      "filter.own_box_max":[1,1,1],"cluster.max_extent":[12,"unlimited",4.5]})"),
       "");
   const PipelineConfig config = remote.pipeline.config();
   EXPECT_EQ(config.cluster.tolerance, 0.25);
@@ -73,6 +73,7 @@ TEST(RemoteParameters, ChangeThePipelineAllOrNothing) {
   EXPECT_EQ(config.volumes, (std::vector<std::string>{"aabb", "dop14"}));
   EXPECT_TRUE(config.track.enabled);
   EXPECT_EQ(*config.filter.own_box_min, Eigen::Vector3d(-1, -1, -1));
+  EXPECT_EQ(config.cluster.max_extent->up, 4.5);
   EXPECT_EQ(change(R"({"cluster.min_points":3,"cluster.tolerance":-1})"),
             "cluster.tolerance: -1 is not at least 0 and at most 1e+06");
   EXPECT_EQ(remote.pipeline.config().cluster.min_points, 1U);

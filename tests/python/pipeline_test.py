@@ -125,11 +125,15 @@ class Pipelines(unittest.TestCase):
         self.assertEqual(pickle.loads(pickle.dumps(result)).json(), result.json())
 
     def test_the_configuration_goes_both_ways(self):
-        config = pcl_bv.Pipeline(SETTINGS, preset="indoor", cluster={"max_size": 999}, threads=2,
+        config = pcl_bv.Pipeline(SETTINGS, preset="indoor", threads=2,
+                                 cluster={"max_size": 999, "min_extent": (0.2, 0.2, 0.3),
+                                          "max_extent": [12, float("inf"), 4]},
                                  ground={"method": "zones", "up": [0, -1, -1], "sensor": (1, 2, 3)},
                                  filter={"range_max": float("inf")}).config
         self.assertEqual(config["cluster"]["max_size"], 999)
         self.assertEqual(config["cluster"]["min_size"], 20)
+        self.assertEqual(config["cluster"]["min_extent"], [0.2, 0.2, 0.3])
+        self.assertEqual(config["cluster"]["max_extent"], [12, float("inf"), 4])
         self.assertEqual(config["ground"]["method"], "zones")
         self.assertEqual(pcl_bv.Pipeline(preset="indoor").config["ground"]["method"], "plane")
         self.assertEqual(config["ground"]["sensor"], [1, 2, 3])

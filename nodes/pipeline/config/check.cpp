@@ -34,6 +34,27 @@ std::string problem_of_row(const Row& row) {
   return problem;
 }
 
+struct SideOfSize {
+  const char* name;
+  double UprightSize::*length;
+};
+constexpr SideOfSize kSides[] = {
+    {"along", &UprightSize::along}, {"across", &UprightSize::across}, {"up", &UprightSize::up}};
+
+void check_extents(const ClusterConfig& c, const SettingName& name, std::vector<ConfigProblem>& problems) {
+  const auto add = [&](const char* key, const std::string& what) { problems.push_back({key, what}); };
+  if (c.tolerance == 0 && (c.min_extent || c.max_extent))
+    add(c.min_extent ? "cluster.min_extent" : "cluster.max_extent",
+        "needs a " + name("cluster.tolerance") + " above 0: with 0, all points are one object");
+  if (!c.min_extent || !c.max_extent) return;
+  for (const SideOfSize& side : kSides) {
+    const double min = *c.min_extent.*side.length, max = *c.max_extent.*side.length;
+    if (max < min)
+      add("cluster.max_extent", std::string(side.name) + ": " + to_text(max) + " is below " +
+                                    name("cluster.min_extent") + ", " + to_text(min));
+  }
+}
+
 void check_classes(const ClusterConfig& all, const SettingName& name, std::vector<ConfigProblem>& problems) {
   const auto add = [&](const std::string& what) { problems.push_back({"cluster.classes", what}); };
   if (!all.classes.empty() && !all.class_field) add("needs " + name("cluster.class_field"));
@@ -72,6 +93,7 @@ void check_combinations(const PipelineConfig& c, const SettingName& name,
     add("cluster.max_size", to_text(c.cluster.max_size) + " is below " + name("cluster.min_size") + ", " +
                                 to_text(c.cluster.effective_min_size()));
   }
+  check_extents(c.cluster, name, problems);
   check_classes(c.cluster, name, problems);
 }
 
@@ -179,6 +201,15 @@ std::string detail::problem_of(const Setting& /*setting*/, const std::vector<Cla
 
 std::string detail::problem_of(const Setting& /*setting*/, const FieldName& field) {
   return field.name.empty() ? "the name of the field is empty" : "";
+}
+
+std::string detail::problem_of(const Setting& setting, const UprightSize& size) {
+  std::string problem;
+  for (const SideOfSize& side : kSides) {
+    const std::string what = problem_of(setting, size.*side.length);
+    if (problem.empty() && !what.empty()) problem = std::string(side.name) + ": " + what;
+  }
+  return problem;
 }
 
 std::vector<ConfigProblem> detail::problems_of(const PipelineConfig& config, const SettingName& name) {

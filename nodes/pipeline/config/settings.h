@@ -104,6 +104,12 @@ void visit_cluster(Cluster& c, Visit&& visit) {
   visit(S{"cluster.oversized", "drop, keep, split",
           "Handling of objects above the maximum size",
           {}, {}, "--oversized", "RULE"}, c.oversized);
+  visit(S{"cluster.min_extent", "m, [along, across, up]",
+          "Drop objects whose upright box is shorter, narrower or lower",
+          {}, "no limit", "--min-extent", "L,W,H"}, c.min_extent);
+  visit(S{"cluster.max_extent", "m, [along, across, up]",
+          "Drop objects whose upright box is longer, wider or higher",
+          {0, kNoLimit, false}, "no limit", "--max-extent", "L,W,H"}, c.max_extent);
   visit(S{"cluster.class_field", "name of a field",
           "Integer field with the classes of points; an object has one class",
           {}, "none", "--class", "FIELD"}, c.class_field);
@@ -142,7 +148,7 @@ void visit_runner(Runner& c, Visit&& visit) {
 /// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the field of `c`, const if
 /// `c` is const. The type of `value` is one of:
 /// - bool, double, std::size_t, std::string (the instruction set), Eigen::Vector3d (a direction) or an enum;
-/// - std::optional of a double, a std::size_t, a point or a FieldName;
+/// - std::optional of a double, a std::size_t, a point, an UprightSize or a FieldName;
 /// - std::vector of a std::string (methods), a RegionConfig or a ClassConfig.
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
@@ -186,6 +192,7 @@ std::string to_text(const std::vector<ClassConfig>& classes);
 std::string to_text(GroundMethod method);
 std::string to_text(Oversized rule);
 std::string to_text(const FieldName& field);
+std::string to_text(const UprightSize& size);  ///< An infinite side is "unlimited".
 std::string to_text(SphereGrowth growth);
 std::string to_text(QueuePolicy policy);
 std::string to_text(const std::optional<Eigen::Vector3d>& point);
@@ -208,6 +215,7 @@ void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///<
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, FieldName& field);
+void read_text(std::string_view text, UprightSize& size);
 void read_text(std::string_view text, SphereGrowth& growth);
 void read_text(std::string_view text, QueuePolicy& policy);
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point);
@@ -225,6 +233,7 @@ std::string problem_of(const Setting& setting, const std::string& instruction_se
 std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
 std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
 std::string problem_of(const Setting& setting, const FieldName& field);
+std::string problem_of(const Setting& setting, const UprightSize& size);
 std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
 std::string problem_of(const Setting& setting, const std::vector<ClassConfig>& classes);
 template <typename Choice>

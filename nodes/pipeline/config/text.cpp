@@ -51,6 +51,12 @@ std::vector<std::string_view> parts_of(std::string_view text) {
   return parts;
 }
 
+std::array<std::string_view, 3> three_parts_of(std::string_view text) {
+  const std::vector<std::string_view> parts = parts_of(text);
+  if (parts.size() != 3) throw std::invalid_argument("does not have three numbers");
+  return {parts[0], parts[1], parts[2]};
+}
+
 // Quotes a name as YAML does. The name may contain any characters.
 std::string in_quotes(const std::string& name) {
   constexpr char digits[] = "0123456789abcdef";
@@ -135,6 +141,12 @@ std::string to_text(GroundMethod method) {
 std::string to_text(const FieldName& field) {
   return in_quotes(field.name);
 }
+std::string to_text(const UprightSize& size) {
+  std::string list;
+  for (const double side : {size.along, size.across, size.up})
+    list.append(list.empty() ? "" : ", ").append(side == kNoLimit ? "unlimited" : to_text(side));
+  return list;
+}
 std::string to_text(Oversized rule) {
   return find_name(kOversized, rule);
 }
@@ -194,6 +206,15 @@ void read_text(std::string_view text, GroundMethod& method) {
 void read_text(std::string_view text, FieldName& field) {
   field.name = text;
 }
+void read_text(std::string_view text, UprightSize& size) {
+  const std::array<std::string_view, 3> parts = three_parts_of(text);
+  double* const sides[] = {&size.along, &size.across, &size.up};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const bool unlimited = parts[k] == "unlimited" || parts[k] == ".inf";  // .inf: YAML's infinity
+    *sides[k] = kNoLimit;
+    if (!unlimited) read_text(parts[k], *sides[k]);
+  }
+}
 void read_text(std::string_view text, Oversized& rule) {
   rule = read_name(kOversized, text);
 }
@@ -206,8 +227,7 @@ void read_text(std::string_view text, QueuePolicy& policy) {
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
   point.reset();
   if (text == "null") return;
-  const std::vector<std::string_view> parts = parts_of(text);
-  if (parts.size() != 3) throw std::invalid_argument("does not have three numbers");
+  const std::array<std::string_view, 3> parts = three_parts_of(text);
   Eigen::Vector3d p;
   for (Eigen::Index k = 0; k < 3; ++k)
     read_text(parts[static_cast<std::size_t>(k)], p[k]);

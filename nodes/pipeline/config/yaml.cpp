@@ -161,6 +161,9 @@ class Reader {
   static void read(const Setting& /*any*/, const YAML::Node& node, std::optional<Eigen::Vector3d>& value) {
     read_text(node.IsNull() ? "null" : elements(node, "a list of three numbers or null"), value);
   }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::optional<UprightSize>& value) {
+    read_text(node.IsNull() ? "null" : elements(node, "a list of three numbers or null"), value);
+  }
   static void read(const Setting& /*any*/, const YAML::Node& node, Eigen::Vector3d& value) {
     read_text(node.IsSequence() ? elements(node, "") : scalar(node), value);
   }
@@ -210,7 +213,8 @@ class Writer {
   void operator()(const Setting& setting, const T& value) {
     constexpr bool list =
         std::is_same_v<T, std::vector<std::string>> || std::is_same_v<T, std::optional<Eigen::Vector3d>> ||
-        std::is_same_v<T, std::vector<RegionConfig>> || std::is_same_v<T, std::vector<ClassConfig>>;
+        std::is_same_v<T, std::optional<UprightSize>> || std::is_same_v<T, std::vector<RegionConfig>> ||
+        std::is_same_v<T, std::vector<ClassConfig>>;
     std::string text = to_text(value);
     if (text == "inf") text = ".inf";
     std::string comment(setting.unit);

@@ -71,6 +71,13 @@ struct FieldName {
   std::string name;
 };
 
+/// Lengths of the three sides of an upright box, metres.
+struct UprightSize {
+  double along = 0;   ///< The longer horizontal side.
+  double across = 0;  ///< The shorter horizontal side.
+  double up = 0;      ///< The side along GroundConfig::up.
+};
+
 /// Settings for the objects of one class. Unset fields inherit ClusterConfig and PipelineConfig::volumes.
 struct ClassConfig {
   std::int64_t value = 0;             ///< Value of the class field.
@@ -95,6 +102,11 @@ struct ClusterConfig {
   /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterOptions).
   double tolerance_per_metre = 0;
   Oversized oversized = Oversized::drop;  ///< How objects above max_size are treated.
+  /// Objects whose upright box is smaller (larger) than this along any axis are dropped, and their points are
+  /// counted as small (large). The box is that of obb-yaw. An object that is too small along one axis and too
+  /// large along another one counts as small. If not given: no limit. `max_extent` may be infinite along
+  /// single axes. Both apply to all classes, after `oversized`, and need a tolerance above 0.
+  std::optional<UprightSize> min_extent{}, max_extent{};
   /// Integer field of the clouds that holds the points' classes. If set, all points of an object have the
   /// same class.
   std::optional<FieldName> class_field{};

@@ -20,8 +20,8 @@ struct Counts {
   std::size_t nonfinite = 0;      ///< Points that are not valid (is_valid()).
   std::size_t range = 0;          ///< Valid points outside the range limits or on the own vehicle.
   std::size_t ground = 0;         ///< Points removed as ground.
-  std::size_t small = 0;          ///< Points in clusters of too few points.
-  std::size_t large = 0;          ///< Points in clusters of too many points.
+  std::size_t small = 0;          ///< Points in clusters that are too small.
+  std::size_t large = 0;          ///< Points in clusters that are too large.
   std::size_t noise = 0;          ///< Noise points; see ClusterOptions::min_points.
   std::size_t inside = 0;         ///< Points inside a region to drop, or outside all regions to keep.
   std::size_t dropped_class = 0;  ///< Points of a class that is dropped.
