@@ -17,6 +17,7 @@ std::vector<std::pair<std::size_t, std::size_t>> TrackScore::add(const std::vect
   for (const TrueObject& truth : truths)
     frame.truths.emplace_back(sequence_, truth.id);
   std::vector<std::pair<std::size_t, std::size_t>> matches;
+  std::vector<Pair> matched_pairs;
   for (std::size_t f = 0; f < found.size(); ++f) {
     bool matched = false;
     const Key track(sequence_, found[f].track);
@@ -27,6 +28,7 @@ std::vector<std::pair<std::size_t, std::size_t>> TrackScore::add(const std::vect
       pairs.push_back({frame.truths[t], track, similarity});
       if (similarity <= 0.5) continue;
       matches.emplace_back(t, f);
+      matched_pairs.push_back(pairs.back());
       matched = true;
     }
     if (found[f].other && !matched) continue;
@@ -34,22 +36,63 @@ std::vector<std::pair<std::size_t, std::size_t>> TrackScore::add(const std::vect
     frame.pairs.insert(frame.pairs.end(), pairs.begin(), pairs.end());
   }
   std::sort(matches.begin(), matches.end());
-  std::set<Key> seen;
-  for (const auto& [t, f] : matches) {
+  count(frame, matched_pairs);
+  return matches;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> TrackScore::add(const std::vector<std::uint32_t>& truths,
+                                                                 const std::vector<std::uint32_t>& tracks,
+                                                                 std::vector<SimilarPair> pairs,
+                                                                 double min_similarity) {
+  Frame& frame = frames_.emplace_back();
+  for (const std::uint32_t id : truths)
+    frame.truths.emplace_back(sequence_, id);
+  for (const std::uint32_t id : tracks)
+    frame.tracks.emplace_back(sequence_, id);
+  std::sort(pairs.begin(), pairs.end(), [](const SimilarPair& a, const SimilarPair& b) {
+    return std::pair(a.truth, a.track) < std::pair(b.truth, b.track);
+  });
+  // An assignment of minimum cost is one of maximum weight if not to be assigned costs more than any weight.
+  constexpr double kStays = 1000, kUnassigned = 2 * kStays;
+  std::vector<AssignmentPair> costs;
+  for (const auto& [t, f, similarity] : pairs) {
     const Key& truth = frame.truths[t];
-    const auto [last, first] = last_.try_emplace(truth, found[f].track);
-    sums_.switches += last->second != found[f].track;
+    frame.pairs.push_back({truth, frame.tracks[f], similarity});
+    if (similarity < min_similarity) continue;
+    const auto before = previous_.find(truth);
+    const bool stays = before != previous_.end() && before->second == tracks[f];
+    costs.push_back({t, f, kUnassigned - similarity - (stays ? kStays : 0)});
+  }
+  SparseAssignment assignment;
+  assignment.solve(truths.size(), tracks.size(), costs, kUnassigned);
+  std::vector<std::pair<std::size_t, std::size_t>> matches;
+  std::vector<Pair> matched_pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (assignment.columns()[pairs[i].truth] != pairs[i].track) continue;
+    matches.emplace_back(pairs[i].truth, pairs[i].track);
+    matched_pairs.push_back(frame.pairs[i]);
+  }
+  count(frame, matched_pairs);
+  return matches;
+}
+
+void TrackScore::count(const Frame& frame, const std::vector<Pair>& matches) {
+  std::set<Key> seen;
+  previous_.clear();
+  for (const auto& [truth, track, similarity] : matches) {
+    const auto [last, first] = last_.try_emplace(truth, track.second);
+    sums_.switches += last->second != track.second;
     sums_.fragments += !first && lost_.count(truth) != 0;
-    last->second = found[f].track;
+    last->second = previous_[truth] = track.second;
+    similarity_ += similarity;
     seen.insert(truth);
   }
   for (const Key& truth : frame.truths)
     seen.count(truth) != 0 ? void(lost_.erase(truth)) : void(lost_.insert(truth));
-  sums_.truths += truths.size();
+  sums_.truths += frame.truths.size();
   sums_.matches += matches.size();
-  sums_.misses += truths.size() - matches.size();
+  sums_.misses += frame.truths.size() - matches.size();
   sums_.wrong += frame.tracks.size() - matches.size();
-  return matches;
 }
 
 // The pairs of a frame that are together as often as possible over the whole sequence, and alike.
@@ -79,6 +122,7 @@ std::vector<TrackScore::Pair> TrackScore::align(const std::map<std::pair<Key, Ke
 
 TrackScores TrackScore::result() const {
   TrackScores result = sums_;
+  if (sums_.matches > 0) result.motp = similarity_ / static_cast<double>(sums_.matches);
   if (sums_.truths == 0) return result;
   const auto truths = static_cast<double>(sums_.truths);
   result.mota = 1 - static_cast<double>(sums_.misses + sums_.wrong + sums_.switches) / truths;
