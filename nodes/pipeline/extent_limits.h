@@ -15,6 +15,8 @@
 
 namespace pcl_bv::detail {
 
+enum class ExtentVerdict : std::uint8_t { keep, small, large };
+
 class ExtentLimits {
  public:
   /// Drops the clusters outside `config.min_extent` and `config.max_extent`, and adds their points to
@@ -25,11 +27,9 @@ class ExtentLimits {
              const Execution& execution, Clusters& clusters, std::vector<std::int64_t>& class_of);
 
  private:
-  enum class Verdict : std::uint8_t { keep, small, large };
-
   void drop(Clusters& clusters, std::vector<std::int64_t>& class_of) const;
 
-  std::vector<Verdict> verdicts_;  // for each cluster; a member to reuse its memory
+  std::vector<ExtentVerdict> verdicts_;  // for each cluster; a member to reuse its memory
 };
 
 }  // namespace pcl_bv::detail
