@@ -219,7 +219,7 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   refused({"--cluster", "1", "--min-size", "9", "--max-size", "8"}, "--max-size: 8 is below --min-size, 9");
   refused({"--cluster", "1", "--max-extent", "5,5,1", "--min-extent", "0,0,2"},
           "--max-extent: up: 1 is below --min-extent, 2");
-  refused({"--cluster", "1", "--max-extent", "5,5"}, "--max-extent: does not have three numbers");
+  refused({"--cluster", "1", "--max-extent", "5,5"}, "--max-extent: '5,5' is not three numbers");
   refused({"--min-extent", "1,1,1"}, "--min-extent: only useful with --cluster");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
   refused({"--class", "label"}, "--class: only useful with --cluster");

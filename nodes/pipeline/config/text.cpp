@@ -53,7 +53,7 @@ std::vector<std::string_view> parts_of(std::string_view text) {
 
 std::array<std::string_view, 3> three_parts_of(std::string_view text) {
   const std::vector<std::string_view> parts = parts_of(text);
-  if (parts.size() != 3) throw std::invalid_argument("does not have three numbers");
+  if (parts.size() != 3) reject(text, "three numbers");
   return {parts[0], parts[1], parts[2]};
 }
 
