@@ -39,16 +39,14 @@ double share(std::size_t part, std::size_t all) {
 }
 
 // Returns the sum, over the groups of `by`, of the entropy of `of` among the group's points. Group 0 is left
-// out, and with `need_member` groups whose points are all 0 in `of`.
-double sum_of_entropies(std::span<const std::uint32_t> by, std::span<const std::uint32_t> of,
-                        bool need_member) {
+// out.
+double sum_of_entropies(std::span<const std::uint32_t> by, std::span<const std::uint32_t> of) {
   std::map<std::uint32_t, std::map<std::uint32_t, std::size_t>> groups;
   for (std::size_t i = 0; i < by.size(); ++i) {
     if (by[i] != 0) ++groups[by[i]][of[i]];
   }
   double sum = 0;
   for (const auto& [group, parts] : groups) {
-    if (need_member && parts.size() == 1 && parts.begin()->first == 0) continue;
     std::size_t all = 0;
     for (const auto& [part, points] : parts)
       all += points;
@@ -114,7 +112,7 @@ std::vector<std::uint32_t> true_segments(const PointView& points, std::span<cons
 }
 
 SegmentEntropy segment_entropy(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> found) {
-  return {sum_of_entropies(found, truth, true), sum_of_entropies(truth, found, false)};
+  return {sum_of_entropies(found, truth), sum_of_entropies(truth, found)};
 }
 
 void SweepMean::add(double value) {

@@ -40,10 +40,11 @@ std::vector<std::uint32_t> true_segments(const PointView& points, std::span<cons
 
 /// Under- and over-segmentation of a sweep. 0 is perfect, and there is no upper limit.
 struct SegmentEntropy {
-  /// USE: the sum, over the found clusters that have a point of a true segment, of the entropy of the true
-  /// segments of their points (in nats; points in none form one more).
+  /// USE: the sum, over the found clusters, of the entropy of the true segments of their points, in nats.
+  /// Points in no segment form one more, so clusters of only such points add nothing.
   double under = 0;
-  /// OSE: the sum, over the true segments, of the entropy of the clusters of their points.
+  /// OSE: the sum, over the true segments, of the entropy of the clusters of their points. Points in no
+  /// cluster form one more.
   double over = 0;
 };
 

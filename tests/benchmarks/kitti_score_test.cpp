@@ -136,6 +136,9 @@ TEST_F(KittiScore, BoxesInDontCareOutsideTheImageAndFarAwayAreIgnored) {
   // At 20 m and 3 m to the right: pixel 620 + 700 * 3 / 20 = 725.
   EXPECT_EQ(wrong(box(8, 20, -3), "0 -1 DontCare -1 -1 -10 650 150 800 300 -1 -1 -1 -1000 -1000 -1000 -10\n"),
             0U);
+  // The rectangle of the box ends at pixel 776, so a sixth of it is in this region.
+  EXPECT_EQ(wrong(box(8, 20, -3), "0 -1 DontCare -1 -1 -10 760 150 900 300 -1 -1 -1 -1000 -1000 -1000 -10\n"),
+            1U);
   EXPECT_EQ(wrong(box(8, 20, -3), "0 -1 DontCare -1 -1 -10 10 150 200 300 -1 -1 -1 -1000 -1000 -1000 -10\n"),
             1U);
   EXPECT_EQ(wrong(box(8, -20, 3)), 0U);                         // behind the camera
