@@ -22,6 +22,7 @@
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/check.h"
+#include "refine/cluster_refiner.h"
 #include "synthetic_sweep.h"
 #include "tracked_volumes.h"
 
@@ -80,6 +81,7 @@ struct FramePipeline::State {
   void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
+  void refine_clusters(const Prepared& now, const PointView& cloud, FrameResult& result);
   void make_views(const PointView& cloud, const FrameResult& result);
   void limit_extents(const Prepared& now, const PointView& cloud, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
@@ -91,6 +93,7 @@ struct FramePipeline::State {
   GroundZones zones;
   EuclideanClusterer clusterer;
   ClassClusterer class_clusterer;
+  ClusterRefiner refiner;
   std::vector<PointView> views;  // points of each cluster
   ExtentLimits extents;
   TrackedVolumes tracks;
@@ -207,6 +210,14 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
   result.counts.dropped_class = result.clusters.class_points;
 }
 
+void FramePipeline::State::refine_clusters(const Prepared& now, const PointView& cloud, FrameResult& result) {
+  const ClusterConfig& config = now.config.cluster;
+  result.cut.clear();
+  if (config.refine == Refine::off || config.tolerance == 0) return;
+  const RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size()};
+  result.counts.cut = refiner.cut_at_necks(cloud, options, result.clusters, result.class_of, result.cut);
+}
+
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
   make_views(cloud, result);
   const std::size_t methods = now.methods.size();
@@ -277,6 +288,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   points = state_->remove_ground(*now, points, result);
   result.ms.ground = watch.lap();
   state_->find_clusters(*now, frame, points, result);
+  state_->refine_clusters(*now, frame.points, result);
   result.ms.cluster = watch.lap();
   state_->fit(*now, frame.points, result);
   result.ms.fit = watch.lap();

@@ -91,7 +91,7 @@ py::dict counts_of(const Shared& self) {
   const Counts& c = self->result.counts;
   return py::dict("nonfinite"_a = c.nonfinite, "range"_a = c.range, "ground"_a = c.ground,
                   "small"_a = c.small, "large"_a = c.large, "noise"_a = c.noise, "inside"_a = c.inside,
-                  "class"_a = c.dropped_class);
+                  "class"_a = c.dropped_class, "cut"_a = c.cut);
 }
 
 py::dict times_of(const Shared& self) {
@@ -251,6 +251,13 @@ void bind_cluster(py::module_& module) {
             return classes.empty() ? py::object(py::none()) : py::object(py::int_(classes[c.id]));
           },
           "The class of its points, or None without classes.")
+      .def_property_readonly(
+          "cut",
+          [](const ClusterObject& c) {
+            const auto& cut = c.owner_result->result.cut;
+            return !cut.empty() && cut[c.id] != 0;
+          },
+          "Whether it is a part of a cluster that was cut (setting cluster.refine).")
       .def("__getitem__", volume_by_name)
       .def("__repr__", repr_of_cluster);
 }

@@ -24,11 +24,12 @@ std::vector<T> vector(const py::object& values) {
 }
 
 py::tuple counts(const Counts& c) {
-  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.dropped_class);
+  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.dropped_class,
+                        c.cut);
 }
 Counts counts(const py::tuple& t) {
   const auto n = [&](std::size_t i) { return t[i].cast<std::size_t>(); };
-  return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7)};
+  return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8)};
 }
 
 py::tuple times(const StageTimes& ms) {
@@ -89,6 +90,7 @@ void require_consistent(const FrameResult& result, std::size_t points) {
       in_cloud(c.indices) && in_cloud(result.passed_filter) && in_cloud(result.ground.ground) &&
       in_cloud(result.ground.rest) && (result.tracks.empty() || result.tracks.size() == c.size()) &&
       (result.class_of.empty() || result.class_of.size() == c.size()) &&
+      (result.cut.empty() || result.cut.size() == c.size()) &&
       result.volumes.size() == c.size() * result.methods.size();
   if (!consistent) throw py::value_error("the state is inconsistent");
 }
@@ -132,7 +134,8 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
   state["kept"] = array(kept(*self));
   const GroundSplit& g = r.ground;
   state["ground"] = py::make_tuple(g.found, array_of(g.normal), g.offset, array(g.ground), array(g.rest));
-  state["clusters"] = py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of));
+  state["clusters"] = py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of),
+                                     array(r.cut));
   py::list names, tracks;
   for (const Method* method : r.methods)
     names.append(std::string(method->name));
@@ -153,13 +156,13 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   self->points = points_of(state["points"]);
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
   const py::tuple header = tuple_of_state(state["header"], 4), ground = tuple_of_state(state["ground"], 5),
-                  clusters = tuple_of_state(state["clusters"], 3);
+                  clusters = tuple_of_state(state["clusters"], 4);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
               header[3].cast<std::uint64_t>()};
   if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("the settings are not a dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
-  r.counts = counts(tuple_of_state(state["counts"], 8));
+  r.counts = counts(tuple_of_state(state["counts"], 9));
   r.passed_filter = vector<std::int32_t>(state["kept"]);
   r.ground.found = ground[0].cast<bool>();
   r.ground.normal = vector3(ground[1], "normal");
@@ -169,6 +172,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   r.clusters.indices = vector<std::int32_t>(clusters[0]);
   r.clusters.offsets = vector<std::size_t>(clusters[1]);
   r.class_of = vector<std::int64_t>(clusters[2]);
+  r.cut = vector<std::uint8_t>(clusters[3]);
   for (const py::handle each : py::list(state["tracks"]))
     r.tracks.push_back(track(each));
   for (const py::handle name : py::list(state["methods"]))

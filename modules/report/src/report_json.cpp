@@ -117,7 +117,9 @@ void add_volumes(const ClusterEntry& cluster, JsonText& json) {
 void add_counts(const Counts& counts, JsonText& json) {
   json.key("counts").begin('{').add("nonfinite", counts.nonfinite).add("range", counts.range);
   json.add("ground", counts.ground).add("small", counts.small).add("large", counts.large);
-  json.add("noise", counts.noise).add("inside", counts.inside).add("class", counts.dropped_class).end('}');
+  json.add("noise", counts.noise).add("inside", counts.inside).add("class", counts.dropped_class);
+  if (counts.cut > 0) json.add("cut", counts.cut);
+  json.end('}');
 }
 
 void add_track(const TrackEntry& track, JsonText& json) {
@@ -145,6 +147,7 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
     const ClusterEntry& cluster = clusters.at(i);
     json.begin('{').add("id", cluster.id);
     if (cluster.class_value) json.add("class", *cluster.class_value);
+    if (cluster.cut) json.add("cut", true);
     add_volumes(cluster, json);
     take_if_long(text, take);
   }
@@ -190,6 +193,7 @@ std::string frame_json(const FrameReport& report, const ClusterSource& clusters)
       json.value(nullptr);
     }
     if (cluster.class_value) json.add("class", *cluster.class_value);
+    if (cluster.cut) json.add("cut", true);
     if (cluster.track) add_track(*cluster.track, json);
     add_volumes(cluster, json);
   }

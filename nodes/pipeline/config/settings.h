@@ -104,6 +104,8 @@ void visit_cluster(Cluster& c, Visit&& visit) {
   visit(S{"cluster.oversized", "drop, keep, split",
           "Handling of objects above the maximum size",
           {}, {}, "--oversized", "RULE"}, c.oversized);
+  visit(S{"cluster.refine", "off, neck", "Cut groups of people into single people",
+          {}, {}, "--refine", "HOW"}, c.refine);
   visit(S{"cluster.min_extent", "m, [along, across, up]",
           "Drop objects whose upright box is shorter, narrower or lower",
           {}, "no limit", "--min-extent", "L,W,H"}, c.min_extent);
@@ -191,6 +193,7 @@ std::string to_text(const std::vector<RegionConfig>& regions);
 std::string to_text(const std::vector<ClassConfig>& classes);
 std::string to_text(GroundMethod method);
 std::string to_text(Oversized rule);
+std::string to_text(Refine refine);
 std::string to_text(const FieldName& field);
 std::string to_text(const UprightSize& size);  ///< An infinite side is "unlimited".
 std::string to_text(SphereGrowth growth);
@@ -214,6 +217,7 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///<
 void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One class with this value.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
+void read_text(std::string_view text, Refine& refine);
 void read_text(std::string_view text, FieldName& field);
 void read_text(std::string_view text, UprightSize& size);
 void read_text(std::string_view text, SphereGrowth& growth);

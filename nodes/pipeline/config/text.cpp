@@ -16,6 +16,7 @@ constexpr Names<GroundMethod, 3> kGroundMethods{
     {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
 constexpr Names<Oversized, 3> kOversized{
     {{"drop", Oversized::drop}, {"keep", Oversized::keep}, {"split", Oversized::split}}};
+constexpr Names<Refine, 2> kRefine{{{"off", Refine::off}, {"neck", Refine::neck}}};
 constexpr Names<SphereGrowth, 3> kGrowths{{{"sequential", SphereGrowth::sequential},
                                            {"stationary", SphereGrowth::stationary},
                                            {"deferred", SphereGrowth::deferred}}};
@@ -150,6 +151,10 @@ std::string to_text(const UprightSize& size) {
 std::string to_text(Oversized rule) {
   return find_name(kOversized, rule);
 }
+
+std::string to_text(Refine refine) {
+  return find_name(kRefine, refine);
+}
 std::string to_text(SphereGrowth growth) {
   return find_name(kGrowths, growth);
 }
@@ -217,6 +222,10 @@ void read_text(std::string_view text, UprightSize& size) {
 }
 void read_text(std::string_view text, Oversized& rule) {
   rule = read_name(kOversized, text);
+}
+
+void read_text(std::string_view text, Refine& refine) {
+  refine = read_name(kRefine, text);
 }
 void read_text(std::string_view text, SphereGrowth& growth) {
   growth = read_name(kGrowths, text);

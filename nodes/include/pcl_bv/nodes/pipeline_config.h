@@ -87,6 +87,14 @@ struct ClassConfig {
   std::vector<std::string> volumes{};  ///< Methods. If empty: PipelineConfig::volumes.
 };
 
+/// How clusters that hold several objects are cut after the clustering.
+enum class Refine : std::uint8_t {
+  off,  ///< Clusters are not cut.
+  /// Groups of people are cut into single people, at the necks between them. A person is a peak of the density
+  /// of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size points.
+  neck
+};
+
 /// Settings of the clustering.
 struct ClusterConfig {
   /// Points closer to each other than this belong to one object, metres. 0: all points are one object.
@@ -102,6 +110,7 @@ struct ClusterConfig {
   /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterOptions).
   double tolerance_per_metre = 0;
   Oversized oversized = Oversized::drop;  ///< How objects above max_size are treated.
+  Refine refine = Refine::off;            ///< Only with a tolerance above 0.
   /// Objects whose upright box is smaller (larger) than this along any axis are dropped, and their points are
   /// counted as small (large). The box is that of obb-yaw. An object that is too small along one axis and too
   /// large along another one counts as small. If not given: no limit. `max_extent` may be infinite along

@@ -15,7 +15,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Numbers of points that are in no cluster, by reason.
+/// Numbers of points that are in no cluster, by reason, and how many clusters were cut.
 struct Counts {
   std::size_t nonfinite = 0;      ///< Points that are not valid (is_valid()).
   std::size_t range = 0;          ///< Valid points outside the range limits or on the own vehicle.
@@ -25,6 +25,7 @@ struct Counts {
   std::size_t noise = 0;          ///< Noise points; see ClusterOptions::min_points.
   std::size_t inside = 0;         ///< Points inside a region to drop, or outside all regions to keep.
   std::size_t dropped_class = 0;  ///< Points of a class that is dropped.
+  std::size_t cut = 0;            ///< Clusters that were cut into parts, which are clusters of their own.
 };
 
 /// Treatment of clusters with more than max_size points.

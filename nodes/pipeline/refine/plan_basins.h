@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Peaks of the density of points in a plane, and the points around each peak.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+/// Splits points of a plane into basins, one around each peak of their density. The method is clustering by
+/// persistence (Chazal et al. 2013). Two peaks are one basin if the density on the best path between them
+/// nowhere falls below half the density of the lower peak.
+///
+/// The density of a square cell is a weighted sum of the numbers of points in the 5 x 5 cells around it. The
+/// weights are whole numbers, so the result does not depend on the order of the points.
+class PlanBasins {
+ public:
+  /// Replaces `basin_of` by the number of each point's basin. Returns the number of basins. Basin 0 has the
+  /// densest peak. `side` is the side of a cell, above 0. Coordinates must be below 2^40 sides.
+  /// O(n log n). A reused object allocates only if it needs more memory than before.
+  std::size_t find(const std::vector<Eigen::Vector2d>& points, double side,
+                   std::vector<std::uint32_t>& basin_of);
+
+ private:
+  struct Cell {
+    std::int64_t x = 0, y = 0;
+    std::uint64_t count = 0, density = 0;
+    std::uint32_t parent = 0;  // a cell of the same basin; itself for the peak
+    std::uint32_t rank = 0;    // position in the order of descending density
+  };
+  struct PlacedPoint {
+    std::int64_t x, y;
+    std::uint32_t point;
+  };
+
+  void fill_cells(const std::vector<Eigen::Vector2d>& points, double side);
+  void sort_by_density();
+  template <typename Visit>
+  void visit_neighbours(std::uint32_t cell, const Visit& visit) const;
+  std::uint32_t peak_of(std::uint32_t cell);
+  void join(std::uint32_t a, std::uint32_t b, std::uint64_t saddle);
+
+  std::vector<PlacedPoint> placed_;
+  std::vector<Cell> cells_;  // by ascending x, then y
+  std::vector<std::uint32_t> cell_of_, order_, number_;
+};
+
+}  // namespace detail
+}  // namespace pcl_bv
