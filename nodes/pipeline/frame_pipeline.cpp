@@ -178,7 +178,8 @@ void FramePipeline::State::limit_extents(const Prepared& now, const PointView& c
   const ClusterConfig& config = now.config.cluster;
   if (!config.min_extent && !config.max_extent) return;
   make_views(cloud, result);
-  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of);
+  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of,
+                result.cut);
 }
 
 void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
@@ -196,6 +197,7 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
                             now.classes.class_options(), result.clusters, result.class_of, now.execution);
   }
+  refine_clusters(now, frame.points, result);
   limit_extents(now, frame.points, result);
   // Frees the memory of the clustering before the fits. Otherwise the clustering and the volumes would be in
   // memory at the same time: 550 MB and 300 MB for a million clusters of four points.
@@ -288,7 +290,6 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   points = state_->remove_ground(*now, points, result);
   result.ms.ground = watch.lap();
   state_->find_clusters(*now, frame, points, result);
-  state_->refine_clusters(*now, frame.points, result);
   result.ms.cluster = watch.lap();
   state_->fit(*now, frame.points, result);
   result.ms.fit = watch.lap();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -142,6 +143,33 @@ TEST_F(PcdBv, OversizedClustersAreDroppedKeptOrSplit) {
   EXPECT_EQ(split["counts"]["large"], 0);
 }
 
+TEST_F(PcdBv, GroupsOfPeopleAreCutIfAsked) {
+  std::vector<std::string> points;  // two columns of 1.7 m, 0.4 m wide, 0.3 m apart
+  for (int i = 0; i < 2 * 200; ++i) {
+    const double angle = 2.4 * i, height = 1.7 * (i / 2) / 200;
+    points.push_back(std::to_string(10 + 0.2 * std::cos(angle)) + " " +
+                     std::to_string((i % 2 == 0 ? 0 : 0.7) + 0.2 * std::sin(angle)) + " " +
+                     std::to_string(height));
+  }
+  const std::string cloud = ascii("people.pcd", points);
+  const auto report = [&](const std::string& how) {
+    return run({"--format", "jsonl", "--cluster", "0.5", "--volume", "aabb", "--refine", how, "--check",
+                cloud})
+        .json();
+  };
+  const Json off = report("off"), neck = report("neck");
+  ASSERT_EQ(off["clusters"].size(), 1u);
+  EXPECT_FALSE(off["counts"].contains("cut"));
+  EXPECT_FALSE(off["clusters"][0].contains("cut"));
+  ASSERT_EQ(neck["clusters"].size(), 2u) << neck;
+  EXPECT_EQ(neck["counts"]["cut"], 1);
+  for (const Json& person : neck["clusters"]) {
+    EXPECT_EQ(person["points"], 200);
+    EXPECT_EQ(person["cut"], true);
+    EXPECT_EQ(person["volumes"][0]["outside"], 0);
+  }
+}
+
 // One row of points, of two classes in turn, and a lone point of a third.
 TEST_F(PcdBv, PointsOfDifferentClassesShareNoCluster) {
   std::string text =
@@ -222,6 +250,8 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   refused({"--cluster", "1", "--max-extent", "5,5"}, "--max-extent: '5,5' is not three numbers");
   refused({"--min-extent", "1,1,1"}, "--min-extent: only useful with --cluster");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
+  refused({"--refine", "neck"}, "--refine: only useful with --cluster");
+  refused({"--cluster", "0.5", "--refine", "head"}, "--refine: 'head' is not one of off, neck");
   refused({"--class", "label"}, "--class: only useful with --cluster");
 }
 

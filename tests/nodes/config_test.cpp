@@ -49,7 +49,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
   config.pipeline.ground = {
       GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12};
-  config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4, 0, Oversized::split};
+  config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4, 0, Oversized::split, Refine::neck};
   config.pipeline.cluster.min_extent = {0.2, 0.1, 1.0 / 3};
   config.pipeline.cluster.max_extent = {12, std::numeric_limits<double>::infinity(), 4};
   config.pipeline.growth = SphereGrowth::stationary;
@@ -72,6 +72,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
   EXPECT_EQ(read.pipeline.cluster.min_points, 4U);
   EXPECT_EQ(read.pipeline.cluster.oversized, Oversized::split);
+  EXPECT_EQ(read.pipeline.cluster.refine, Refine::neck);
   ASSERT_TRUE(read.pipeline.cluster.min_extent && read.pipeline.cluster.max_extent);
   EXPECT_EQ(read.pipeline.cluster.min_extent->up, 1.0 / 3);
   EXPECT_EQ(read.pipeline.cluster.max_extent->along, 12);

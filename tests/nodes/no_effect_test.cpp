@@ -52,6 +52,12 @@ TEST(WithoutEffect, AreTheGrowthOfNoSphereAndTheRuleForNothingOversized) {
   EXPECT_THAT(ineffective_settings("cluster: {oversized: split, max_size: 500}"), IsEmpty());
 }
 
+TEST(WithoutEffect, IsARefinementOfTheWholeCloud) {
+  EXPECT_THAT(ineffective_settings("cluster: {tolerance: 0, refine: neck}"),
+              ElementsAre("cluster.refine: has no effect without cluster.tolerance"));
+  EXPECT_THAT(ineffective_settings("cluster: {refine: neck}"), IsEmpty());
+}
+
 TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
   EXPECT_THAT(
       ineffective_settings("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),
