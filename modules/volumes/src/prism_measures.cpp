@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/prism.h"
@@ -68,13 +69,14 @@ struct Polygon {
 };
 
 // Returns the point with the coordinates `at` along the axes. The second round corrects for axes that are not
-// exactly orthogonal.
+// exactly orthogonal, and for the rounding of the first one, which is relative to the largest coordinate. The
+// exact sum leaves an error of about one unit in the last place of each coordinate.
 Eigen::Vector3d position(const Eigen::Matrix3d& axes, const Eigen::Vector3d& at) {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   for (int round = 0; round < 2; ++round) {
     Eigen::Vector3d missing;
     for (int i = 0; i < 3; ++i)
-      missing[i] = at[i] - dot3(axes.col(i), p);
+      missing[i] = Expansion().add(at[i]).add_dot(Eigen::Vector3d(-axes.col(i)), p).value();
     p += (axes.col(0) * missing[0] + axes.col(1) * missing[1]) + axes.col(2) * missing[2];
   }
   return p.array() + 0.0;
