@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Double arithmetic decides nearly every orientation, rational arithmetic the others.
+// Double arithmetic decides nearly every orientation, an exact sum of doubles most others. Rational arithmetic
+// decides where products of doubles underflow.
 
 #include "pcl_bv/volumes/planar_hull.h"
 
@@ -11,6 +12,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/exact_difference.h"
+#include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/volumes/convex_chain.h"
 
 namespace pcl_bv::detail {
@@ -83,6 +85,12 @@ int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
     if (left != right) return compare(left, right);
     return compare(std::fma(bx, cy, -left), std::fma(by, cx, -right));
   }
+  // The cross product is a x b + b x c + c x a.
+  Expansion sum;
+  sum.add_product(a.x(), b.y()).add_product(-a.y(), b.x());
+  sum.add_product(b.x(), c.y()).add_product(-b.y(), c.x());
+  sum.add_product(c.x(), a.y()).add_product(-c.y(), a.x());
+  if (sum.is_lossless()) return sum.sign();
   using Rational = boost::multiprecision::cpp_rational;
   const Rational exact = (Rational(b.x()) - Rational(a.x())) * (Rational(c.y()) - Rational(a.y())) -
                          (Rational(b.y()) - Rational(a.y())) * (Rational(c.x()) - Rational(a.x()));
