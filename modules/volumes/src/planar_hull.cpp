@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Double arithmetic decides nearly every orientation, an exact sum of doubles most others. Rational arithmetic
-// decides where products of doubles underflow.
+// Double arithmetic decides nearly every orientation, an exact sum of doubles most others. Rational
+// arithmetic decides where products of doubles underflow.
 
 #include "pcl_bv/volumes/planar_hull.h"
 
@@ -69,7 +69,10 @@ int compare(double a, double b) {
 }  // namespace
 
 int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  // With the nearest two of the points first, the products and their rounding errors are smallest.
   if (const int certain = rounded_orientation(a, b, c)) return certain;
+  if (const int certain = rounded_orientation(b, c, a)) return certain;
+  if (const int certain = rounded_orientation(c, a, b)) return certain;
   // Points of lattices are often collinear, and their differences are doubles without rounding. In this case
   // each product is the sum of its rounded value and a rounding error that is also a double. The rounded
   // values are compared first. If these are equal, the errors are compared.
@@ -99,16 +102,21 @@ int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
 
 std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points) {
   if (points.empty()) return {};
-  const auto before = [&](std::size_t i, std::size_t j) {
+  std::vector<std::size_t> order = outside_octagon(points);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     if (points[i].x() != points[j].x()) return points[i].x() < points[j].x();
     if (points[i].y() != points[j].y()) return points[i].y() < points[j].y();
     return i < j;
-  };
+  });
   const auto equal = [&](std::size_t i, std::size_t j) { return points[i] == points[j]; };
-  const auto turn = [&](std::size_t i, std::size_t j, std::size_t k) {
-    return orientation(points[i], points[j], points[k]);
-  };
-  return convex_chain(outside_octagon(points), before, equal, turn);
+  order.erase(std::unique(order.begin(), order.end(), equal), order.end());
+  std::vector<std::size_t> corners =
+      convex_chain(order.size(), [&](std::size_t i, std::size_t j, std::size_t k) {
+        return orientation(points[order[i]], points[order[j]], points[order[k]]);
+      });
+  for (std::size_t& corner : corners)
+    corner = order[corner];
+  return corners;
 }
 
 }  // namespace pcl_bv::detail

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <numeric>
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -65,10 +64,10 @@ int GroundProjection::compare(const ProjectedPoint& a, const ProjectedPoint& b, 
   return exact.is_lossless() ? exact.sign() : exact_step(axes_[axis], b.point, a.point).sign();
 }
 
-// Let e be the error bound. The differences of coordinates are off by at most 2 e and one rounding. The
-// margin of 8 e exceeds the effect of 2 e on the products, and 32 e^2 exceeds the product of two errors.
+// Let e be the error bound, 0 if the coordinates are exact. The differences of coordinates are off by at most
+// 2 e and one rounding. The margin of 8 e exceeds the effect of 2 e on the products, and 32 e^2 exceeds the
+// product of two errors.
 int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c) const {
-  if (is_exact()) return orientation(a.at, b.at, c.at);
   const Eigen::Vector2d ab = b.at - a.at, ac = c.at - a.at;
   const double left = ab.x() * ac.y(), right = ab.y() * ac.x();
   const double lengths =
@@ -76,31 +75,42 @@ int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, con
   const double rounding =
       0x1p-50 * (std::abs(left) + std::abs(right)) + 8 * error_bound_ * lengths + kSmallestNormal;
   if (std::abs(left - right) > rounding) return left > right ? 1 : -1;
+  if (is_exact()) return orientation(a.at, b.at, c.at);
   const Rational exact = exact_step(axes_[0], a.point, b.point) * exact_step(axes_[1], a.point, c.point) -
                          exact_step(axes_[1], a.point, b.point) * exact_step(axes_[0], a.point, c.point);
   return exact.sign();
 }
 
 void GroundProjection::keep_corners(std::vector<ProjectedPoint>& points) const {
-  const auto order = [&](std::size_t i, std::size_t j) {
-    const int first = compare(points[i], points[j], 0);
-    return first != 0 ? first : compare(points[i], points[j], 1);
+  struct Entry {
+    double u;  // here too, so that most comparisons read no point
+    std::size_t position;
   };
-  std::vector<std::size_t> all(points.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Entry> entries;
+  entries.reserve(points.size());
+  for (const ProjectedPoint& p : points)
+    entries.push_back({p.at.x(), entries.size()});
+  const auto order = [&](const ProjectedPoint& a, const ProjectedPoint& b) {
+    const int first = compare(a, b, 0);
+    return first != 0 ? first : compare(a, b, 1);
+  };
+  std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+    if (std::abs(a.u - b.u) > 4 * error_bound_) return a.u < b.u;
+    const int sign = order(points[a.position], points[b.position]);
+    return sign != 0 ? sign < 0 : a.position < b.position;
+  });
+  std::vector<ProjectedPoint> sorted;
+  sorted.reserve(entries.size());
+  for (const Entry& entry : entries) {
+    const ProjectedPoint& p = points[entry.position];
+    if (sorted.empty() || order(sorted.back(), p) != 0) sorted.push_back(p);
+  }
   const std::vector<std::size_t> corners = convex_chain(
-      std::move(all),
-      [&](std::size_t i, std::size_t j) {
-        const int sign = order(i, j);
-        return sign != 0 ? sign < 0 : i < j;
-      },
-      [&](std::size_t i, std::size_t j) { return order(i, j) == 0; },
-      [&](std::size_t i, std::size_t j, std::size_t k) { return turn(points[i], points[j], points[k]); });
-  std::vector<ProjectedPoint> kept;
-  kept.reserve(corners.size());
+      sorted.size(),
+      [&](std::size_t i, std::size_t j, std::size_t k) { return turn(sorted[i], sorted[j], sorted[k]); });
+  points.clear();
   for (const std::size_t i : corners)
-    kept.push_back(points[i]);
-  points = std::move(kept);
+    points.push_back(sorted[i]);
 }
 
 PlaneBox GroundProjection::box(const Coordinates& p) const {

@@ -5,22 +5,16 @@
 // not be pairs of doubles.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace pcl_bv::detail {
 
-/// Returns the corners of the convex hull of the numbered points in `order`, counter-clockwise, beginning
-/// with the smallest. before(i, j) is the lexicographic order of the points, and must order equal points,
-/// too. equal(i, j) is true for points at the same position, of which only the first remains. turn(i, j, k)
-/// is the sign of the orientation of three points. O(n log n). Andrew 1979.
-template <typename Before, typename Equal, typename Turn>
-std::vector<std::size_t> convex_chain(std::vector<std::size_t> order, const Before& before,
-                                      const Equal& equal, const Turn& turn) {
-  std::sort(order.begin(), order.end(), before);
-  order.erase(std::unique(order.begin(), order.end(), equal), order.end());
-  if (order.size() < 3) return order;
+/// Returns the numbers of the corners of the convex hull, counter-clockwise, beginning with point 0. The
+/// points 0 to count - 1 must be different and in ascending lexicographic order. turn(i, j, k) is the sign of
+/// the orientation of three points. O(count). Andrew 1979.
+template <typename Turn>
+std::vector<std::size_t> convex_chain(std::size_t count, const Turn& turn) {
   std::vector<std::size_t> chain;
   // Appends a point to the chain that begins at position `first`. Before that, removes corners from the end
   // of this chain until the chain turns left at its last corner.
@@ -29,11 +23,12 @@ std::vector<std::size_t> convex_chain(std::vector<std::size_t> order, const Befo
       chain.pop_back();
     chain.push_back(next);
   };
-  for (const std::size_t i : order)
+  for (std::size_t i = 0; i < count; ++i)
     extend(i, 0);
+  if (count < 3) return chain;
   const std::size_t lower = chain.size() - 1;
-  for (std::size_t k = order.size() - 1; k-- > 0;)
-    extend(order[k], lower);
+  for (std::size_t i = count - 1; i-- > 0;)
+    extend(i, lower);
   chain.pop_back();  // the first corner, which was appended a second time
   return chain;
 }
