@@ -102,19 +102,43 @@ TEST(FitPrism, EnclosesEveryDoublePointAlongEveryAxisInExactArithmetic) {
   expect_encloses_along_every_axis<double>();
 }
 
+// A random cloud. Some are flat, on a line, at one position, at one height, or full of zeros of both signs.
+template <typename T>
+TestCloud<T> random_cloud(int kind, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const int range = sizeof(T) == sizeof(float) ? 30 : 40;
+  const double denormal = sizeof(T) == sizeof(float) ? 0x1p-145 : 0x1p-1070;
+  const double scale = kind == 9 ? denormal : std::exp2(std::round(range * uniform(random)));
+  const double offset = kind % 3 != 0 ? 0 : kind % 2 == 0 ? 5e6 : 1e9;
+  TestCloud<T> cloud = test::gaussian<T>(kind == 1 ? 1 : 1 + random() % 40, random(), scale, offset);
+  for (std::size_t k = 0; k < cloud.size(); ++k) {
+    T* const p = &cloud.xyz[3 * k];
+    if (kind == 2 || kind == 3) p[1] = 2 * p[0];  // a wall
+    if (kind == 3 || kind == 4) p[2] = p[0];      // a line or a plane
+    if (kind == 5 || kind == 6) p[2] = cloud.xyz[2];
+    if (kind == 7) std::copy_n(cloud.xyz.data(), 3, p);
+    for (int i = 0; kind == 8 && i < 3; ++i)
+      p[i] = random() % 2 == 0 ? T(0) : random() % 2 == 0 ? -T(0) : std::round(p[i] / T(scale));
+  }
+  return cloud;
+}
+
 TEST(FitPrism, LeavesNoPointOfManyRandomCloudsOutside) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int i = 0; i < kRandomClouds; ++i) {
-    const double scale = std::exp2(std::round(40 * uniform(random))), offset = i % 3 == 0 ? 5e6 : 0;
-    TestCloud<double> cloud = test::gaussian<double>(1 + random() % 40, random(), scale, offset);
-    if (i % 4 == 0) {  // a wall
-      for (std::size_t k = 0; k < cloud.size(); ++k)
-        cloud.xyz[3 * k + 1] = 2 * cloud.xyz[3 * k];
+    const std::vector<Vector3d> axes = up_axes();
+    const Vector3d up =
+        i % 3 == 0 ? axes[random() % axes.size()] : Vector3d(uniform(random), uniform(random), 1);
+    const auto expect_none_outside = [&](const auto& cloud) {
+      const Prism prism = *fit_prism(cloud.view(), up);
+      ASSERT_EQ(verify(prism, cloud.view()).outside, 0U) << "seed 7, cloud " << i;
+    };
+    if (i % 2 == 0) {
+      expect_none_outside(random_cloud<double>(i / 2 % 12, random));
+    } else {
+      expect_none_outside(random_cloud<float>(i / 2 % 12, random));
     }
-    const Vector3d up = i % 5 == 0 ? Vector3d::UnitZ() : Vector3d(uniform(random), uniform(random), 1);
-    const Prism prism = *fit_prism(cloud.view(), up);
-    ASSERT_EQ(verify(prism, cloud.view()).outside, 0U) << "seed 7, cloud " << i;
   }
 }
 
