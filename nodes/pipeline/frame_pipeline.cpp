@@ -178,8 +178,7 @@ void FramePipeline::State::limit_extents(const Prepared& now, const PointView& c
   const ClusterConfig& config = now.config.cluster;
   if (!config.min_extent && !config.max_extent) return;
   make_views(cloud, result);
-  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of,
-                result.cut);
+  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of, result.cut);
 }
 
 void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
@@ -216,7 +215,8 @@ void FramePipeline::State::refine_clusters(const Prepared& now, const PointView&
   const ClusterConfig& config = now.config.cluster;
   result.cut.clear();
   if (config.refine == Refine::off || config.tolerance == 0) return;
-  const RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size()};
+  const RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size(),
+                              &now.classes.class_options()};
   result.counts.cut = refiner.cut_at_necks(cloud, options, result.clusters, result.class_of, result.cut);
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <set>
@@ -186,6 +187,28 @@ TEST(Refine, CutsGroupsOnARoadAndKeepsEveryPoint) {
     cut += parts.counts.cut;
   }
   EXPECT_GT(cut, 2U);
+}
+
+// Two people, of whom the second has 300 points. Where parts need more, the cluster stays whole.
+TEST(Refine, MakesNoPartBelowTheMinimumSizeOfItsClass) {
+  std::mt19937_64 random(9);
+  Cloud cloud;
+  add_person(cloud, 0, 10, 0, 400, random);
+  add_person(cloud, 1, 10.7, 0, 300, random);
+  Frame frame;
+  frame.points = cloud.view();
+  frame.classes = std::make_shared<std::vector<std::int64_t>>(cloud.points.size(), 7);
+  PipelineConfig config;
+  config.volumes = {"aabb"};
+  config.cluster.class_field = FieldName{"class"};
+  config.cluster.refine = Refine::neck;
+  for (const std::size_t min_size : {20, 350}) {
+    config.cluster.classes = {{.value = 7, .min_size = min_size}};
+    FrameResult result;
+    FramePipeline(config).process(frame, result);
+    EXPECT_EQ(result.clusters.size(), min_size == 20 ? 2U : 1U);
+    EXPECT_EQ(result.class_of, std::vector<std::int64_t>(result.clusters.size(), 7));
+  }
 }
 
 }  // namespace

@@ -8,6 +8,16 @@
 #include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::detail {
+namespace {
+
+std::size_t min_size_of(const RefineOptions& options, std::int64_t class_value) {
+  for (const ClassOptions& own : *options.classes) {
+    if (own.value == class_value) return own.clusters.min_size;
+  }
+  return options.min_size;
+}
+
+}  // namespace
 
 // The indices of each part stay ascending.
 void ClusterRefiner::add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts) {
@@ -48,7 +58,9 @@ std::size_t ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOpt
   std::size_t cut_clusters = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const PointView cluster = select_points(cloud, clusters.list(i), clusters.list_size(i));
-    const std::size_t parts = neck_cut_.find(cluster, options.up, options.sensor, options.min_size, part_of_);
+    const bool own = options.classes != nullptr && !class_of.empty();
+    const std::size_t min_size = own ? min_size_of(options, class_of[i]) : options.min_size;
+    const std::size_t parts = neck_cut_.find(cluster, options.up, options.sensor, min_size, part_of_);
     add_parts(clusters, i, std::max<std::size_t>(parts, 1));
     cut_clusters += parts > 1;
   }

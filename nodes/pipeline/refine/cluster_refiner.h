@@ -11,6 +11,7 @@
 
 #include "neck_cut.h"
 #include "pcl_bv/points/point_view.h"
+#include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/clusters.h"
 
 namespace pcl_bv {
@@ -21,6 +22,8 @@ struct RefineOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();     ///< Of length 1.
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Position of the sensor in the frame of the points.
   std::size_t min_size = 1;                          ///< Smallest number of points of a part.
+  /// Classes whose min_size replaces that of these options. May be null.
+  const std::vector<ClassOptions>* classes = nullptr;
 };
 
 /// Replaces clusters by their parts. Each point of a cluster is in exactly one part.
