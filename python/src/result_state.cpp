@@ -134,8 +134,8 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
   state["kept"] = array(kept(*self));
   const GroundSplit& g = r.ground;
   state["ground"] = py::make_tuple(g.found, array_of(g.normal), g.offset, array(g.ground), array(g.rest));
-  state["clusters"] = py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of),
-                                     array(r.cut));
+  state["clusters"] =
+      py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of), array(r.cut));
   py::list names, tracks;
   for (const Method* method : r.methods)
     names.append(std::string(method->name));

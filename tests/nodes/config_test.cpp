@@ -35,7 +35,8 @@ TEST(StreamConfig, WithoutKeysIsTheDefault) {
 
 TEST(StreamConfig, ErrorsWithoutAFileNameHaveNeitherNameNorLine) {
   EXPECT_THAT(error_of("\ncluster: {min_size: -1}", ""), testing::StartsWith("cluster.min_size: "));
-  EXPECT_THAT(error_of("filter: {range_min: 5, range_max: 1}", ""), testing::StartsWith("filter.range_max: "));
+  EXPECT_THAT(error_of("filter: {range_min: 5, range_max: 1}", ""),
+              testing::StartsWith("filter.range_max: "));
   EXPECT_THAT(error_of("cluster: [", ""), testing::HasSubstr("invalid YAML"));
 }
 

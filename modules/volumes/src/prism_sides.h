@@ -54,8 +54,8 @@ class PrismSides {
             widened * (1 + 0x1p-50) + 0x1p-50 * (std::abs(left) + std::abs(right)) + kSmallestNormal};
   }
 
-  /// The box of the outline. The half-planes of one or two corners do not bound the outline, but the box does.
-  /// Where a corner is sharp, the box also limits how far beyond it points are treated as inside.
+  /// The box of the outline. The half-planes of one or two corners do not bound the outline, but the box
+  /// does. Where a corner is sharp, the box also limits how far beyond it points are treated as inside.
   const Eigen::Vector2d& low() const { return low_; }
   const Eigen::Vector2d& high() const { return high_; }
 

@@ -144,8 +144,8 @@ void SettingOptions::reject_useless(const PipelineConfig& config) const {
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
   reject("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
-  for (const char* option :
-       {"--min-size", "--max-size", "--min-points", "--oversized", "--refine", "--class", "--min-extent", "--max-extent"})
+  for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--refine", "--class",
+                             "--min-extent", "--max-extent"})
     reject(option, clusters, "--cluster");
   reject("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
