@@ -26,7 +26,7 @@ struct RegionConfig {
   std::filesystem::path file;  ///< File of volumes (read_volumes()), read if `volumes` is empty.
   /// false: points inside are dropped. true: points outside all regions with `keep` are dropped.
   bool keep = false;
-  double padding = 0;          ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
+  double padding = 0;  ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
 
@@ -90,8 +90,9 @@ struct ClassConfig {
 /// How clusters that hold several objects are cut after the clustering.
 enum class Refine : std::uint8_t {
   off,  ///< Clusters are not cut.
-  /// Groups of people are cut into single people, at the necks between them. A person is a peak of the density
-  /// of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size points.
+  /// Groups of people are cut into single people, at the necks between them. A person is a peak of the
+  /// density of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size
+  /// points.
   neck
 };
 
@@ -114,7 +115,7 @@ struct ClusterConfig {
   /// Objects whose upright box is smaller (larger) than this along any axis are dropped, and their points are
   /// counted as small (large). The box is that of obb-yaw. An object that is too small along one axis and too
   /// large along another one counts as small. If not given: no limit. `max_extent` may be infinite along
-  /// single axes. Both apply to all classes, after `oversized`, and need a tolerance above 0.
+  /// single axes. Both apply to all classes, after `oversized` and `refine`, and need a tolerance above 0.
   std::optional<UprightSize> min_extent{}, max_extent{};
   /// Integer field of the clouds that holds the points' classes. If set, all points of an object have the
   /// same class.

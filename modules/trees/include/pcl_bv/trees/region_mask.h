@@ -29,8 +29,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///   smallest and the largest radius is chosen so that the volume is nearly minimal (Kurzhanski, Valyi 1997).
 ///   Equal radii become r + padding; unequal radii have to grow by more.
 /// - Prism: the heights move by the padding. The outline grows by a regular polygon of 16 sides around a
-/// circle
-///   with this radius, so no point of the inflated prism is farther above, below or beside the prism
+///   circle with this radius. So no point of the inflated prism is farther above, below or beside the prism
 ///   than 1.02 times the padding.
 struct Region {
   /// The volume before inflation.

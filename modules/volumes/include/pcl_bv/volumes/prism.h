@@ -35,9 +35,9 @@ class Prism {
 
   /// Makes a prism. The columns of `axes` are the two axes of the plane and the direction up. An outline
   /// without corners, or low > high, gives the empty prism. Otherwise throws std::invalid_argument unless all
-  /// numbers are finite, the corners at most 1e101 in magnitude, the axes are right-handed and orthonormal to 1e-12, and the outline is a strictly
-  /// convex polygon with counter-clockwise corners, which is tested exactly. Stores -0 as 0. O(n log n) for n
-  /// corners.
+  /// numbers are finite, the corners at most 1e101 in magnitude, the axes are right-handed and orthonormal to
+  /// 1e-12, and the outline is a strictly convex polygon with counter-clockwise corners, which is tested
+  /// exactly. Stores -0 as 0. O(n log n) for n corners.
   Prism(const Eigen::Matrix3d& axes, std::vector<Eigen::Vector2d> outline, double low, double high);
 
   const Eigen::Matrix3d& axes() const { return axes_; }                     ///< The axes as columns.
@@ -59,11 +59,11 @@ class Prism {
   /// of rounding errors. False for an empty prism and for a point with a coordinate that is not finite or
   /// beyond 1e120. O(corners).
   ///
-  /// Computed in double. The error bound of u, v and h is e = 4 * 2^-53 of the sum of the magnitudes of their
-  /// three products, plus 2^-1022. The cross product of an edge (x, y) is treated as not negative if it is at
-  /// least -(|x| e_v + |y| e_u) less 8 * 2^-53 of the magnitudes of its two products. Points outside the outline's box by more than e_u
-  /// or e_v are outside. Beyond a corner with the interior angle a, points can be treated as inside up to the
-  /// distance of the error bound divided by sin(a / 2).
+  /// Computed in double with error bounds. The bound of u, v and h is e = 4 * 2^-53 of the magnitudes of
+  /// their three products, plus 2^-1022. The bound of the cross product of an edge (x, y) is
+  /// |x| e_v + |y| e_u, plus 8 * 2^-53 of the magnitudes of its two products. Beyond a corner, a point can be
+  /// treated as inside up to the bound divided by the sine of half the interior angle, but only if it is in
+  /// the box of the outline, within e.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(corners).
