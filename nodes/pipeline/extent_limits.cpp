@@ -126,7 +126,7 @@ ExtentVerdict verdict_of(const PointView& points, const Eigen::Vector3d& up, std
 
 void ExtentLimits::apply(const ClusterConfig& config, const Eigen::Vector3d& up,
                          const std::vector<PointView>& views, const Execution& execution, Clusters& clusters,
-                         std::vector<std::int64_t>& class_of, std::vector<std::uint8_t>& cut) {
+                         std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements) {
   const Limits limits{config.min_extent.value_or(Limits().min), config.max_extent.value_or(Limits().max)};
   const std::optional<int> vertical = vertical_axis(up);
   verdicts_.assign(views.size(), ExtentVerdict::keep);
@@ -134,11 +134,11 @@ void ExtentLimits::apply(const ClusterConfig& config, const Eigen::Vector3d& up,
     verdicts_[i] = verdict_of(views[i], up, vertical, limits, own);
   };
   for_each_view(views, std::cref(judge), execution);
-  drop(clusters, class_of, cut);
+  drop(clusters, class_of, refinements);
 }
 
 void ExtentLimits::drop(Clusters& clusters, std::vector<std::int64_t>& class_of,
-                        std::vector<std::uint8_t>& cut) const {
+                        std::vector<Refinement>& refinements) const {
   std::size_t kept = 0, begin = 0;
   for (std::size_t i = 0; i < verdicts_.size(); ++i) {
     const std::size_t end = clusters.offsets[i + 1], size = end - begin;
@@ -150,7 +150,7 @@ void ExtentLimits::drop(Clusters& clusters, std::vector<std::int64_t>& class_of,
       std::copy(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
                 first + static_cast<std::ptrdiff_t>(to));
       if (!class_of.empty()) class_of[kept] = class_of[i];
-      if (!cut.empty()) cut[kept] = cut[i];
+      if (!refinements.empty()) refinements[kept] = refinements[i];
       clusters.offsets[++kept] = to + size;
     }
     begin = end;
@@ -158,7 +158,7 @@ void ExtentLimits::drop(Clusters& clusters, std::vector<std::int64_t>& class_of,
   clusters.offsets.resize(kept + 1);
   clusters.indices.resize(clusters.offsets.back());
   if (!class_of.empty()) class_of.resize(kept);
-  if (!cut.empty()) cut.resize(kept);
+  if (!refinements.empty()) refinements.resize(kept);
 }
 
 }  // namespace pcl_bv::detail

@@ -81,7 +81,7 @@ struct FramePipeline::State {
   void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
-  void refine_clusters(const Prepared& now, const PointView& cloud, FrameResult& result);
+  void refine_clusters(const Prepared& now, const Frame& frame, FrameResult& result);
   void make_views(const PointView& cloud, const FrameResult& result);
   void limit_extents(const Prepared& now, const PointView& cloud, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
@@ -178,7 +178,8 @@ void FramePipeline::State::limit_extents(const Prepared& now, const PointView& c
   const ClusterConfig& config = now.config.cluster;
   if (!config.min_extent && !config.max_extent) return;
   make_views(cloud, result);
-  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of, result.cut);
+  extents.apply(config, now.options.up, views, now.execution, result.clusters, result.class_of,
+                result.refinements);
 }
 
 void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
@@ -196,7 +197,7 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
                             now.classes.class_options(), result.clusters, result.class_of, now.execution);
   }
-  refine_clusters(now, frame.points, result);
+  refine_clusters(now, frame, result);
   limit_extents(now, frame.points, result);
   // Frees the memory of the clustering before the fits. Otherwise the clustering and the volumes would be in
   // memory at the same time: 550 MB and 300 MB for a million clusters of four points.
@@ -211,13 +212,19 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
   result.counts.dropped_class = result.clusters.class_points;
 }
 
-void FramePipeline::State::refine_clusters(const Prepared& now, const PointView& cloud, FrameResult& result) {
+void FramePipeline::State::refine_clusters(const Prepared& now, const Frame& frame, FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
-  result.cut.clear();
-  if (config.refine == Refine::off || config.tolerance == 0) return;
-  const RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size(),
-                              &now.classes.class_options()};
-  result.counts.cut = refiner.cut_at_necks(cloud, options, result.clusters, result.class_of, result.cut);
+  const Refine refine = now.config.effective_refine();
+  result.refinements.clear();
+  if (refine == Refine::off || config.tolerance == 0) return;
+  RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size(),
+                        &now.classes.class_options()};
+  if (refine == Refine::tracks && now.config.track.enabled) {
+    make_views(frame.points, result);
+    options.known = &tracks.predict(views, frame);
+    options.pose = tracks.sensor();
+  }
+  refiner.refine(frame.points, options, result.clusters, result.class_of, result.refinements, result.counts);
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {

@@ -101,7 +101,7 @@ void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) 
   entry.id = id;
   entry.points = result.clusters.list_size(id);
   if (!result.class_of.empty()) entry.class_value = result.class_of[id];
-  entry.cut = !result.cut.empty() && result.cut[id] != 0;
+  if (!result.refinements.empty()) entry.refinement = result.refinements[id];
   if (!result.tracks.empty()) entry.track = result.tracks[id];
   entry.volumes.resize(result.methods.size());
   std::size_t n = 0;

@@ -75,6 +75,31 @@ std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   return now_ns_;
 }
 
+const std::vector<KnownObject>& TrackedVolumes::predict(const std::vector<PointView>& clusters,
+                                                        const Frame& frame) {
+  boxes_.clear();
+  for (const PointView& cluster : clusters)
+    boxes_.push_back(*fit_aabb(cluster));
+  tracker_.predict(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, frame.pose);
+  tracker_.list_known(known_);
+  predicted_ = true;
+  return known_;
+}
+
+// A box in the fixed frame is made from the points: a box around the box in the sensor's frame would be larger.
+void TrackedVolumes::know_objects(const std::vector<PointView>& clusters, const FrameResult& result) {
+  const Pose& pose = tracker_.sensor();
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (assignments_[i].merged) continue;
+    Eigen::AlignedBox3d box;
+    for (std::size_t j = 0; j < clusters[i].count; ++j) {
+      const Coordinates c = load_point(clusters[i], j);
+      box.extend(pose * Eigen::Vector3d(c.x, c.y, c.z));
+    }
+    tracker_.know(assignments_[i].slot, box, result.refinements[i]);
+  }
+}
+
 void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointView>& clusters,
                             const Frame& frame, FrameResult& result) {
   if (methods_ != result.methods) {
@@ -84,8 +109,10 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(box_of(result, i, clusters[i]));
-  tracker_.update(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, config, assignments_,
-                  frame.pose);
+  if (!predicted_) tracker_.predict(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, frame.pose);
+  tracker_.assign(boxes_, config, assignments_);
+  if (predicted_) know_objects(clusters, result);
+  predicted_ = false;
   result.track_time = clock_.source();
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].track);

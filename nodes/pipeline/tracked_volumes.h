@@ -38,18 +38,28 @@ class TrackedVolumes {
   void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
               FrameResult& result);
 
+  /// Predicts the tracks to the time of the frame, from the clusters before they are refined. Returns what the
+  /// tracker expects to see, sorted by the x of the centres, in the fixed frame. Call update() afterwards.
+  const std::vector<KnownObject>& predict(const std::vector<PointView>& clusters, const Frame& frame);
+  /// Pose of the sensor in the fixed frame, after predict().
+  const Pose& sensor() const { return tracker_.sensor(); }
+
   /// Deletes all tracks. The ids of deleted tracks are not reused.
   void reset() {
     tracker_.reset();
+    predicted_ = false;
     clock_ = TrackClock();
   }
 
  private:
+  void know_objects(const std::vector<PointView>& clusters, const FrameResult& result);
   void filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
                     const PointView& points, FrameResult& result);
 
   Tracker tracker_;
   TrackClock clock_;
+  bool predicted_ = false;  // for the frame of the next update()
+  std::vector<KnownObject> known_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
   std::vector<const Method*> methods_;  // methods of the last frame, for `filters_`

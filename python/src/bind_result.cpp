@@ -87,11 +87,16 @@ py::list clusters_of(const Shared& self) {
   return list;
 }
 
+Refinement refinement_of(const ClusterObject& cluster) {
+  const std::vector<Refinement>& all = cluster.owner_result->result.refinements;
+  return all.empty() ? Refinement::none : all[cluster.id];
+}
+
 py::dict counts_of(const Shared& self) {
   const Counts& c = self->result.counts;
   return py::dict("nonfinite"_a = c.nonfinite, "range"_a = c.range, "ground"_a = c.ground,
                   "small"_a = c.small, "large"_a = c.large, "noise"_a = c.noise, "inside"_a = c.inside,
-                  "class"_a = c.dropped_class, "cut"_a = c.cut);
+                  "class"_a = c.dropped_class, "cut"_a = c.cut, "joined"_a = c.joined);
 }
 
 py::dict times_of(const Shared& self) {
@@ -252,12 +257,11 @@ void bind_cluster(py::module_& module) {
           },
           "The class of its points, or None without classes.")
       .def_property_readonly(
-          "cut",
-          [](const ClusterObject& c) {
-            const auto& cut = c.owner_result->result.cut;
-            return !cut.empty() && cut[c.id] != 0;
-          },
+          "cut", [](const ClusterObject& c) { return refinement_of(c) == Refinement::cut; },
           "Whether it is a part of a cluster that was cut (setting cluster.refine).")
+      .def_property_readonly(
+          "joined", [](const ClusterObject& c) { return refinement_of(c) == Refinement::joined; },
+          "Whether it was joined from several clusters (setting cluster.refine).")
       .def("__getitem__", volume_by_name)
       .def("__repr__", repr_of_cluster);
 }

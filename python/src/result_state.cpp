@@ -25,11 +25,27 @@ std::vector<T> vector(const py::object& values) {
 
 py::tuple counts(const Counts& c) {
   return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.dropped_class,
-                        c.cut);
+                        c.cut, c.joined);
 }
 Counts counts(const py::tuple& t) {
   const auto n = [&](std::size_t i) { return t[i].cast<std::size_t>(); };
-  return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8)};
+  return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8), n(9)};
+}
+
+py::array_t<std::uint8_t> refinements(const std::vector<Refinement>& all) {
+  std::vector<std::uint8_t> numbers;
+  for (const Refinement each : all)
+    numbers.push_back(static_cast<std::uint8_t>(each));
+  return array(numbers);
+}
+std::vector<Refinement> refinements(const py::object& state) {
+  std::vector<Refinement> all;
+  for (const std::uint8_t number : vector<std::uint8_t>(state)) {
+    if (number > static_cast<std::uint8_t>(Refinement::joined))
+      throw py::value_error("a refinement is 0, 1 or 2");
+    all.push_back(static_cast<Refinement>(number));
+  }
+  return all;
 }
 
 py::tuple times(const StageTimes& ms) {
@@ -90,7 +106,7 @@ void require_consistent(const FrameResult& result, std::size_t points) {
       in_cloud(c.indices) && in_cloud(result.passed_filter) && in_cloud(result.ground.ground) &&
       in_cloud(result.ground.rest) && (result.tracks.empty() || result.tracks.size() == c.size()) &&
       (result.class_of.empty() || result.class_of.size() == c.size()) &&
-      (result.cut.empty() || result.cut.size() == c.size()) &&
+      (result.refinements.empty() || result.refinements.size() == c.size()) &&
       result.volumes.size() == c.size() * result.methods.size();
   if (!consistent) throw py::value_error("the state is inconsistent");
 }
@@ -134,8 +150,8 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
   state["kept"] = array(kept(*self));
   const GroundSplit& g = r.ground;
   state["ground"] = py::make_tuple(g.found, array_of(g.normal), g.offset, array(g.ground), array(g.rest));
-  state["clusters"] =
-      py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of), array(r.cut));
+  state["clusters"] = py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of),
+                                     refinements(r.refinements));
   py::list names, tracks;
   for (const Method* method : r.methods)
     names.append(std::string(method->name));
@@ -162,7 +178,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("the settings are not a dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
-  r.counts = counts(tuple_of_state(state["counts"], 9));
+  r.counts = counts(tuple_of_state(state["counts"], 10));
   r.passed_filter = vector<std::int32_t>(state["kept"]);
   r.ground.found = ground[0].cast<bool>();
   r.ground.normal = vector3(ground[1], "normal");
@@ -172,7 +188,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   r.clusters.indices = vector<std::int32_t>(clusters[0]);
   r.clusters.offsets = vector<std::size_t>(clusters[1]);
   r.class_of = vector<std::int64_t>(clusters[2]);
-  r.cut = vector<std::uint8_t>(clusters[3]);
+  r.refinements = refinements(clusters[3]);
   for (const py::handle each : py::list(state["tracks"]))
     r.tracks.push_back(track(each));
   for (const py::handle name : py::list(state["methods"]))

@@ -114,11 +114,17 @@ void add_volumes(const ClusterEntry& cluster, JsonText& json) {
   json.end(']').end('}');
 }
 
+void add_refinement(JsonText& json, Refinement refinement) {
+  if (refinement == Refinement::cut) json.add("cut", true);
+  if (refinement == Refinement::joined) json.add("joined", true);
+}
+
 void add_counts(const Counts& counts, JsonText& json) {
   json.key("counts").begin('{').add("nonfinite", counts.nonfinite).add("range", counts.range);
   json.add("ground", counts.ground).add("small", counts.small).add("large", counts.large);
   json.add("noise", counts.noise).add("inside", counts.inside).add("class", counts.dropped_class);
   if (counts.cut > 0) json.add("cut", counts.cut);
+  if (counts.joined > 0) json.add("joined", counts.joined);
   json.end('}');
 }
 
@@ -147,7 +153,7 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
     const ClusterEntry& cluster = clusters.at(i);
     json.begin('{').add("id", cluster.id);
     if (cluster.class_value) json.add("class", *cluster.class_value);
-    if (cluster.cut) json.add("cut", true);
+    add_refinement(json, cluster.refinement);
     add_volumes(cluster, json);
     take_if_long(text, take);
   }
@@ -193,7 +199,7 @@ std::string frame_json(const FrameReport& report, const ClusterSource& clusters)
       json.value(nullptr);
     }
     if (cluster.class_value) json.add("class", *cluster.class_value);
-    if (cluster.cut) json.add("cut", true);
+    add_refinement(json, cluster.refinement);
     if (cluster.track) add_track(*cluster.track, json);
     add_volumes(cluster, json);
   }

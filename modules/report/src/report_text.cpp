@@ -190,6 +190,7 @@ std::string summary_line(const Report& report, std::size_t clusters) {
   add(report.counts.noise, " in no cluster");
   add(report.counts.dropped_class, " of dropped classes");
   add(report.counts.cut, report.counts.cut == 1 ? " cluster cut" : " clusters cut");
+  add(report.counts.joined, report.counts.joined == 1 ? " object joined" : " objects joined");
   if (clusters == 0) text += ", no clusters";
   if (report.seconds) {
     text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);

@@ -40,7 +40,8 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
                        std::any_of(cluster.classes.begin(), cluster.classes.end(),
                                    [](const ClassConfig& own) { return own.max_size.has_value(); });
   check("cluster.oversized", cluster.oversized != Oversized::drop, limited, name("cluster.max_size"));
-  check("cluster.refine", cluster.refine != Refine::off, cluster.tolerance > 0, name("cluster.tolerance"));
+  check("cluster.refine", cluster.refine == Refine::neck || cluster.refine == Refine::tracks,
+        cluster.tolerance > 0, name("cluster.tolerance"));
   const bool grounded = ground.method != GroundMethod::none;
   const std::string method = name("ground.method");
   check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones, method + " zones");

@@ -35,6 +35,11 @@ Execution PipelineConfig::execution() const {
   return {Threads{static_cast<unsigned>(threads)}, instructions};
 }
 
+Refine PipelineConfig::effective_refine() const {
+  if (cluster.refine != Refine::automatic) return cluster.refine;
+  return track.enabled ? Refine::tracks : Refine::off;
+}
+
 QueuePolicy resolved_policy(QueuePolicy policy, bool paced) {
   if (policy != QueuePolicy::automatic) return policy;
   return paced ? QueuePolicy::drop_oldest : QueuePolicy::block;

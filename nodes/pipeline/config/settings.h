@@ -104,8 +104,9 @@ void visit_cluster(Cluster& c, Visit&& visit) {
   visit(S{"cluster.oversized", "drop, keep, split",
           "Handling of objects above the maximum size",
           {}, {}, "--oversized", "RULE"}, c.oversized);
-  visit(S{"cluster.refine", "off, neck", "Cut groups of people into single people",
-          {}, {}, "--refine", "HOW"}, c.refine);
+  visit(S{"cluster.refine", "auto, off, neck, tracks",
+          "Cut people out of clusters; tracks: join the parts of tracked vehicles, too",
+          {}, "tracks with tracking, otherwise off", "--refine", "HOW"}, c.refine);
   visit(S{"cluster.min_extent", "m, [along, across, up]",
           "Drop objects whose upright box is shorter, narrower or lower",
           {}, "no limit", "--min-extent", "L,W,H"}, c.min_extent);

@@ -1,54 +1,69 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cuts clusters that hold several objects.
+// Cuts clusters that hold several objects, and joins clusters that are parts of one object.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "neck_cut.h"
+#include "part_join.h"
+#include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/clusters.h"
+#include "track_cut.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// What is cut, and how.
+/// The frame whose clusters are refined.
 struct RefineOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();     ///< Of length 1.
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Position of the sensor in the frame of the points.
   std::size_t min_size = 1;                          ///< Smallest number of points of a part.
   /// Classes whose min_size replaces that of these options. May be null.
   const std::vector<ClassOptions>* classes = nullptr;
+  Pose pose = Pose::Identity();                      ///< Of the points, in the fixed frame of `known`.
+  /// Objects that the tracker expects in this frame; null: clusters are cut at necks only.
+  const std::vector<KnownObject>* known = nullptr;
 };
 
-/// Replaces clusters by their parts. Each point of a cluster is in exactly one part.
+/// Replaces clusters by objects. Each point of a cluster is in exactly one object.
 class ClusterRefiner {
  public:
-  /// Cuts groups of people (NeckCut). The clusters keep the order that Clusters describes. `class_of` has the
-  /// class of each cluster, or is empty. Sets `cut[i]` to 1 if cluster i is a part, otherwise to 0. Returns
-  /// the number of clusters that were cut.
-  std::size_t cut_at_necks(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
-                           std::vector<std::int64_t>& class_of, std::vector<std::uint8_t>& cut);
+  /// Cuts tracked people off other objects (TrackCut), then groups of people and people next to other objects
+  /// (NeckCut), then joins the parts of tracked vehicles (PartJoin). The clusters keep the order that Clusters
+  /// describes. `class_of` has the class of each cluster, or is empty. Fills `refinements`, an entry for each
+  /// cluster, and sets `counts.cut` and `counts.joined`.
+  void refine(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
+              std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements, Counts& counts);
 
  private:
-  struct Piece {
-    std::size_t begin, size;  // in indices_
-    std::size_t cluster;      // number of the cluster before the cut
-    bool cut;
-  };
+  void place(const PointView& cluster, const Pose& pose);
+  void cut(const PointView& cloud, const RefineOptions& options, const Clusters& clusters,
+           std::size_t cluster);
+  void cut_at_neck(const PointView& cloud, const RefineOptions& options, const std::int32_t* list,
+                   std::size_t size, std::size_t cluster, bool is_part);
+  void add_piece(const PointView& cloud, const RefineOptions& options, std::size_t begin, std::size_t cluster,
+                 bool is_part);
+  void join();
+  void replace(Clusters& clusters, std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements);
 
-  void add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts);
-  void replace(Clusters& clusters, std::vector<std::int64_t>& class_of, std::vector<std::uint8_t>& cut);
-
+  TrackCut track_cut_;
   NeckCut neck_cut_;
-  std::vector<std::uint32_t> part_of_;
-  std::vector<std::int32_t> indices_;
+  PartJoin part_join_;
+  std::vector<Eigen::Vector3d> points_;  // of a cluster, in the fixed frame
+  Eigen::AlignedBox3d box_;              // of points_
+  std::vector<std::uint32_t> part_of_, neck_part_of_;
+  std::vector<std::int32_t> indices_, part_;
   std::vector<Piece> pieces_;
+  std::vector<std::size_t> whole_of_;
+  std::vector<std::pair<std::size_t, std::size_t>> members_;  // a joined piece and one of its parts
   std::vector<std::int64_t> classes_;
 };
 

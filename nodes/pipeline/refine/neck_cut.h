@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Separates people who stand so close together that they are one cluster.
+// Separates people who stand so close to each other, or to other objects, that they are one cluster.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,37 +15,56 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Cuts a group of upright objects into the single objects, at the necks between them. Seen from above, an
-/// upright object is a peak of the density of points, and the density is low at the necks.
+/// Cuts people out of a cluster, at the necks between them and the rest. Seen from above, a person is a peak of
+/// the density of points, and the density is low at the necks.
+///
+/// There are two kinds of cuts:
+/// - A group: at least two parts have the size of a person, and these have 70 % of the points. Each other
+///   point belongs to the nearest person.
+/// - A person next to something else, such as a car or a wall: the part has the shape of a person, begins where
+///   the cluster begins, and is as dense as the cluster. The other points stay one object.
 class NeckCut {
  public:
   /// Replaces `part_of` by the number of the part of each point. Returns the number of parts. With fewer than
   /// two parts, the cluster is not cut and `part_of` is undefined.
   ///
-  /// A cluster is cut if at least two of its parts are upright objects, and these have most of its points.
-  /// An upright object has the size of a person and at least `min_size` points, or 10 if that is more. Each
-  /// remaining point belongs to the nearest upright object. The points are sparser far from `sensor`, so the
-  /// density is measured in larger cells there. `up` has length 1. All points must be valid. O(n log n).
+  /// A person has at least `min_size` points, or 10 if that is more. The points are sparser far from `sensor`,
+  /// so the density is measured in larger cells there. `up` has length 1. All points must be valid. O(n log n).
   std::size_t find(const PointView& cluster, const Eigen::Vector3d& up, const Eigen::Vector3d& sensor,
                    std::size_t min_size, std::vector<std::uint32_t>& part_of);
 
  private:
+  // Coordinates are along two directions of the plane, then up.
   struct Basin {
-    Eigen::Vector3d low, high;  // two directions of the plane, then height
+    Eigen::AlignedBox3d box;
     std::size_t points = 0;
     std::uint32_t part = 0;
-    bool upright = false;
+    bool person = false;
+  };
+  struct FloorPoint {
+    std::int32_t x, y;  // square of the plane
+    double height;
+    std::uint32_t point;
   };
 
   bool project(const PointView& cluster, const Eigen::Vector3d& up);
-  void measure_basins(std::size_t count);
-  std::size_t number_parts(std::size_t min_size);
+  double floor_at(std::int32_t x, std::int32_t y) const;
+  void find_low_points();
+  void find_basins(double cell);
+  bool give_low_points();
+  std::uint32_t number_group(std::size_t min_size);
+  std::uint32_t number_people(std::size_t min_size);
+  bool stands_out(const Basin& basin) const;
 
   PlanBasins plan_basins_;
-  std::vector<Eigen::Vector2d> plan_;
-  std::vector<double> heights_;
-  std::vector<std::uint32_t> basin_of_;
+  std::vector<Eigen::Vector3d> points_;
+  Eigen::AlignedBox3d box_;  // of points_
+  std::vector<FloorPoint> floor_;
+  std::vector<std::uint32_t> tall_, low_;  // points above the floor, and the others
+  std::vector<Eigen::Vector2d> plan_;      // of the points in tall_
+  std::vector<std::uint32_t> tall_basin_, basin_of_;
   std::vector<Basin> basins_;
+  std::vector<Eigen::AlignedBox3d> tall_boxes_;  // of the basins, without low points
 };
 
 }  // namespace detail

@@ -45,6 +45,12 @@ struct AxisFilter {
         std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / position_variance + 1e-12);
   }
 
+  /// Pulls the velocity towards zero, like a measurement of zero with this standard deviation (m/s). The
+  /// variance stays, because nothing was measured.
+  void slow_down(double deviation) {
+    velocity *= deviation * deviation / (deviation * deviation + velocity_variance);
+  }
+
   /// Sets position and velocity from the first two measurements, without a prior. Must be called for the
   /// second measurement. Both measurements have this variance and are `seconds` apart.
   void start(double innovation, double variance, double seconds) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "motion_classifier.h"
+#include "known_object.h"
 #include "motion_filter.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/report/report.h"
@@ -44,6 +45,7 @@ struct Track {
   // Slot of the track whose expected box contained the centre of this track's first box.
   std::optional<std::size_t> split_from;
   std::size_t detections_since_split = 0;  // detections since the split or the last occlusion
+  KnownObject known;                       // kept by Tracker::know()
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
@@ -61,6 +63,7 @@ struct Track {
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent_velocity) const;
 
  private:
+  void slow_down();
   void classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
 };
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "known_object.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/report.h"
@@ -64,7 +65,20 @@ class Tracker {
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
 
-  /// Returns the pose of the sensor at the last update: the given pose or, without one, the estimated pose.
+  /// The two halves of update(), for callers that refine the boxes in between. predict() moves the tracks and
+  /// the sensor to the time of the frame; `boxes` need not be those of assign().
+  void predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
+               const std::optional<Pose>& pose = std::nullopt);
+  void assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
+              std::vector<Assignment>& assignments);
+
+  /// Replaces `known` by the objects that predict() expects, sorted by the x of their centres.
+  void list_known(std::vector<KnownObject>& known) const;
+  /// Tells where the object of a track is in this frame: its box in the fixed frame, and what changed its
+  /// cluster. Call it after assign(), for clusters that hold one object only.
+  void know(std::size_t slot, const Eigen::AlignedBox3d& box, Refinement refinement);
+
+  /// Returns the pose of the sensor at the last predict(): the given pose or, without one, the estimated pose.
   const Pose& sensor() const;
 
   /// Deletes all tracks. The ids of deleted tracks are not reused.

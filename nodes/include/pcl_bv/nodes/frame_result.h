@@ -90,8 +90,7 @@ struct FrameResult {
   /// index list. Therefore read the points of clusters by points_of().
   Clusters clusters;
   std::vector<std::int64_t> class_of;  ///< Class of each cluster; empty without cluster.class_field.
-  /// For each cluster: whether it is a part of a cluster that was cut (0 or 1). Empty without cluster.refine.
-  std::vector<std::uint8_t> cut;
+  std::vector<Refinement> refinements;  ///< For each cluster; empty without cluster.refine.
   /// The filtered points, used instead of `passed_filter` for large clouds without index lists.
   std::shared_ptr<const PointSource> filtered;
 

@@ -87,13 +87,16 @@ struct ClassConfig {
   std::vector<std::string> volumes{};  ///< Methods. If empty: PipelineConfig::volumes.
 };
 
-/// How clusters that hold several objects are cut after the clustering.
+/// How the objects of clusters are separated, and parts of objects are joined, after the clustering.
 enum class Refine : std::uint8_t {
-  off,  ///< Clusters are not cut.
-  /// Groups of people are cut into single people, at the necks between them. A person is a peak of the
-  /// density of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size
-  /// points.
-  neck
+  automatic,  ///< `tracks` if tracking is on, otherwise `off`.
+  off,        ///< Each cluster is one object.
+  /// People are cut out of clusters, at the necks between them and the rest. A person is a peak of the density
+  /// of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size points.
+  neck,
+  /// As `neck`. Besides, tracked people are cut out of clusters, also if they would not be recognised in one
+  /// frame, and clusters inside the box of a tracked vehicle are joined. Without tracking: as `neck`.
+  tracks
 };
 
 /// Settings of the clustering.
@@ -111,7 +114,7 @@ struct ClusterConfig {
   /// Growth of the tolerance with the distance from the origin, metres per metre (ClusterOptions).
   double tolerance_per_metre = 0;
   Oversized oversized = Oversized::drop;  ///< How objects above max_size are treated.
-  Refine refine = Refine::off;            ///< Only with a tolerance above 0.
+  Refine refine = Refine::automatic;      ///< Only with a tolerance above 0.
   /// Objects whose upright box is smaller (larger) than this along any axis are dropped, and their points are
   /// counted as small (large). The box is that of obb-yaw. An object that is too small along one axis and too
   /// large along another one counts as small. If not given: no limit. `max_extent` may be infinite along
@@ -131,7 +134,7 @@ struct TrackConfig {
   bool enabled = false;
   double gate = 2.0;      ///< Largest distance of an object from its expected position, metres; 100 or less.
   std::size_t birth = 3;  ///< Detections after which an object gets its id.
-  std::size_t death = 5;  ///< Frames without a detection after which a track is deleted.
+  std::size_t death = 8;  ///< Frames without a detection after which a track is deleted.
   bool smooth = false;    ///< Smooth the yaw of upright boxes over time. The boxes still contain all points.
   bool grow = false;      ///< Give upright boxes the largest length and width seen of the object.
 };
@@ -177,6 +180,7 @@ struct PipelineConfig {
 
   /// Returns the execution for `threads` and `isa`. Throws std::invalid_argument if `isa` is not usable.
   Execution execution() const;
+  Refine effective_refine() const;  ///< Not `automatic`.
 };
 
 /// Returns a configuration that suits any cloud: no filter, no ground removal, all points in one object,

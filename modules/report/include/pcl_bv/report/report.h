@@ -63,7 +63,7 @@ struct ClusterEntry {
   std::size_t points = 0;  ///< Number of valid points.
   std::vector<VolumeEntry> volumes;
   std::optional<std::int64_t> class_value{};  ///< Class of the points, if points are segmented by class.
-  bool cut = false;                           ///< Part of a cluster that was cut.
+  Refinement refinement = Refinement::none;
   std::optional<TrackEntry> track{};          ///< Track, if tracking is on and the track is confirmed.
 };
 

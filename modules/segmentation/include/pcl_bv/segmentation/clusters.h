@@ -15,7 +15,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Numbers of points that are in no cluster, by reason, and how many clusters were cut.
+/// Numbers of points that are in no cluster, by reason, and how many clusters were cut and joined.
 struct Counts {
   std::size_t nonfinite = 0;      ///< Points that are not valid (is_valid()).
   std::size_t range = 0;          ///< Valid points outside the range limits or on the own vehicle.
@@ -25,7 +25,15 @@ struct Counts {
   std::size_t noise = 0;          ///< Noise points; see ClusterOptions::min_points.
   std::size_t inside = 0;         ///< Points inside a region to drop, or outside all regions to keep.
   std::size_t dropped_class = 0;  ///< Points of a class that is dropped.
-  std::size_t cut = 0;            ///< Clusters that were cut into parts, which are clusters of their own.
+  std::size_t cut = 0;            ///< Clusters that were cut into several objects.
+  std::size_t joined = 0;         ///< Objects that were joined from several clusters.
+};
+
+/// What changed a cluster after the clustering.
+enum class Refinement : std::uint8_t {
+  none,   ///< Nothing.
+  cut,    ///< It is a part of a larger cluster.
+  joined  ///< It was joined from several clusters, or from parts of them.
 };
 
 /// Treatment of clusters with more than max_size points.

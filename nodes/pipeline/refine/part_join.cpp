@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "part_join.h"
+
+#include <algorithm>
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr double kMinLength = 1.5, kMaxLength = 7, kMaxHeight = 3.5;  // m, of a vehicle
+constexpr std::size_t kMinDetections = 3, kMaxMissed = 3;
+constexpr double kMargin = 0.3;  // m; a part is this far outside the known box at most
+
+// A person next to a vehicle is no part of it. The person has been seen apart in so many frames, is so large,
+// and is so near to the expected place.
+constexpr std::size_t kPersonDetections = 5;
+constexpr double kPersonWidth = 1.2, kPersonHeight = 0.9, kPersonShift = 0.4;  // m
+
+bool is_vehicle(const KnownObject& object) {
+  const Eigen::Vector3d size = object.box.sizes();
+  const double length = size.head<2>().maxCoeff();
+  return object.has_id && object.detections >= kMinDetections && object.missed <= kMaxMissed &&
+         length >= kMinLength && length <= kMaxLength && size.z() <= kMaxHeight;
+}
+
+double area_of(const KnownObject& object) {
+  return object.box.sizes().head<2>().prod();
+}
+
+bool is_person(const Piece& piece, const std::vector<KnownObject>& known) {
+  const Eigen::Vector3d size = piece.box.sizes();
+  if (size.head<2>().maxCoeff() > kPersonWidth || size.z() < kPersonHeight) return false;
+  const double x = piece.box.center().x();
+  const auto [first, last] = objects_between(known, x - kPersonShift, x + kPersonShift);
+  return std::any_of(first, last, [&](const KnownObject& object) {
+    return object.has_id && object.whole >= kPersonDetections && object.upright() &&
+           (object.box.center() - piece.box.center()).head<2>().norm() < kPersonShift;
+  });
+}
+
+}  // namespace
+
+bool PartJoin::is_part(const Piece& piece, const KnownObject& vehicle,
+                       const std::vector<KnownObject>& known) const {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin);
+  const Eigen::AlignedBox3d reach(vehicle.box.min() - margin, vehicle.box.max() + margin);
+  return reach.contains(piece.box) && vehicle.box.contains(piece.box.center()) && !is_person(piece, known);
+}
+
+// Sorts the pieces that may be parts.
+void PartJoin::sort_by_x(const std::vector<Piece>& pieces) {
+  taken_.assign(pieces.size(), 0);
+  by_x_.clear();
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i].refinement == Refinement::none) by_x_.emplace_back(pieces[i].box.center().x(), i);
+  std::sort(by_x_.begin(), by_x_.end());
+}
+
+void PartJoin::find_parts(const std::vector<Piece>& pieces, const KnownObject& vehicle,
+                          const std::vector<KnownObject>& known) {
+  parts_.clear();
+  auto at = std::lower_bound(by_x_.begin(), by_x_.end(),
+                             std::pair<double, std::size_t>(vehicle.box.min().x(), 0));
+  for (; at != by_x_.end() && at->first <= vehicle.box.max().x(); ++at)
+    if (taken_[at->second] == 0 && is_part(pieces[at->second], vehicle, known)) parts_.push_back(at->second);
+}
+
+std::size_t PartJoin::find(const std::vector<Piece>& pieces, const std::vector<KnownObject>& known,
+                           const std::vector<std::int64_t>& class_of, std::vector<std::size_t>& whole_of) {
+  whole_of.assign(pieces.size(), none);
+  vehicles_.clear();
+  for (const KnownObject& object : known)
+    if (is_vehicle(object)) vehicles_.push_back(&object);
+  // A track that began on a part of a vehicle is smaller than the track of the vehicle.
+  std::stable_sort(vehicles_.begin(), vehicles_.end(),
+                   [](const KnownObject* a, const KnownObject* b) { return area_of(*a) > area_of(*b); });
+  sort_by_x(pieces);
+  std::size_t joined = 0;
+  for (const KnownObject* const vehicle : vehicles_) {
+    find_parts(pieces, *vehicle, known);
+    if (parts_.empty()) continue;
+    const std::size_t first = *std::min_element(parts_.begin(), parts_.end());
+    std::size_t count = 1;
+    for (const std::size_t part : parts_) {
+      const bool same_class =
+          class_of.empty() || class_of[pieces[part].cluster] == class_of[pieces[first].cluster];
+      if (part == first || !same_class) continue;
+      whole_of[part] = first;
+      taken_[part] = 1;
+      ++count;
+    }
+    if (count == 1) continue;
+    taken_[first] = 1;
+    ++joined;
+  }
+  return joined;
+}
+
+}  // namespace pcl_bv::detail

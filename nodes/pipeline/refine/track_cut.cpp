@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track_cut.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr std::uint32_t kRest = static_cast<std::uint32_t>(-1);
+
+// A person who has been a part of a cluster for longer is not cut off any more: 6 s at 10 Hz.
+constexpr std::size_t kMaxCut = 60;
+constexpr std::size_t kMaxMissed = 10;  // frames
+constexpr double kMargin = 0.3;         // m; an expected person is this far outside the cluster at most
+constexpr double kNear = 2;             // m; radius around a person in which points are examined
+constexpr double kMinWidth = 1.3;       // m; a narrower cluster is one person with spread arms
+constexpr double kReach = 0.5;          // m; distance of a basin from the expected centre at most
+constexpr double kMaxBasin = 1.2, kMaxPerson = 1.3;  // m; largest widths
+constexpr std::size_t kMinPoints = 10;  // fewer points have no density
+constexpr double kMinHeight = 0.6;      // share of the known height
+
+double width_of(const Eigen::AlignedBox3d& box) {
+  return box.sizes().head<2>().maxCoeff();
+}
+
+bool is_over(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& position, double margin) {
+  return (position.head<2>().array() >= box.min().head<2>().array() - margin).all() &&
+         (position.head<2>().array() <= box.max().head<2>().array() + margin).all();
+}
+
+}  // namespace
+
+// Finds the people expected in the cluster. Returns whether the cluster may hold one of them and something
+// else.
+bool TrackCut::find_people(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known) {
+  people_.clear();
+  const double width = width_of(box);
+  if (width <= 0.9) return false;
+  std::size_t expected = 0;
+  const auto [first, last] = objects_between(known, box.min().x() - kMargin, box.max().x() + kMargin);
+  for (const KnownObject* at = first; at != last; ++at) {
+    const KnownObject& object = *at;
+    if (!is_over(box, object.box.center(), kMargin)) continue;
+    ++expected;
+    if (object.upright() && object.whole > 0 && object.cut <= kMaxCut && object.missed <= kMaxMissed)
+      people_.push_back({&object});
+  }
+  return !people_.empty() && (expected > 1 || width > kMinWidth);
+}
+
+void TrackCut::find_near(const std::vector<Eigen::Vector3d>& points) {
+  near_.clear();
+  plan_.clear();
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto near_person = [&](const Person& person) {
+      return (points[i] - person.expected->box.center()).head<2>().squaredNorm() < kNear * kNear;
+    };
+    if (std::none_of(people_.begin(), people_.end(), near_person)) continue;
+    near_.push_back(i);
+    plan_.emplace_back(points[i].head<2>());
+    low = low.cwiseMin(plan_.back());
+  }
+  for (Eigen::Vector2d& point : plan_)
+    point -= low;
+}
+
+void TrackCut::fill_basins(const std::vector<Eigen::Vector3d>& points, std::size_t count) {
+  basins_.assign(count, Basin());
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Basin& basin = basins_[basin_of_[i]];
+    const Eigen::Vector3d& point = points[near_[i]];
+    basin.sum += point.head<2>();
+    ++basin.points;
+    basin.box.extend(point);
+  }
+}
+
+// Gives each narrow basin to the nearest expected person within reach.
+void TrackCut::give_basins() {
+  for (Basin& basin : basins_) {
+    if (width_of(basin.box) > kMaxBasin) continue;
+    const Eigen::Vector2d mean = basin.sum / static_cast<double>(basin.points);
+    double least = kReach;
+    for (Person& person : people_) {
+      const double distance = (mean - person.expected->box.center().head<2>()).norm();
+      if (distance >= least) continue;
+      least = distance;
+      basin.person = &person;
+    }
+    if (basin.person == nullptr) continue;
+    basin.person->points += basin.points;
+    basin.person->box.extend(basin.box);
+  }
+}
+
+std::uint32_t TrackCut::number_people(std::size_t min_size) {
+  std::uint32_t parts = 0;
+  for (Person& person : people_) {
+    person.found = person.points >= min_size && width_of(person.box) <= kMaxPerson &&
+                   person.box.sizes().z() >= kMinHeight * person.expected->box.sizes().z();
+    if (person.found) person.part = parts++;
+  }
+  return parts;
+}
+
+// Gives a rest that is too small for an object to the nearest people.
+void TrackCut::give_rest(const std::vector<Eigen::Vector3d>& points,
+                         std::vector<std::uint32_t>& part_of) const {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (part_of[i] != kRest) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Person& person : people_) {
+      const double distance = (points[i] - person.expected->box.center()).head<2>().norm();
+      if (!person.found || distance >= least) continue;
+      least = distance;
+      part_of[i] = person.part;
+    }
+  }
+}
+
+std::size_t TrackCut::find(const std::vector<Eigen::Vector3d>& points, const Eigen::AlignedBox3d& box,
+                           const std::vector<KnownObject>& known, double cell, std::size_t min_size,
+                           std::vector<std::uint32_t>& part_of) {
+  min_size = std::max(min_size, kMinPoints);
+  if (!find_people(box, known)) return 1;
+  find_near(points);
+  if (near_.size() < min_size) return 1;
+  fill_basins(points, plan_basins_.find(plan_, cell, basin_of_));
+  give_basins();
+  const std::uint32_t parts = number_people(min_size);
+  if (parts == 0) return 1;
+  part_of.assign(points.size(), kRest);
+  std::size_t rest = points.size();
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const Person* const person = basins_[basin_of_[i]].person;
+    if (person == nullptr || !person->found) continue;
+    part_of[near_[i]] = person->part;
+    --rest;
+  }
+  if (rest < min_size) {
+    give_rest(points, part_of);
+    return parts;
+  }
+  std::replace(part_of.begin(), part_of.end(), kRest, parts);
+  return parts + 1;
+}
+
+}  // namespace pcl_bv::detail
