@@ -38,6 +38,7 @@ Pose pose_of(const std::array<double, 12>& rows) {
 
 PipelineConfig config_of(bool steady) {
   PipelineConfig config;
+  apply_preset("road", config);
   config.volumes = {"obb-lshape"};
   config.track.enabled = true;
   config.track.smooth = config.track.grow = steady;

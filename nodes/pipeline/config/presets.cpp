@@ -74,7 +74,9 @@ void apply_preset(std::string_view name, PipelineConfig& config) {
     ground.max_slope_degrees = 45;
     cluster.tolerance = 0.02;
     cluster.min_size = 100;
-  } else if (name != "road") {
+  } else if (name == "road") {
+    cluster.tolerance_per_metre = 0.01;  // the rows of a far car are more than 0.5 m apart
+  } else {
     throw std::invalid_argument("'" + std::string(name) + "' is not one of road, indoor, table");
   }
   config.filter = filter;

@@ -14,8 +14,9 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Sizes of a person in a group, metres. A person with a bag or a pushchair is wider than 1.1 m.
-constexpr double kMaxWidth = 1.1;
+// Sizes of a person in a group, metres. A person with a bag or a pushchair is wider than 1.1 m. A single column
+// of points is narrower than 0.25 m: the columns of a coarse sensor are further apart than a cell.
+constexpr double kMinWidth = 0.25, kMaxWidth = 1.1;
 constexpr double kMinHeight = 0.9;
 constexpr double kMaxHeight = 2.3;
 constexpr double kMinSlenderness = 1.3;  // height divided by width
@@ -113,6 +114,7 @@ void NeckCut::find_basins(double cell) {
     Basin& basin = basins_[tall_basin_[t]];
     basin_of_[tall_[t]] = tall_basin_[t];
     basin.box.extend(points_[tall_[t]]);
+    basin.lowest = basin.box.min().z();
     ++basin.points;
   }
 }
@@ -120,23 +122,19 @@ void NeckCut::find_basins(double cell) {
 // Gives each low point to the nearest basin within reach. Returns false, without doing this, if no basin is as
 // narrow as a person.
 bool NeckCut::give_low_points() {
-  tall_boxes_.clear();
-  for (const Basin& basin : basins_)
-    tall_boxes_.push_back(basin.box);
-  tall_boxes_.pop_back();
-  if (std::none_of(tall_boxes_.begin(), tall_boxes_.end(),
-                   [](const Eigen::AlignedBox3d& box) { return width_of(box) <= kMaxWidth; }))
+  if (std::none_of(basins_.begin(), basins_.end() - 1,
+                   [](const Basin& basin) { return width_of(basin.box) <= kMaxWidth; }))
     return false;
   for (const std::uint32_t i : low_) {
     double least = kNear;
-    for (std::uint32_t b = 0; b < tall_boxes_.size(); ++b) {
-      const double distance = distance_to(tall_boxes_[b], points_[i]);
+    for (std::uint32_t b = 0; b + 1 < basins_.size(); ++b) {
+      const double distance = distance_to(basins_[b].box, points_[i]);
       if (distance >= least) continue;
       least = distance;
       basin_of_[i] = b;
     }
     Basin& basin = basins_[basin_of_[i]];
-    basin.box.extend(points_[i]);
+    basin.lowest = std::min(basin.lowest, points_[i].z());
     ++basin.points;
   }
   return true;
@@ -147,8 +145,8 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
   std::uint32_t parts = 0;
   std::size_t rest = points_.size();
   for (Basin& basin : basins_) {
-    const double width = width_of(basin.box), height = basin.box.sizes().z();
-    basin.person = basin.points >= min_size && width <= kMaxWidth && height >= kMinHeight &&
+    const double width = width_of(basin.box), height = basin.box.max().z() - basin.lowest;
+    basin.person = basin.points >= min_size && width >= kMinWidth && width <= kMaxWidth && height >= kMinHeight &&
                    height <= kMaxHeight && height >= kMinSlenderness * width;
     if (!basin.person) continue;
     basin.part = parts++;
@@ -170,9 +168,9 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
 
 // Whether a basin with the size of a person is a person next to something else.
 bool NeckCut::stands_out(const Basin& basin) const {
-  const double width = width_of(basin.box), height = basin.box.sizes().z();
+  const double width = width_of(basin.box), height = basin.box.max().z() - basin.lowest;
   if (!basin.person || width > kMaxWidthAlone || height < kMinHeightAlone) return false;
-  if (basin.box.min().z() > kMaxRise) return false;
+  if (basin.lowest > kMaxRise) return false;
   const auto points = static_cast<double>(basin.points), rest = static_cast<double>(points_.size()) - points;
   return points * width_of(box_) * box_.sizes().z() >= kMinDensity * rest * std::max(0.2, width) * height;
 }

@@ -36,7 +36,8 @@ class NeckCut {
  private:
   // Coordinates are along two directions of the plane, then up.
   struct Basin {
-    Eigen::AlignedBox3d box;
+    Eigen::AlignedBox3d box;  // of the points above the floor
+    double lowest = 0;        // height of the lowest point
     std::size_t points = 0;
     std::uint32_t part = 0;
     bool person = false;
@@ -64,7 +65,6 @@ class NeckCut {
   std::vector<Eigen::Vector2d> plan_;      // of the points in tall_
   std::vector<std::uint32_t> tall_basin_, basin_of_;
   std::vector<Basin> basins_;
-  std::vector<Eigen::AlignedBox3d> tall_boxes_;  // of the basins, without low points
 };
 
 }  // namespace detail

@@ -57,6 +57,7 @@ void MotionClassifier::classify(const Measurement& now, const Eigen::Matrix3d& r
     return;
   }
   if (!(now.seconds > middle.seconds)) return;
+  decided_ = true;
   const Eigen::Vector2d first = shift(oldest, middle) / (middle.seconds - oldest.seconds),
                         second = shift(middle, now) / (now.seconds - middle.seconds);
   const bool same_direction =

@@ -25,6 +25,8 @@ class MotionClassifier {
            double seconds);
 
   bool moving() const { return moving_; }
+  /// Whether there have been enough measurements for a decision. Before, moving() is false.
+  bool decided() const { return decided_; }
 
  private:
   struct Measurement {
@@ -39,7 +41,7 @@ class MotionClassifier {
   std::array<Measurement, kCapacity> past_;  // ring buffer
   std::size_t first_ = 0, count_ = 0;
   double seconds_ = 0;
-  bool moving_ = false;
+  bool moving_ = false, decided_ = false;
 };
 
 }  // namespace detail

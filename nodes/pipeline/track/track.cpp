@@ -149,8 +149,13 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
   const Eigen::Matrix3d rotation =
       fixed ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(sensor.linear().transpose());
   entry.velocity = motion.velocity();
+  // `moving` and the velocity must not contradict each other.
   const double speed = entry.velocity.head<2>().norm();
-  if (!moving && speed > kMaxStandingSpeed) entry.velocity.head<2>() *= kMaxStandingSpeed / speed;
+  if (!moving && speed > kMaxStandingSpeed) {
+    const double variance = motion.velocity_variance().head<2>().maxCoeff();
+    entry.moving = !motion_classifier.decided() && speed * speed > 9 * variance;
+    if (!entry.moving) entry.velocity.head<2>() *= kMaxStandingSpeed / speed;
+  }
   if (!fixed) entry.velocity = rotation * entry.velocity + apparent_velocity;
   const Eigen::Vector3d position = fixed ? Eigen::Vector3d(sensor * centre) : centre;
   const Eigen::Vector3d facing = rotation * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);

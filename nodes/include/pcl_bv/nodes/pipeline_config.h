@@ -188,7 +188,7 @@ struct PipelineConfig {
 PipelineConfig whole_cloud_config();
 
 /// Replaces the filter, ground and cluster settings by a preset:
-/// - "road": a LiDAR on a vehicle, z up (the defaults);
+/// - "road": a LiDAR on a vehicle, z up (the defaults, with a tolerance that grows by 1 % of the distance);
 /// - "indoor": a LiDAR on a robot in rooms, z up;
 /// - "table": objects on a table below a depth camera that looks down at them, in the camera's optical frame
 ///   (z forward, y down).
