@@ -21,14 +21,15 @@ class ExtentLimits {
  public:
   /// Drops the clusters outside `config.min_extent` and `config.max_extent`, and adds their points to
   /// small_points and large_points of `clusters`. The other clusters keep their order. `views` are the points
-  /// of the clusters, and `up` is the unit vector against gravity. `class_of` and `refinements` have an entry for each
-  /// cluster, or none.
+  /// of the clusters, and `up` is the unit vector against gravity. `class_of` and `refinements` have an entry
+  /// for each cluster, or none.
   void apply(const ClusterConfig& config, const Eigen::Vector3d& up, const std::vector<PointView>& views,
              const Execution& execution, Clusters& clusters, std::vector<std::int64_t>& class_of,
              std::vector<Refinement>& refinements);
 
  private:
-  void drop(Clusters& clusters, std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements) const;
+  void drop(Clusters& clusters, std::vector<std::int64_t>& class_of,
+            std::vector<Refinement>& refinements) const;
 
   std::vector<ExtentVerdict> verdicts_;  // for each cluster; a member to reuse its memory
 };

@@ -86,7 +86,8 @@ const std::vector<KnownObject>& TrackedVolumes::predict(const std::vector<PointV
   return known_;
 }
 
-// A box in the fixed frame is made from the points: a box around the box in the sensor's frame would be larger.
+// A box in the fixed frame is made from the points: a box around the box in the sensor's frame would be
+// larger.
 void TrackedVolumes::know_objects(const std::vector<PointView>& clusters, const FrameResult& result) {
   const Pose& pose = tracker_.sensor();
   for (std::size_t i = 0; i < clusters.size(); ++i) {

@@ -38,8 +38,9 @@ class TrackedVolumes {
   void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
               FrameResult& result);
 
-  /// Predicts the tracks to the time of the frame, from the clusters before they are refined. Returns what the
-  /// tracker expects to see, sorted by the x of the centres, in the fixed frame. Call update() afterwards.
+  /// Predicts the tracks to the time of the frame, from the clusters before they are refined. Returns what
+  /// the tracker expects to see, sorted by the x of the centres, in the fixed frame. Call update()
+  /// afterwards.
   const std::vector<KnownObject>& predict(const std::vector<PointView>& clusters, const Frame& frame);
   /// Pose of the sensor in the fixed frame, after predict().
   const Pose& sensor() const { return tracker_.sensor(); }

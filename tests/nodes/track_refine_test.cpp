@@ -17,7 +17,8 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 
 Box box_at(double x, double y, double length, double width, double height) {
-  return {Eigen::Vector3d(x - length / 2, y - width / 2, 0), Eigen::Vector3d(x + length / 2, y + width / 2, height)};
+  return {Eigen::Vector3d(x - length / 2, y - width / 2, 0),
+          Eigen::Vector3d(x + length / 2, y + width / 2, height)};
 }
 
 KnownObject object_at(const Box& box, std::size_t whole = 10) {
@@ -58,7 +59,8 @@ struct Scene {  // a car, and a person 0.35 m beside it
   }
 };
 
-std::size_t cut(const Scene& scene, const std::vector<KnownObject>& known, std::vector<std::uint32_t>& part_of) {
+std::size_t cut(const Scene& scene, const std::vector<KnownObject>& known,
+                std::vector<std::uint32_t>& part_of) {
   TrackCut tracks;
   return tracks.find(scene.points, box_of(scene.points), known, 0.07, 10, part_of);
 }
@@ -113,7 +115,8 @@ TEST(PartJoin, JoinsThePartsOfAKnownCar) {
 TEST(PartJoin, TheLargestOfNestedTracksGetsTheParts) {
   PartJoin join;
   std::vector<std::size_t> whole_of;
-  const std::vector<Piece> pieces = pieces_of({kFront, box_at(18.1, 0, 0.5, 1.7, 0.5), box_at(18.9, 0, 0.5, 1.7, 1.4)});
+  const std::vector<Piece> pieces =
+      pieces_of({kFront, box_at(18.1, 0, 0.5, 1.7, 0.5), box_at(18.9, 0, 0.5, 1.7, 1.4)});
   std::vector<KnownObject> known{object_at(box_at(18.5, 0, 1.6, 1.8, 1.5)), object_at(kCar)};
   EXPECT_EQ(join.find(pieces, known, {}, whole_of), 1U);
   EXPECT_EQ(whole_of, (std::vector<std::size_t>{PartJoin::none, 0, 0}));

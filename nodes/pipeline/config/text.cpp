@@ -16,10 +16,8 @@ constexpr Names<GroundMethod, 3> kGroundMethods{
     {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
 constexpr Names<Oversized, 3> kOversized{
     {{"drop", Oversized::drop}, {"keep", Oversized::keep}, {"split", Oversized::split}}};
-constexpr Names<Refine, 4> kRefine{{{"auto", Refine::automatic},
-                                      {"off", Refine::off},
-                                      {"neck", Refine::neck},
-                                      {"tracks", Refine::tracks}}};
+constexpr Names<Refine, 4> kRefine{
+    {{"auto", Refine::automatic}, {"off", Refine::off}, {"neck", Refine::neck}, {"tracks", Refine::tracks}}};
 constexpr Names<SphereGrowth, 3> kGrowths{{{"sequential", SphereGrowth::sequential},
                                            {"stationary", SphereGrowth::stationary},
                                            {"deferred", SphereGrowth::deferred}}};

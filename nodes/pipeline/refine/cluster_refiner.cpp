@@ -51,8 +51,8 @@ void ClusterRefiner::cut_at_neck(const PointView& cloud, const RefineOptions& op
                                  const std::int32_t* list, std::size_t size, std::size_t cluster,
                                  bool is_part) {
   const PointView view = select_points(cloud, list, size);
-  const std::size_t parts =
-      std::max<std::size_t>(1, neck_cut_.find(view, options.up, options.sensor, options.min_size, neck_part_of_));
+  const std::size_t parts = std::max<std::size_t>(
+      1, neck_cut_.find(view, options.up, options.sensor, options.min_size, neck_part_of_));
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = indices_.size();
     for (std::size_t i = 0; i < size; ++i)

@@ -28,7 +28,7 @@ struct RefineOptions {
   std::size_t min_size = 1;                          ///< Smallest number of points of a part.
   /// Classes whose min_size replaces that of these options. May be null.
   const std::vector<ClassOptions>* classes = nullptr;
-  Pose pose = Pose::Identity();                      ///< Of the points, in the fixed frame of `known`.
+  Pose pose = Pose::Identity();  ///< Of the points, in the fixed frame of `known`.
   /// Objects that the tracker expects in this frame; null: clusters are cut at necks only.
   const std::vector<KnownObject>* known = nullptr;
 };
@@ -37,9 +37,9 @@ struct RefineOptions {
 class ClusterRefiner {
  public:
   /// Cuts tracked people off other objects (TrackCut), then groups of people and people next to other objects
-  /// (NeckCut), then joins the parts of tracked vehicles (PartJoin). The clusters keep the order that Clusters
-  /// describes. `class_of` has the class of each cluster, or is empty. Fills `refinements`, an entry for each
-  /// cluster, and sets `counts.cut` and `counts.joined`.
+  /// (NeckCut), then joins the parts of tracked vehicles (PartJoin). The clusters keep the order that
+  /// Clusters describes. `class_of` has the class of each cluster, or is empty. Fills `refinements`, an entry
+  /// for each cluster, and sets `counts.cut` and `counts.joined`.
   void refine(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
               std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements, Counts& counts);
 

@@ -15,21 +15,23 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Cuts people out of a cluster, at the necks between them and the rest. Seen from above, a person is a peak of
-/// the density of points, and the density is low at the necks.
+/// Cuts people out of a cluster, at the necks between them and the rest. Seen from above, a person is a peak
+/// of the density of points, and the density is low at the necks.
 ///
 /// There are two kinds of cuts:
 /// - A group: at least two parts have the size of a person, and these have 70 % of the points. Each other
 ///   point belongs to the nearest person.
-/// - A person next to something else, such as a car or a wall: the part has the shape of a person, begins where
+/// - A person next to something else, such as a car or a wall: the part has the shape of a person, begins
+/// where
 ///   the cluster begins, and is as dense as the cluster. The other points stay one object.
 class NeckCut {
  public:
   /// Replaces `part_of` by the number of the part of each point. Returns the number of parts. With fewer than
   /// two parts, the cluster is not cut and `part_of` is undefined.
   ///
-  /// A person has at least `min_size` points, or 10 if that is more. The points are sparser far from `sensor`,
-  /// so the density is measured in larger cells there. `up` has length 1. All points must be valid. O(n log n).
+  /// A person has at least `min_size` points, or 10 if that is more. The points are sparser far from
+  /// `sensor`, so the density is measured in larger cells there. `up` has length 1. All points must be valid.
+  /// O(n log n).
   std::size_t find(const PointView& cluster, const Eigen::Vector3d& up, const Eigen::Vector3d& sensor,
                    std::size_t min_size, std::vector<std::uint32_t>& part_of);
 

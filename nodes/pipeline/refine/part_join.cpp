@@ -60,8 +60,8 @@ void PartJoin::sort_by_x(const std::vector<Piece>& pieces) {
 void PartJoin::find_parts(const std::vector<Piece>& pieces, const KnownObject& vehicle,
                           const std::vector<KnownObject>& known) {
   parts_.clear();
-  auto at = std::lower_bound(by_x_.begin(), by_x_.end(),
-                             std::pair<double, std::size_t>(vehicle.box.min().x(), 0));
+  auto at =
+      std::lower_bound(by_x_.begin(), by_x_.end(), std::pair<double, std::size_t>(vehicle.box.min().x(), 0));
   for (; at != by_x_.end() && at->first <= vehicle.box.max().x(); ++at)
     if (taken_[at->second] == 0 && is_part(pieces[at->second], vehicle, known)) parts_.push_back(at->second);
 }

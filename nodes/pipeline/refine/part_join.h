@@ -32,9 +32,9 @@ class PartJoin {
  public:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  /// Replaces `whole_of` by the number of the piece that each piece is joined to: `none`, or a smaller number.
-  /// `class_of` is the class of each cluster, or is empty; pieces of different classes are not joined.
-  /// Returns the number of joined objects. `known` is sorted by the x of the centres.
+  /// Replaces `whole_of` by the number of the piece that each piece is joined to: `none`, or a smaller
+  /// number. `class_of` is the class of each cluster, or is empty; pieces of different classes are not
+  /// joined. Returns the number of joined objects. `known` is sorted by the x of the centres.
   std::size_t find(const std::vector<Piece>& pieces, const std::vector<KnownObject>& known,
                    const std::vector<std::int64_t>& class_of, std::vector<std::size_t>& whole_of);
 

@@ -19,8 +19,8 @@ constexpr double kNear = 2;             // m; radius around a person in which po
 constexpr double kMinWidth = 1.3;       // m; a narrower cluster is one person with spread arms
 constexpr double kReach = 0.5;          // m; distance of a basin from the expected centre at most
 constexpr double kMaxBasin = 1.2, kMaxPerson = 1.3;  // m; largest widths
-constexpr std::size_t kMinPoints = 10;  // fewer points have no density
-constexpr double kMinHeight = 0.6;      // share of the known height
+constexpr std::size_t kMinPoints = 10;               // fewer points have no density
+constexpr double kMinHeight = 0.6;                   // share of the known height
 
 double width_of(const Eigen::AlignedBox3d& box) {
   return box.sizes().head<2>().maxCoeff();

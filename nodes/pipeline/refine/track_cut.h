@@ -24,8 +24,9 @@ class TrackCut {
  public:
   /// Replaces `part_of` by the number of the part of each point. Returns the number of parts. With fewer than
   /// two parts, the cluster is not cut and `part_of` is undefined. `points` and their box `box` are in the
-  /// fixed frame, whose z is up. `known` is sorted by the x of the centres. `cell` is the side of a cell of the density. The last part may be the rest
-  /// of the cluster. Each part has at least `min_size` points, or 10 if that is more. O(n log n + n * people).
+  /// fixed frame, whose z is up. `known` is sorted by the x of the centres. `cell` is the side of a cell of
+  /// the density. The last part may be the rest of the cluster. Each part has at least `min_size` points, or
+  /// 10 if that is more. O(n log n + n * people).
   std::size_t find(const std::vector<Eigen::Vector3d>& points, const Eigen::AlignedBox3d& box,
                    const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                    std::vector<std::uint32_t>& part_of);
@@ -34,7 +35,7 @@ class TrackCut {
   struct Person {
     const KnownObject* expected = nullptr;
     std::size_t points = 0;
-    Eigen::AlignedBox3d box;                 // of these points
+    Eigen::AlignedBox3d box;  // of these points
     std::uint32_t part = 0;
     bool found = false;
   };

@@ -62,8 +62,8 @@ inline std::pair<const KnownObject*, const KnownObject*> objects_between(
   const auto x_of = [](const KnownObject& object) { return object.box.center().x(); };
   const auto first = std::partition_point(objects.begin(), objects.end(),
                                           [&](const KnownObject& object) { return x_of(object) < low; });
-  const auto last =
-      std::partition_point(first, objects.end(), [&](const KnownObject& object) { return x_of(object) <= high; });
+  const auto last = std::partition_point(first, objects.end(),
+                                         [&](const KnownObject& object) { return x_of(object) <= high; });
   return {objects.data() + (first - objects.begin()), objects.data() + (last - objects.begin())};
 }
 

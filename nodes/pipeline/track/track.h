@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "motion_classifier.h"
 #include "known_object.h"
+#include "motion_classifier.h"
 #include "motion_filter.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/report/report.h"

@@ -35,8 +35,8 @@ Pose after_motion(const Pose& sensor, const PlanarMotion& motion) {
   return next;
 }
 
-// If the parts of an object have become one cluster, the oldest of their tracks gets it. Without this cost, the
-// nearest one does, and ids change 5 % more often.
+// If the parts of an object have become one cluster, the oldest of their tracks gets it. Without this cost,
+// the nearest one does, and ids change 5 % more often.
 double cost_of_youth(const Track& track) {
   return 4 / (1 + static_cast<double>(track.detections) / 15);
 }

@@ -78,7 +78,8 @@ class Tracker {
   /// cluster. Call it after assign(), for clusters that hold one object only.
   void know(std::size_t slot, const Eigen::AlignedBox3d& box, Refinement refinement);
 
-  /// Returns the pose of the sensor at the last predict(): the given pose or, without one, the estimated pose.
+  /// Returns the pose of the sensor at the last predict(): the given pose or, without one, the estimated
+  /// pose.
   const Pose& sensor() const;
 
   /// Deletes all tracks. The ids of deleted tracks are not reused.

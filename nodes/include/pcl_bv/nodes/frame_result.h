@@ -89,7 +89,7 @@ struct FrameResult {
   /// The clusters, largest first. Without clustering, all remaining points are one cluster, which may have no
   /// index list. Therefore read the points of clusters by points_of().
   Clusters clusters;
-  std::vector<std::int64_t> class_of;  ///< Class of each cluster; empty without cluster.class_field.
+  std::vector<std::int64_t> class_of;   ///< Class of each cluster; empty without cluster.class_field.
   std::vector<Refinement> refinements;  ///< For each cluster; empty without cluster.refine.
   /// The filtered points, used instead of `passed_filter` for large clouds without index lists.
   std::shared_ptr<const PointSource> filtered;

@@ -91,8 +91,9 @@ struct ClassConfig {
 enum class Refine : std::uint8_t {
   automatic,  ///< `tracks` if tracking is on, otherwise `off`.
   off,        ///< Each cluster is one object.
-  /// People are cut out of clusters, at the necks between them and the rest. A person is a peak of the density
-  /// of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size points.
+  /// People are cut out of clusters, at the necks between them and the rest. A person is a peak of the
+  /// density of points seen from above, 0.9 m to 2.3 m high, at most 1.1 m wide, and of at least min_size
+  /// points.
   neck,
   /// As `neck`. Besides, tracked people are cut out of clusters, also if they would not be recognised in one
   /// frame, and clusters inside the box of a tracked vehicle are joined. Without tracking: as `neck`.

@@ -64,7 +64,7 @@ struct ClusterEntry {
   std::vector<VolumeEntry> volumes;
   std::optional<std::int64_t> class_value{};  ///< Class of the points, if points are segmented by class.
   Refinement refinement = Refinement::none;
-  std::optional<TrackEntry> track{};          ///< Track, if tracking is on and the track is confirmed.
+  std::optional<TrackEntry> track{};  ///< Track, if tracking is on and the track is confirmed.
 };
 
 /// Wall-clock time of each stage in seconds.
