@@ -251,7 +251,7 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   refused({"--min-extent", "1,1,1"}, "--min-extent: only useful with --cluster");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
   refused({"--refine", "neck"}, "--refine: only useful with --cluster");
-  refused({"--cluster", "0.5", "--refine", "head"}, "--refine: 'head' is not one of off, neck");
+  refused({"--cluster", "0.5", "--refine", "head"}, "--refine: 'head' is not one of auto, off, neck, tracks");
   refused({"--class", "label"}, "--class: only useful with --cluster");
 }
 

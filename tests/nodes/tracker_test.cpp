@@ -263,6 +263,42 @@ TEST(Tracker, ManyObjectsKeepTheirIds) {
     ASSERT_EQ(id_of(found[i]), i);
 }
 
+// Two parts, the younger one nearer to the whole.
+TEST(Tracker, TheOldestOfTheTracksOfPartsGetsTheWhole) {
+  const auto part = [](double low, double high) {
+    return Aabb(Eigen::Vector3d(low, 0, 0), Eigen::Vector3d(high, 1.6, 1));
+  };
+  Tracker tracker;
+  std::optional<std::uint32_t> id;
+  for (int i = 0; i < 12; ++i) {
+    std::vector<Aabb> boxes{part(0, 0.8)};
+    if (i >= 8) boxes.push_back(part(1.2, 2.2));
+    id = id_of(update(tracker, i, boxes)[0]);
+  }
+  const auto whole = update(tracker, 12, {part(0, 2.2)});
+  ASSERT_TRUE(id);
+  EXPECT_EQ(id_of(whole[0]), id);
+}
+
+// Before there are enough sightings, a fast object moves; one that stands is reported as slow.
+TEST(Tracker, MovingAndTheVelocityDoNotContradictEachOther) {
+  TrackConfig config;
+  config.birth = 1;
+  Tracker tracker;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> jump(-0.4, 0.4);
+  for (int i = 0; i < 40; ++i) {
+    const auto found = update(tracker, i, {box(jump(random), jump(random)), box(50 + i, 0)}, config);
+    for (const Tracker::Assignment& each : found) {
+      ASSERT_TRUE(each.track);
+      EXPECT_TRUE(each.track->moving || each.track->velocity.head<2>().norm() <= 1 + 1e-12) << i;
+    }
+    if (i > 0) {
+      EXPECT_TRUE(found[1].track->moving) << i;
+    }
+  }
+}
+
 TEST(Tracker, ASplitObjectKeepsItsIdOnTheGreaterPart) {
   Tracker tracker;
   for (int i = 0; i < 4; ++i)
