@@ -217,14 +217,15 @@ void FramePipeline::State::refine_clusters(const Prepared& now, const Frame& fra
   const Refine refine = now.config.effective_refine();
   result.refinements.clear();
   if (refine == Refine::off || config.tolerance == 0) return;
-  RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size(),
-                        &now.classes.class_options()};
-  if (refine == Refine::tracks && now.config.track.enabled) {
-    make_views(frame.points, result);
-    options.known = &tracks.predict(views, frame);
-    options.pose = tracks.sensor();
-  }
-  refiner.refine(frame.points, options, result.clusters, result.class_of, result.refinements, result.counts);
+  const RefineOptions options{now.options.up, result.sensor.position, config.effective_min_size(),
+                              &now.classes.class_options()};
+  refiner.cut_at_necks(frame.points, options, result.clusters, result.class_of, result.refinements,
+                       result.counts);
+  if (refine != Refine::tracks || !now.config.track.enabled) return;
+  make_views(frame.points, result);
+  const std::vector<KnownObject>& known = tracks.predict(views, frame);
+  refiner.follow_tracks(frame.points, options, tracks.sensor(), known, result.clusters, result.class_of,
+                        result.refinements, result.counts);
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {

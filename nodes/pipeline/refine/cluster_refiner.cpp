@@ -16,12 +16,12 @@ Eigen::Vector3d point_at(const PointView& view, std::size_t i) {
   return {c.x, c.y, c.z};
 }
 
-// Options for clusters of this class.
-RefineOptions options_of(const RefineOptions& all, std::int64_t class_value) {
-  RefineOptions options = all;
-  for (const ClassOptions& own : *all.classes)
-    if (own.value == class_value) options.min_size = own.clusters.min_size;
-  return options;
+std::size_t min_size_of(const RefineOptions& options, const std::vector<std::int64_t>& class_of,
+                        std::size_t cluster) {
+  if (options.classes == nullptr || class_of.empty()) return options.min_size;
+  for (const ClassOptions& own : *options.classes)
+    if (own.value == class_of[cluster]) return own.clusters.min_size;
+  return options.min_size;
 }
 
 }  // namespace
@@ -35,52 +35,22 @@ void ClusterRefiner::place(const PointView& cluster, const Pose& pose) {
   }
 }
 
-// Adds the end of indices_, from `begin` on, as a piece.
-void ClusterRefiner::add_piece(const PointView& cloud, const RefineOptions& options, std::size_t begin,
-                               std::size_t cluster, bool is_part) {
-  Piece piece{begin, indices_.size() - begin, cluster, is_part ? Refinement::cut : Refinement::none, {}};
-  if (options.known != nullptr) {
-    place(select_points(cloud, indices_.data() + begin, piece.size), options.pose);
-    piece.box = box_;
-  }
-  pieces_.push_back(piece);
+void ClusterRefiner::start() {
+  indices_.clear();
+  pieces_.clear();
 }
 
-// Cuts the points of `list` at necks, and adds the pieces. The indices of each piece stay ascending.
-void ClusterRefiner::cut_at_neck(const PointView& cloud, const RefineOptions& options,
-                                 const std::int32_t* list, std::size_t size, std::size_t cluster,
-                                 bool is_part) {
-  const PointView view = select_points(cloud, list, size);
-  const std::size_t parts = std::max<std::size_t>(
-      1, neck_cut_.find(view, options.up, options.sensor, options.min_size, neck_part_of_));
-  for (std::size_t part = 0; part < parts; ++part) {
-    const std::size_t begin = indices_.size();
-    for (std::size_t i = 0; i < size; ++i)
-      if (parts == 1 || neck_part_of_[i] == part) indices_.push_back(list[i]);
-    add_piece(cloud, options, begin, cluster, is_part || parts > 1);
-  }
-}
-
-void ClusterRefiner::cut(const PointView& cloud, const RefineOptions& options, const Clusters& clusters,
-                         std::size_t cluster) {
+// Adds the parts of a cluster, or the whole cluster. The indices of each part stay ascending.
+void ClusterRefiner::add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts,
+                               Refinement refinement) {
   const std::int32_t* const list = clusters.list(cluster);
   const std::size_t size = clusters.list_size(cluster);
-  std::size_t parts = 1;
-  if (options.known != nullptr) {
-    const PointView view = select_points(cloud, list, size);
-    place(view, options.pose);
-    const double cell = density_cell((point_at(view, 0) - options.sensor).norm());
-    parts = track_cut_.find(points_, box_, *options.known, cell, options.min_size, part_of_);
-  }
-  if (parts < 2) {
-    cut_at_neck(cloud, options, list, size, cluster, false);
-    return;
-  }
-  for (std::size_t part = 0; part < parts; ++part) {
-    part_.clear();
+  if (parts > 1) refinement = Refinement::cut;
+  for (std::size_t part = 0; part < std::max<std::size_t>(parts, 1); ++part) {
+    const std::size_t begin = indices_.size();
     for (std::size_t i = 0; i < size; ++i)
-      if (part_of_[i] == part) part_.push_back(list[i]);
-    cut_at_neck(cloud, options, part_.data(), part_.size(), cluster, true);
+      if (parts < 2 || part_of_[i] == part) indices_.push_back(list[i]);
+    pieces_.push_back({begin, indices_.size() - begin, cluster, refinement, {}});
   }
 }
 
@@ -129,26 +99,47 @@ void ClusterRefiner::replace(Clusters& clusters, std::vector<std::int64_t>& clas
   }
 }
 
-void ClusterRefiner::refine(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
-                            std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
-                            Counts& counts) {
-  indices_.clear();
-  pieces_.clear();
+void ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
+                                  std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
+                                  Counts& counts) {
+  start();
+  std::size_t cut = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const std::size_t before = pieces_.size();
-    const bool own = options.classes != nullptr && !class_of.empty();
-    cut(cloud, own ? options_of(options, class_of[i]) : options, clusters, i);
-    counts.cut += pieces_.size() > before + 1;
+    const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
+    const std::size_t parts =
+        neck_cut_.find(view, options.up, options.sensor, min_size_of(options, class_of, i), part_of_);
+    add_parts(clusters, i, parts, Refinement::none);
+    cut += parts > 1;
   }
-  if (options.known != nullptr) {
-    counts.joined = part_join_.find(pieces_, *options.known, class_of, whole_of_);
-    if (counts.joined > 0) join();
-  }
-  if (counts.cut + counts.joined > 0) {
+  counts.cut += cut;
+  if (cut > 0) {
     replace(clusters, class_of, refinements);
   } else {
     refinements.assign(clusters.size(), Refinement::none);
   }
+}
+
+void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& options, const Pose& pose,
+                                   const std::vector<KnownObject>& known, Clusters& clusters,
+                                   std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
+                                   Counts& counts) {
+  start();
+  std::size_t cut = 0;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
+    place(view, pose);
+    const double cell = density_cell((point_at(view, 0) - options.sensor).norm());
+    const std::size_t parts =
+        track_cut_.find(points_, box_, known, cell, min_size_of(options, class_of, i), part_of_);
+    add_parts(clusters, i, parts, refinements[i]);
+    pieces_.back().box = box_;
+    cut += parts > 1;
+  }
+  const std::size_t joined = part_join_.find(pieces_, known, class_of, whole_of_);
+  if (joined > 0) join();
+  counts.cut += cut;
+  counts.joined += joined;
+  if (cut + joined > 0) replace(clusters, class_of, refinements);
 }
 
 }  // namespace pcl_bv::detail

@@ -28,29 +28,30 @@ struct RefineOptions {
   std::size_t min_size = 1;                          ///< Smallest number of points of a part.
   /// Classes whose min_size replaces that of these options. May be null.
   const std::vector<ClassOptions>* classes = nullptr;
-  Pose pose = Pose::Identity();  ///< Of the points, in the fixed frame of `known`.
-  /// Objects that the tracker expects in this frame; null: clusters are cut at necks only.
-  const std::vector<KnownObject>* known = nullptr;
 };
 
-/// Replaces clusters by objects. Each point of a cluster is in exactly one object.
+/// Replaces clusters by objects. Each point of a cluster is in exactly one object. The objects keep the order
+/// that Clusters describes. `class_of` has the class of each cluster, or is empty.
 class ClusterRefiner {
  public:
-  /// Cuts tracked people off other objects (TrackCut), then groups of people and people next to other objects
-  /// (NeckCut), then joins the parts of tracked vehicles (PartJoin). The clusters keep the order that
-  /// Clusters describes. `class_of` has the class of each cluster, or is empty. Fills `refinements`, an entry
-  /// for each cluster, and sets `counts.cut` and `counts.joined`.
-  void refine(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
-              std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements, Counts& counts);
+  /// Cuts groups of people and people next to other objects (NeckCut). Fills `refinements`, an entry for each
+  /// cluster, and adds to `counts.cut`.
+  void cut_at_necks(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
+                    std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
+                    Counts& counts);
+
+  /// Cuts tracked people off other objects (TrackCut), then joins the parts of tracked vehicles (PartJoin).
+  /// `known` is what the tracker expects in this frame, sorted by the x of the centres; `pose` is the pose of
+  /// the points in its frame. Changes `refinements`, and adds to `counts.cut` and `counts.joined`.
+  void follow_tracks(const PointView& cloud, const RefineOptions& options, const Pose& pose,
+                     const std::vector<KnownObject>& known, Clusters& clusters,
+                     std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
+                     Counts& counts);
 
  private:
+  void start();
   void place(const PointView& cluster, const Pose& pose);
-  void cut(const PointView& cloud, const RefineOptions& options, const Clusters& clusters,
-           std::size_t cluster);
-  void cut_at_neck(const PointView& cloud, const RefineOptions& options, const std::int32_t* list,
-                   std::size_t size, std::size_t cluster, bool is_part);
-  void add_piece(const PointView& cloud, const RefineOptions& options, std::size_t begin, std::size_t cluster,
-                 bool is_part);
+  void add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts, Refinement refinement);
   void join();
   void replace(Clusters& clusters, std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements);
 
@@ -59,8 +60,8 @@ class ClusterRefiner {
   PartJoin part_join_;
   std::vector<Eigen::Vector3d> points_;  // of a cluster, in the fixed frame
   Eigen::AlignedBox3d box_;              // of points_
-  std::vector<std::uint32_t> part_of_, neck_part_of_;
-  std::vector<std::int32_t> indices_, part_;
+  std::vector<std::uint32_t> part_of_;
+  std::vector<std::int32_t> indices_;
   std::vector<Piece> pieces_;
   std::vector<std::size_t> whole_of_;
   std::vector<std::pair<std::size_t, std::size_t>> members_;  // a joined piece and one of its parts

@@ -21,7 +21,7 @@ struct Piece {
   std::size_t begin = 0, size = 0;  ///< Range in the list of indices.
   std::size_t cluster = 0;          ///< Number of the cluster before all cuts.
   Refinement refinement = Refinement::none;
-  Eigen::AlignedBox3d box;  ///< In the fixed frame.
+  Eigen::AlignedBox3d box;  ///< In the fixed frame. Parts that were cut need none.
 };
 
 /// Finds clusters that are parts of one object: they are inside the box of a tracked vehicle.

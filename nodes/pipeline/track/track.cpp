@@ -39,8 +39,8 @@ void Track::start(const Aabb& box, const Pose& sensor) {
   const Eigen::Vector3d position = sensor * box.center();
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)] = {position[i], 0, kFaceVariance, 0, kFirstSpeed * kFirstSpeed};
-  low = -half;
-  high = half;
+  low = seen_low = -half;
+  high = seen_high = half;
   expected_position = box.center();
   const Eigen::Vector3d long_axis =
       half.x() >= half.y() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
@@ -66,7 +66,7 @@ void Track::expect(const Pose& sensor) {
 Aabb Track::static_box(const Pose& sensor) const {
   const Eigen::Vector3d at =
       sensor.linear().transpose() * ((moving ? motion.position() : previous_position) - sensor.translation());
-  return {at + low, at + high};
+  return {at + seen_low, at + seen_high};
 }
 
 BoxDifference Track::difference_to(const Aabb& seen_box) const {
@@ -116,6 +116,8 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
   low -= offset;
   high -= offset;
   expect(sensor);
+  seen_low = seen_box.min() - expected_position;
+  seen_high = seen_box.max() - expected_position;
   missed = occluded = 0;
   ++detections;
   classify_motion(high, sensor, passed);

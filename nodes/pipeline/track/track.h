@@ -34,6 +34,8 @@ struct Track {
   MotionClassifier motion_classifier;
   // Lower and upper faces of the box relative to the tracked position, along the sensor's axes.
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
+  // The same faces of the last measured box.
+  Eigen::Vector3d seen_low = Eigen::Vector3d::Zero(), seen_high = Eigen::Vector3d::Zero();
   Eigen::Vector3d expected_position = Eigen::Vector3d::Zero();  // in the sensor's frame
   Eigen::Vector3d previous_position = Eigen::Vector3d::Zero();  // in the fixed frame, one frame earlier
   double seconds_unseen = 0;                                    // since the last detection
