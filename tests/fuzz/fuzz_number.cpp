@@ -16,7 +16,7 @@ namespace {
 template <typename T>
 void check(const std::string& text, std::size_t size) {
   T quick, expected;
-  const char* after = pcl_bv::read_short_decimal(text.data(), quick);
+  const char* after = pcl_bv::detail::read_short_decimal(text.data(), quick);
   if (!after) return;
   const auto [end, error] = std::from_chars(text.data() + (text[0] == '+'), text.data() + size, expected);
   if (error != std::errc() || end != after || std::memcmp(&quick, &expected, sizeof quick) != 0) std::abort();
@@ -26,7 +26,7 @@ void check(const std::string& text, std::size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);
-  text.append(pcl_bv::kTextPadding, '\n');
+  text.append(pcl_bv::detail::kTextPadding, '\n');
   check<float>(text, size);
   check<double>(text, size);
   return 0;

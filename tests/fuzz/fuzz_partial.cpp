@@ -14,6 +14,8 @@
 
 namespace {
 
+using namespace pcl_bv::detail;
+
 std::string with_check_sum(std::string text) {
   boost::crc_32_type sum;
   sum.process_bytes(text.data(), text.size());
@@ -24,8 +26,8 @@ std::string with_check_sum(std::string text) {
 // What is read is written as it was, but for the form of the heading.
 void check(std::string_view content) {
   try {
-    const std::string again = pcl_bv::partial_file_content(pcl_bv::parse_partial_file(content));
-    if (pcl_bv::partial_file_content(pcl_bv::parse_partial_file(again)) != again) std::abort();
+    const std::string again = partial_file_content(parse_partial_file(content));
+    if (partial_file_content(parse_partial_file(again)) != again) std::abort();
   } catch (const pcl_bv::IoError&) {
   }
 }

@@ -14,7 +14,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
 namespace {
 
 void require(bool holds, const char* rule) {
@@ -73,4 +73,4 @@ void check_reader(std::string_view content, std::size_t expansion, const Reader&
   }
 }
 
-}  // namespace pcl_bv::detail
+}  // namespace pcl_bv

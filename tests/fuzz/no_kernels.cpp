@@ -7,14 +7,14 @@
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/kernels/moments.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
 
 void Partial::merge(const Partial&) {
   std::abort();
 }
 
-Moments block_moments(UsableIsa, const PointView&) {
+detail::Moments detail::block_moments(UsableIsa, const PointView&) {
   std::abort();
 }
 
-}  // namespace pcl_bv::detail
+}  // namespace pcl_bv

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A pipeline that only keeps its settings, and methods and instruction sets by their names: what reading
-// settings calls.
+// A pipeline that only keeps its settings, and methods by their names: what reading settings calls.
 #include <stdexcept>
 #include <utility>
 
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
 
 struct FramePipeline::State {
   PipelineConfig config;
@@ -44,16 +43,4 @@ const Method* find_method(std::string_view name) {
   return nullptr;
 }
 
-Isa parse_isa(std::string_view name) {
-  if (name != "auto") throw std::invalid_argument("no such instruction set");
-  return Isa::automatic;
-}
-std::string_view isa_name(Isa) {
-  return "auto";
-}
-std::vector<Isa> usable_isas() {
-  return {Isa::automatic};
-}
-UsableIsa::UsableIsa(Isa isa) : isa_(isa) {}
-
-}  // namespace pcl_bv::detail
+}  // namespace pcl_bv
