@@ -56,6 +56,11 @@ TEST(TextFromOutside, DepthEndsWhereItShouldWhateverFollows) {
   EXPECT_EQ(read_json("[" + std::string("\"") + std::string(1000, '[') + "\"]").size(), 1U);
 }
 
+TEST(TextFromOutside, IsPrintableWithoutControlCharacters) {
+  EXPECT_EQ(printable(std::string("a\0b\nc\x1f d\x7f~", 10)), "a?b?c? d?~");
+  EXPECT_EQ(printable("gr\u00f6\u00dfe"), "gr\u00f6\u00dfe");
+}
+
 TEST(TextFromOutside, WhatIsNoJsonHasItsPlaceInOurWords) {
   EXPECT_EQ(error_of("{\n \"a\": nope}"), "line 2, column 8: invalid JSON");
   EXPECT_EQ(error_of("[1, 2"), "truncated JSON: the last value is incomplete");

@@ -219,6 +219,16 @@ TEST(StreamConfig, AnUnknownKeyIsNamedWithItsLine) {
             "robot.yaml: line 1: unknown key 'extra', or a key without nested keys");
 }
 
+TEST(StreamConfig, AnErrorIsOneLineWhateverItQuotes) {
+  EXPECT_EQ(error_of("\"a\\nb\": 1"), "robot.yaml: line 1: unknown key 'a?b'");
+  EXPECT_THAT(error_of("threads: \"\\x1b[2J\\x7f\"", ""),
+              testing::StartsWith("threads: '?[2J?' is not a whole number"));
+  EXPECT_EQ(error_of("gr\u00f6\u00dfe: 1", ""), "unknown key 'gr\u00f6\u00dfe'");
+  PipelineConfig config;
+  config.volumes = {"aabb", "sphere\n"};
+  EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("volumes: 'sphere?' is no method")));
+}
+
 TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
   const std::pair<const char*, const char*> cases[] = {
       {"filter: {range_min: -1}", "line 1: filter.range_min: -1 is not at least 0"},

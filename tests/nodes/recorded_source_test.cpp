@@ -134,6 +134,11 @@ TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
             "topic /tf is of tf2_msgs/msg/TFMessage (cdr), not of clouds; those with clouds: /front, /rear");
 }
 
+TEST_F(RecordedSource, NamesOfTopicsDoNotBreakTheLineOfAnError) {
+  record({"/a\nb", "/c"});
+  EXPECT_EQ(refusal({}), "several topics have clouds: /a?b, /c; choose one with --topic");
+}
+
 TEST_F(RecordedSource, WithoutCloudsSaysWhatIsThere) {
   record({});
   EXPECT_EQ(refusal({}),

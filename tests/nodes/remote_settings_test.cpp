@@ -84,6 +84,8 @@ TEST(RemoteParameters, RefuseWhatMakesNoSenseWithALine) {
   const auto problem_of = [&](const char* object) { return remote.settings->change(object); };
   EXPECT_EQ(problem_of(R"({"cluster.toleranse":1})"), "cluster.toleranse: no such setting");
   EXPECT_EQ(problem_of(R"({"cluster.tolerance":"far"})"), "cluster.tolerance: 'far' is not a number");
+  EXPECT_EQ(problem_of(R"({"cluster\n":1})"), "cluster?: no such setting");
+  EXPECT_EQ(problem_of(R"({"cluster.tolerance":"\u001b[2J"})"), "cluster.tolerance: '?[2J' is not a number");
   EXPECT_THAT(problem_of(R"({"cluster.tolerance":{}})"), HasSubstr("is not a number"));
   EXPECT_THAT(problem_of(R"({"cluster.tolerance":null})"), HasSubstr("is not a number"));
   EXPECT_THAT(problem_of(R"({"ground.method":"sand"})"), HasSubstr("none, plane, zones"));

@@ -185,6 +185,10 @@ TEST_F(Rosbag2, ReadsTheFilesThatAreThereWhateverItsMetadataSays) {
   EXPECT_EQ(all_of(*repeated), sent);
   EXPECT_THAT(repeated->warning_lines(),
               testing::ElementsAre("metadata.yaml names bag_1.db3 3 times: it is read once"));
+  put("bag/metadata.yaml",
+      "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3, \"a\\nb.db3\"]}\n");
+  EXPECT_THAT(open_recording(at("bag"))->warning_lines(),
+              testing::Contains("skipped a?b.db3: no such file or folder"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3]}\n");
   make("bag/bag_7.db3", 3, 5000);
   const auto named = open_recording(at("bag"));
@@ -307,6 +311,8 @@ TEST_F(Rosbag2, SaysWhatIsWrongWithAFolder) {
   EXPECT_THAT(error(), testing::StartsWith("unknown recording format"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [gone.db3]}\n");
   EXPECT_EQ(error(), "gone.db3: no such file or folder");
+  put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [\"a\\nb.db3\"]}\n");
+  EXPECT_EQ(error(), "a?b.db3: no such file or folder");
   put("bag/metadata.yaml", "rosbag2_bagfile_information: b: c\n");
   EXPECT_THAT(error(), testing::StartsWith("metadata.yaml: "));
   put("bag/metadata.yaml", "colours: [red]\n");  // of another kind

@@ -95,6 +95,7 @@ TEST_F(ReadVolumes, ThatCannotBeReadAmongOthersAreRefusedByName) {
   EXPECT_THAT(error_of("[3," + kBall + "]"), HasSubstr("[0]: is no volume: 3"));
   EXPECT_THAT(error_of(R"({"volumes":[)" + bare + "]}"), HasSubstr("volumes[0]: is no volume"));
   EXPECT_THAT(error_of(kBall + R"({"volumes":null})"), HasSubstr("volumes: is no volume: null"));
+  EXPECT_THAT(error_of(R"({"a\nb":{"volumes":null}})"), HasSubstr("a?b.volumes: is no volume: null"));
   EXPECT_THAT(error_of(R"({"volumes":{"arm":)" + kBall + R"(,"leg":7}})"),
               HasSubstr("volumes.leg: is no volume: 7"));
   EXPECT_THAT(error_of(R"({"arm":)" + kBall + R"(,"leg":)" + bare + "}"), HasSubstr("leg: is no volume"));

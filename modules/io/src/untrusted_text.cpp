@@ -74,4 +74,10 @@ std::string position_in(std::string_view text, std::size_t at) {
          std::to_string(before.size() - line_begin + 1);
 }
 
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+  return text;
+}
+
 }  // namespace pcl_bv::detail

@@ -59,7 +59,7 @@ class JoinedReader final : public RecordingReader {
         add_warning("skipped " + problem);
       }
     }
-    if (members_.empty()) throw IoError(problem);
+    if (members_.empty()) throw IoError(printable(problem));
   }
 
   const std::vector<RecordedTopic>& topics() const override { return topics_; }

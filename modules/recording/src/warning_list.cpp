@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/recording/recording.h"
 
 namespace pcl_bv {
@@ -16,7 +17,7 @@ constexpr std::size_t kMaxListed = 10;
 
 void WarningList::add(std::string line) {
   if (lines_.size() < kMaxListed) {
-    lines_.push_back(std::move(line));
+    lines_.push_back(detail::printable(std::move(line)));
   } else {
     add_unlisted(1);
   }

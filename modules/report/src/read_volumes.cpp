@@ -224,7 +224,7 @@ std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
   try {
     return volumes_in(read_untrusted_text(file, kMaxVolumesBytes));
   } catch (const IoError& error) {
-    throw IoError(file.string() + ": " + error.what());
+    throw IoError(printable(file.string() + ": " + error.what()));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "formatting.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
 
@@ -164,14 +165,6 @@ void write_table(const ClusterSource& clusters, const TextSink& take) {
     }
   }
   table.write(heading_of(checked, upright, other), take);
-}
-
-/// Replaces control characters, because the name of a file or field must not break the line or control a
-/// terminal.
-std::string printable(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
-  return name;
 }
 
 std::string summary_line(const Report& report, std::size_t clusters) {

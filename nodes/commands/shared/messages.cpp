@@ -8,9 +8,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <mutex>
+
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -46,9 +47,7 @@ void name_command(std::string_view name) {
 }
 
 void print_message(std::string_view text) {
-  std::string line = (command + ": ").append(text);
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+  const std::string line = printable((command + ": ").append(text));
   const std::lock_guard lock(mutex);
   write_error(erasure() + line + '\n' + status_line);
 }

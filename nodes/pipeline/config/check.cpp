@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "rows.h"
 #include "settings.h"
 
@@ -101,7 +102,7 @@ std::vector<std::string> lines(const std::vector<ConfigProblem>& problems) {
   std::vector<std::string> texts;
   texts.reserve(problems.size());
   for (const ConfigProblem& problem : problems)
-    texts.push_back(problem.key + ": " + problem.what);
+    texts.push_back(printable(problem.key + ": " + problem.what));
   return texts;
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 #include "check.h"
 #include "pcl_bv/io/read_json.h"
@@ -149,7 +150,8 @@ class PipelineSettings final : public RemoteParameters {
     const std::lock_guard lock(mutex_);
     PipelineConfig config = pipeline_.config();
     for (const auto& [key, value] : wanted.items()) {
-      if (std::string problem = put(key, value, config); !problem.empty()) return problem;
+      if (std::string problem = put(key, value, config); !problem.empty())
+        return printable(std::move(problem));
     }
     try {
       pipeline_.set_config(std::move(config));

@@ -22,9 +22,10 @@ namespace {
 // Line numbers of keys in the file, from 1. 0 means that the key is not in the file.
 using Lines = std::map<std::string, int>;
 
+// `what` may quote keys and values of the file, which may contain line ends.
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
-  if (name.empty()) throw ConfigError(what);
-  throw ConfigError(name + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + what);
+  const std::string where = line > 0 ? ": line " + std::to_string(line) : "";
+  throw ConfigError(printable(name.empty() ? what : name + where + ": " + what));
 }
 
 // Returns the unit of a number, to be appended to errors. For other types, returns an empty text, because

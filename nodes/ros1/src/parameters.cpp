@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pcl_bv/io/untrusted_text.h"
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv {
@@ -65,7 +66,7 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
   try {
     if (const std::string preset = take("preset"); !preset.empty()) apply_preset(preset, config.pipeline);
   } catch (const std::invalid_argument& error) {
-    throw ConfigError(name + ": preset: " + error.what());
+    throw ConfigError(printable(name + ": preset: " + error.what()));
   }
   if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
   if (tree["volumes"] && tree["volumes"].IsScalar()) {  // on a command line: _volumes:=aabb,sphere

@@ -14,6 +14,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/recording/recording.h"
@@ -32,7 +33,7 @@ std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   for (const RecordedTopic& topic : topics) {
     if (has_clouds(topic)) list += (list.empty() ? "" : ", ") + topic.name;
   }
-  return list;
+  return printable(list);
 }
 
 // Returns a list of the topics with their types, such as "/points (livox_ros_driver2/msg/CustomMsg)". Users
@@ -44,7 +45,7 @@ std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
     list += (list.empty() ? "" : ", ") + topic.name + " (" +
             (topic.type.empty() ? "of no type" : topic.type) + (usual ? "" : ", " + topic.encoding) + ')';
   }
-  return list.empty() ? "none" : list;
+  return list.empty() ? "none" : printable(list);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads untrusted text. Checks the text's size and nesting depth before any library parses it.
+// Reads untrusted text. Checks the text's size and nesting depth before any library parses it, and keeps
+// messages that quote the text on one line.
 #pragma once
 
 #include <cstddef>
@@ -38,6 +39,10 @@ std::string_view next_json_value(std::string_view text, std::size_t& at);
 /// Returns the position of byte `at` as text, such as "line 2, column 7". Lines and columns are counted from
 /// 1.
 std::string position_in(std::string_view text, std::size_t at);
+
+/// Returns the text with `?` in place of each control character. A control character would break the line of
+/// a message, or control a terminal. UTF-8 is unchanged.
+std::string printable(std::string text);
 
 }  // namespace detail
 }  // namespace pcl_bv
