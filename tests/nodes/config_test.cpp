@@ -278,7 +278,7 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"cluster: {min_size: 2}\ncluster: {max_size: 9}", "line 2: cluster: is given twice"},
       {"cluster.tolerance: 0.3", "line 1: unknown key 'cluster.tolerance'"},
       {"threads: {}", "line 1: unknown key 'threads'"},
-      {"threads: 1\n---\nbogus: 1", "line 3: a second YAML document begins"},
+      {"threads: 1\n---\nbogus: 1", "line 2: a second YAML document begins"},
       {"volumes: [obb, obb-min]", "volumes: 'obb-min' is named twice"},
       {"cluster: {tolerance: 1e-50}",
        "cluster.tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use 0, or at "
@@ -361,6 +361,13 @@ TEST(StreamConfig, NestedWithoutEndIsAnErrorInOurWords) {
     EXPECT_THAT(error_of(text), Not(AnyOf(HasSubstr("bad "), HasSubstr("yaml-cpp"), HasSubstr("not found"))))
         << text;
   EXPECT_THAT(error_of(times(1'048'577, " ")), HasSubstr("has more than 1048576 bytes"));
+}
+
+// Of these texts yaml-cpp 0.7 reads empty documents without end.
+TEST(StreamConfig, ACommaOutsideOfBracketsIsAnError) {
+  for (const char* text : {",", ", a", "[a] ,", "{threads: 1},", "\"a\","})
+    EXPECT_EQ(error_of(text), "robot.yaml: line 1: a second YAML document begins; only one is allowed")
+        << text;
 }
 
 TEST(StreamConfig, AFileThatCannotBeReadIsAnError) {

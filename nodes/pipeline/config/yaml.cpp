@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 
@@ -208,6 +210,34 @@ class Reader {
   Lines maps_;
 };
 
+// Stores the line where the last document begins.
+class DocumentStart final : public YAML::EventHandler {
+ public:
+  int line = 0;  // from 1
+
+  void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  }
+  void OnMapEnd() override {}
+};
+
+// Returns the line where a second document begins, or 0 if there is none. YAML::LoadAll() is not used,
+// because in yaml-cpp 0.7 a comma outside of brackets ends a document, but no document contains it. So
+// LoadAll() would append empty documents until the memory is full.
+int line_of_second_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStart start;
+  return parser.HandleNextDocument(start) && parser.HandleNextDocument(start) ? start.line : 0;
+}
+
 class Writer {
  public:
   template <typename T>
@@ -246,10 +276,9 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
   if (text.size() > kMaxConfigBytes)
     fail(name, 0, "has more than " + std::to_string(kMaxConfigBytes) + " bytes");
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      fail(name, documents[1].Mark().line + 1, "a second YAML document begins; only one is allowed");
-    Reader reader(documents.empty() ? YAML::Node() : documents.front(), name);
+    if (const int second = line_of_second_document(text); second > 0)
+      fail(name, second, "a second YAML document begins; only one is allowed");
+    Reader reader(YAML::Load(text), name);
     visit_stream(config, reader);
     reader.finish();
     reader.reject(problems_of(config));
