@@ -90,7 +90,6 @@ struct Buckets {
       }
       position = end;
     }
-    std::fill(begin.begin() + static_cast<std::ptrdiff_t>(bucket) + 1, begin.end(), position);
   }
 };
 
