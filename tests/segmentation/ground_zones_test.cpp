@@ -71,6 +71,11 @@ double bank_along_y(double, double y) {
 double mound(double x, double y) {
   return -1.7 + 0.15 * std::clamp((3 - std::sqrt(x * x + y * y)) / 2.25, 0.0, 1.0);
 }
+// Rises to a slope of 0.45 on all sides.
+double bowl(double x, double y) {
+  const double r = std::max(0.0, std::sqrt(x * x + y * y) - 5);
+  return -1.7 + (r < 15 ? 0.015 * r * r : 0.45 * r - 3.375);
+}
 double curb(double, double y) {
   return y > 4 || y < -3 ? -1.58 : -1.7;
 }
@@ -108,6 +113,21 @@ TEST(GroundZones, FollowASlopeAsSteepAsAllowed) {
     const Cloud<float> cloud = ground_of(height);
     expect_split(split(scene_view(cloud), settings), cloud.size(), cloud.size());
   }
+}
+
+// The ground of a cell rises by 0.22 m, which is more than `distance`.
+TEST(GroundZones, FollowASlopeWithinACell) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Cloud<float> cloud;
+  for (int i = 0; i < 100'000; ++i) {
+    const double r = std::sqrt(9 + 891 * unit(random)), angle = 2 * std::numbers::pi * unit(random);
+    const double x = r * std::cos(angle), y = r * std::sin(angle);
+    cloud.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(bowl(x, y))});
+  }
+  GroundZonesOptions settings;
+  settings.max_slope_degrees = 45;
+  expect_split(split(scene_view(cloud), settings), cloud.size(), cloud.size());
 }
 
 TEST(GroundZones, EndWhereASlopeIsSteeperThanAllowed) {

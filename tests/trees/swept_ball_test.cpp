@@ -122,6 +122,21 @@ TYPED_TEST(SweptBallOf, IsShownAllThatItTouchesAndOnlyWhatIsNear) {
   });
 }
 
+// The far coordinate is the radius, and the other one is small: only a margin that grows with every
+// coordinate allows for the rounding.
+TEST(SweptBall, IsShownAPointThatItTouchesOnlyAtTheEdge) {
+  for (int along = 0; along < 3; ++along) {
+    for (int away = 0; away < 3; ++away) {
+      if (away == along) continue;
+      Vector3d p = Vector3d::Zero();
+      p[along] = 1;
+      p[away] = 100;
+      const PointTree tree(PointView::of(p.data(), sizeof p, 1));
+      expect_shown(tree, {Vector3d::Zero(), Vector3d::Unit(along), 100}, 2);
+    }
+  }
+}
+
 // Else a greater pad would let through what expect_only_what_is_near() measures by it.
 TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
   const auto cloud = test::gaussian<double>(1000, 2, 3, 50);

@@ -260,6 +260,18 @@ TEST(Obb, OverlapsHoldsForBoxesThatTouch) {
   }
 }
 
+TEST(Obb, OverlapsHoldsForASmallBoxThatTouchesALongOne) {
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  for (int side = 0; side < 3; ++side) {
+    const Obb small({0, 0, 0}, axes, {1, 1, 1});
+    Vector3d half = Vector3d::Constant(100);
+    half[side] = 1;
+    const Obb plate(2 * Vector3d::Unit(side), axes, half);
+    EXPECT_TRUE(small.overlaps(plate)) << side;
+    EXPECT_TRUE(plate.overlaps(small)) << side;
+  }
+}
+
 TEST(Obb, OverlapsHoldsForBoxesOfDenormalSizeThatTouch) {
   for (const double size : {5e-324, 1e-310, 1e-308}) {
     const Vector3d half = Vector3d::Constant(size);
