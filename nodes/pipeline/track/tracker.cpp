@@ -72,7 +72,7 @@ struct Tracker::State {
   bool has_given_poses = false;  // whether tracks are in the frame of given poses
   std::int64_t last_stamp_ns = 0;
   bool started = false, poses_given = false;
-  double seconds = 0;  // time step of the frame; 0 if unknown
+  double elapsed = 0;  // seconds since the last frame; 0 if unknown
   std::uint32_t next_id = 0;
 };
 
@@ -234,7 +234,7 @@ void Tracker::predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
                       const std::optional<Pose>& pose) {
   State& s = *state_;
   const double passed = 1e-9 * (static_cast<double>(stamp_ns) - static_cast<double>(s.last_stamp_ns));
-  s.seconds = s.started && passed > 0 && passed <= 1 ? passed : 0;
+  s.elapsed = s.started && passed > 0 && passed <= 1 ? passed : 0;
   s.started = true;
   s.last_stamp_ns = stamp_ns;
   // Reserves more capacity than this frame needs. If a sequence is replayed, the tracks of its end are still
@@ -245,8 +245,8 @@ void Tracker::predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
   s.expected.reserve(s.tracks.capacity());
   s.pairs.reserve(4 * s.tracks.capacity());
   for (Track& track : s.tracks)
-    if (track.active) track.predict(s.seconds);
-  s.move_sensor(s.seconds, boxes, pose);
+    if (track.active) track.predict(s.elapsed);
+  s.move_sensor(s.elapsed, boxes, pose);
   s.poses_given = pose.has_value();
 }
 
@@ -255,7 +255,7 @@ void Tracker::assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
   State& s = *state_;
   assignments.assign(boxes.size(), Assignment());
   s.find_pairs(boxes, config.gate);
-  s.assign_boxes(s.seconds, boxes, assignments);
+  s.assign_boxes(s.elapsed, boxes, assignments);
   s.count_misses(boxes, assignments);
   s.prune(config.death);
   for (std::size_t b = 0; b < boxes.size(); ++b) {
