@@ -8,9 +8,9 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kMinLength = 1.5, kMaxLength = 7, kMaxHeight = 3.5;  // m, of a vehicle
-constexpr std::size_t kMinDetections = 3, kMaxMissed = 3;
-constexpr double kMargin = 0.3;  // m; a part is this far outside the known box at most
+constexpr double kMinVehicleLength = 1.5, kMaxVehicleLength = 7, kMaxVehicleHeight = 3.5;  // m, of a vehicle
+constexpr std::size_t kMinVehicleDetections = 3, kMaxVehicleMissed = 3;
+constexpr double kPartMargin = 0.3;  // m; a part is this far outside the known box at most
 
 // A person next to a vehicle is no part of it. The person has been seen apart in so many frames, is so large,
 // and is so near to the expected place.
@@ -20,15 +20,15 @@ constexpr double kPersonWidth = 1.2, kPersonHeight = 0.9, kPersonShift = 0.4;  /
 bool is_vehicle(const KnownObject& object) {
   const Eigen::Vector3d size = object.box.sizes();
   const double length = size.head<2>().maxCoeff();
-  return object.has_id && object.detections >= kMinDetections && object.missed <= kMaxMissed &&
-         length >= kMinLength && length <= kMaxLength && size.z() <= kMaxHeight;
+  return object.has_id && object.detections >= kMinVehicleDetections && object.missed <= kMaxVehicleMissed &&
+         length >= kMinVehicleLength && length <= kMaxVehicleLength && size.z() <= kMaxVehicleHeight;
 }
 
-double area_of(const KnownObject& object) {
+double plan_area(const KnownObject& object) {
   return object.box.sizes().head<2>().prod();
 }
 
-bool is_person(const Piece& piece, const std::vector<KnownObject>& known) {
+bool is_tracked_person(const Piece& piece, const std::vector<KnownObject>& known) {
   const Eigen::Vector3d size = piece.box.sizes();
   if (size.head<2>().maxCoeff() > kPersonWidth || size.z() < kPersonHeight) return false;
   const double x = piece.box.center().x();
@@ -43,9 +43,10 @@ bool is_person(const Piece& piece, const std::vector<KnownObject>& known) {
 
 bool PartJoin::is_part(const Piece& piece, const KnownObject& vehicle,
                        const std::vector<KnownObject>& known) const {
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kPartMargin);
   const Eigen::AlignedBox3d reach(vehicle.box.min() - margin, vehicle.box.max() + margin);
-  return reach.contains(piece.box) && vehicle.box.contains(piece.box.center()) && !is_person(piece, known);
+  return reach.contains(piece.box) && vehicle.box.contains(piece.box.center()) &&
+         !is_tracked_person(piece, known);
 }
 
 // Sorts the pieces that may be parts.
@@ -74,7 +75,7 @@ std::size_t PartJoin::find(const std::vector<Piece>& pieces, const std::vector<K
     if (is_vehicle(object)) vehicles_.push_back(&object);
   // A track that began on a part of a vehicle is smaller than the track of the vehicle.
   std::stable_sort(vehicles_.begin(), vehicles_.end(),
-                   [](const KnownObject* a, const KnownObject* b) { return area_of(*a) > area_of(*b); });
+                   [](const KnownObject* a, const KnownObject* b) { return plan_area(*a) > plan_area(*b); });
   sort_by_x(pieces);
   std::size_t joined = 0;
   for (const KnownObject* const vehicle : vehicles_) {

@@ -13,16 +13,16 @@ constexpr std::uint32_t kRest = static_cast<std::uint32_t>(-1);
 
 // A person who has been a part of a cluster for longer is not cut off any more: 6 s at 10 Hz.
 constexpr std::size_t kMaxCut = 60;
-constexpr std::size_t kMaxMissed = 10;  // frames
-constexpr double kMargin = 0.3;         // m; an expected person is this far outside the cluster at most
-constexpr double kNear = 2;             // m; radius around a person in which points are examined
-constexpr double kMinWidth = 1.3;       // m; a narrower cluster is one person with spread arms
-constexpr double kReach = 0.5;          // m; distance of a basin from the expected centre at most
+constexpr std::size_t kMaxFramesMissed = 10;  // frames
+constexpr double kExpectedMargin = 0.3;       // m; an expected person is this far outside the cluster at most
+constexpr double kNearRadius = 2;             // m; radius around a person in which points are examined
+constexpr double kMinCutWidth = 1.3;          // m; a narrower cluster is one person with spread arms
+constexpr double kBasinReach = 0.5;           // m; distance of a basin from the expected centre at most
 constexpr double kMaxBasin = 1.2, kMaxPerson = 1.3;  // m; largest widths
-constexpr std::size_t kMinPoints = 10;               // fewer points have no density
-constexpr double kMinHeight = 0.6;                   // share of the known height
+constexpr std::size_t kMinPersonPoints = 10;         // fewer points have no density
+constexpr double kMinHeightShare = 0.6;              // share of the known height
 
-double width_of(const Eigen::AlignedBox3d& box) {
+double plan_width(const Eigen::AlignedBox3d& box) {
   return box.sizes().head<2>().maxCoeff();
 }
 
@@ -37,18 +37,19 @@ bool is_over(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& position, do
 // else.
 bool TrackCut::find_people(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known) {
   people_.clear();
-  const double width = width_of(box);
+  const double width = plan_width(box);
   if (width <= 0.9) return false;
   std::size_t expected = 0;
-  const auto [first, last] = objects_between(known, box.min().x() - kMargin, box.max().x() + kMargin);
+  const auto [first, last] =
+      objects_between(known, box.min().x() - kExpectedMargin, box.max().x() + kExpectedMargin);
   for (const KnownObject* at = first; at != last; ++at) {
     const KnownObject& object = *at;
-    if (!is_over(box, object.box.center(), kMargin)) continue;
+    if (!is_over(box, object.box.center(), kExpectedMargin)) continue;
     ++expected;
-    if (object.upright() && object.whole > 0 && object.cut <= kMaxCut && object.missed <= kMaxMissed)
-      people_.push_back({&object});
+    if (object.upright() && object.whole > 0 && object.cut <= kMaxCut && object.missed <= kMaxFramesMissed)
+      people_.emplace_back().expected = &object;
   }
-  return !people_.empty() && (expected > 1 || width > kMinWidth);
+  return !people_.empty() && (expected > 1 || width > kMinCutWidth);
 }
 
 void TrackCut::find_near(const std::vector<Eigen::Vector3d>& points) {
@@ -57,7 +58,7 @@ void TrackCut::find_near(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near_person = [&](const Person& person) {
-      return (points[i] - person.expected->box.center()).head<2>().squaredNorm() < kNear * kNear;
+      return (points[i] - person.expected->box.center()).head<2>().squaredNorm() < kNearRadius * kNearRadius;
     };
     if (std::none_of(people_.begin(), people_.end(), near_person)) continue;
     near_.push_back(i);
@@ -82,9 +83,9 @@ void TrackCut::fill_basins(const std::vector<Eigen::Vector3d>& points, std::size
 // Gives each narrow basin to the nearest expected person within reach.
 void TrackCut::give_basins() {
   for (Basin& basin : basins_) {
-    if (width_of(basin.box) > kMaxBasin) continue;
+    if (plan_width(basin.box) > kMaxBasin) continue;
     const Eigen::Vector2d mean = basin.sum / static_cast<double>(basin.points);
-    double least = kReach;
+    double least = kBasinReach;
     for (Person& person : people_) {
       const double distance = (mean - person.expected->box.center().head<2>()).norm();
       if (distance >= least) continue;
@@ -100,8 +101,8 @@ void TrackCut::give_basins() {
 std::uint32_t TrackCut::number_people(std::size_t min_size) {
   std::uint32_t parts = 0;
   for (Person& person : people_) {
-    person.found = person.points >= min_size && width_of(person.box) <= kMaxPerson &&
-                   person.box.sizes().z() >= kMinHeight * person.expected->box.sizes().z();
+    person.found = person.points >= min_size && plan_width(person.box) <= kMaxPerson &&
+                   person.box.sizes().z() >= kMinHeightShare * person.expected->box.sizes().z();
     if (person.found) person.part = parts++;
   }
   return parts;
@@ -125,7 +126,7 @@ void TrackCut::give_rest(const std::vector<Eigen::Vector3d>& points,
 std::size_t TrackCut::find(const std::vector<Eigen::Vector3d>& points, const Eigen::AlignedBox3d& box,
                            const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                            std::vector<std::uint32_t>& part_of) {
-  min_size = std::max(min_size, kMinPoints);
+  min_size = std::max(min_size, kMinPersonPoints);
   if (!find_people(box, known)) return 1;
   find_near(points);
   if (near_.size() < min_size) return 1;
