@@ -49,7 +49,7 @@ class ClusterRefiner {
                      Counts& counts);
 
  private:
-  void start();
+  void start(const Clusters& clusters);
   void place(const PointView& cluster, const Pose& pose);
   void add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts, Refinement refinement);
   void join();

@@ -69,13 +69,21 @@ void PartJoin::find_parts(const std::vector<Piece>& pieces, const KnownObject& v
 
 std::size_t PartJoin::find(const std::vector<Piece>& pieces, const std::vector<KnownObject>& known,
                            const std::vector<std::int64_t>& class_of, std::vector<std::size_t>& whole_of) {
+  // More than this frame needs: a replay has more tracks, and cuts more clusters, than the first pass.
+  for (auto* const numbers : {&whole_of, &parts_})
+    numbers->reserve(2 * pieces.size());
+  taken_.reserve(2 * pieces.size());
+  by_x_.reserve(2 * pieces.size());
+  vehicles_.reserve(4 * pieces.size());
   whole_of.assign(pieces.size(), none);
   vehicles_.clear();
   for (const KnownObject& object : known)
     if (is_vehicle(object)) vehicles_.push_back(&object);
   // A track that began on a part of a vehicle is smaller than the track of the vehicle.
-  std::stable_sort(vehicles_.begin(), vehicles_.end(),
-                   [](const KnownObject* a, const KnownObject* b) { return plan_area(*a) > plan_area(*b); });
+  std::sort(vehicles_.begin(), vehicles_.end(), [](const KnownObject* a, const KnownObject* b) {
+    const double area = plan_area(*a), other = plan_area(*b);
+    return area != other ? area > other : a->slot < b->slot;
+  });
   sort_by_x(pieces);
   std::size_t joined = 0;
   for (const KnownObject* const vehicle : vehicles_) {

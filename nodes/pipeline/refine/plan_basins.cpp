@@ -19,6 +19,14 @@ constexpr std::array<std::uint64_t, 9> kWeights{6, 5, 4, 0, 3, 2, 0, 0, 1};
 
 }  // namespace
 
+void PlanBasins::reserve(std::size_t points) {
+  placed_.reserve(points);
+  cells_.reserve(points);
+  cell_of_.reserve(points);
+  order_.reserve(points);
+  number_.reserve(points);
+}
+
 void PlanBasins::fill_cells(const std::vector<Eigen::Vector2d>& points, double side) {
   placed_.clear();
   for (const Eigen::Vector2d& point : points) {

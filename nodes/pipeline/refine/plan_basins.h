@@ -26,6 +26,9 @@ class PlanBasins {
   std::size_t find(const std::vector<Eigen::Vector2d>& points, double side,
                    std::vector<std::uint32_t>& basin_of);
 
+  /// Allocates the memory for find() of at most `points` points.
+  void reserve(std::size_t points);
+
  private:
   struct Cell {
     std::int64_t x = 0, y = 0;

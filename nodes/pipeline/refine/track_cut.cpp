@@ -123,6 +123,15 @@ void TrackCut::give_rest(const std::vector<Eigen::Vector3d>& points,
   }
 }
 
+void TrackCut::reserve(std::size_t points) {
+  plan_basins_.reserve(points);
+  near_.reserve(points);
+  plan_.reserve(points);
+  basin_of_.reserve(points);
+  basins_.reserve(points);
+  people_.reserve(64);
+}
+
 std::size_t TrackCut::find(const std::vector<Eigen::Vector3d>& points, const Eigen::AlignedBox3d& box,
                            const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                            std::vector<std::uint32_t>& part_of) {

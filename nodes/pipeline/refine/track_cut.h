@@ -31,6 +31,10 @@ class TrackCut {
                    const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                    std::vector<std::uint32_t>& part_of);
 
+  /// Allocates the memory for find() of at most `points` points. Which clusters are cut depends on the tracks,
+  /// so a later frame with the same clusters may need more memory than this one.
+  void reserve(std::size_t points);
+
  private:
   struct Person {
     const KnownObject* expected = nullptr;

@@ -273,6 +273,7 @@ void Tracker::assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
 
 void Tracker::list_known(std::vector<KnownObject>& known) const {
   known.clear();
+  known.reserve(state_->tracks.capacity());
   for (std::size_t t = 0; t < state_->tracks.size(); ++t) {
     const Track& track = state_->tracks[t];
     if (!track.active || track.known.box.isEmpty()) continue;
@@ -282,8 +283,9 @@ void Tracker::list_known(std::vector<KnownObject>& known) const {
     known.back().missed = track.missed;
     known.back().has_id = track.id.has_value();
   }
-  std::stable_sort(known.begin(), known.end(), [](const KnownObject& a, const KnownObject& b) {
-    return a.box.center().x() < b.box.center().x();
+  std::sort(known.begin(), known.end(), [](const KnownObject& a, const KnownObject& b) {
+    const double x = a.box.center().x(), other = b.box.center().x();
+    return x != other ? x < other : a.slot < b.slot;
   });
 }
 
