@@ -59,9 +59,9 @@ bool NeckCut::project(const PointView& cluster, const Eigen::Vector3d& up) {
     points_.emplace_back(point.dot(x), point.dot(y), point.dot(up));
     box_.extend(points_.back());
   }
-  const double width = width_of(box_);
-  if (!(width >= kMinClusterWidth && width <= kMaxClusterWidth && box_.sizes().z() <= kMaxClusterHeight))
-    return false;
+  const double width = width_of(box_), height = box_.sizes().z();
+  if (!(width >= kMinClusterWidth && width <= kMaxClusterWidth)) return false;
+  if (!(height >= kMinHeight && height <= kMaxClusterHeight)) return false;
   for (Eigen::Vector3d& point : points_)
     point -= box_.min();
   box_ = {Eigen::Vector3d::Zero(), box_.sizes()};
