@@ -36,13 +36,15 @@ void ClusterRefiner::place(const PointView& cluster, const Pose& pose) {
 }
 
 // Reserves more than this frame needs: in a replay, other clusters are cut and joined.
-void ClusterRefiner::start(const Clusters& clusters) {
+void ClusterRefiner::start(Clusters& clusters, std::vector<Refinement>& refinements) {
   indices_.clear();
   pieces_.clear();
   indices_.reserve(2 * clusters.indices.size());
   pieces_.reserve(2 * clusters.size());
   members_.reserve(2 * clusters.size());
   classes_.reserve(2 * clusters.size());
+  clusters.offsets.reserve(2 * clusters.offsets.size());
+  refinements.reserve(2 * clusters.size());
 }
 
 // Adds the parts of a cluster, or the whole cluster. The indices of each part stay ascending.
@@ -90,11 +92,9 @@ void ClusterRefiner::replace(Clusters& clusters, std::vector<std::int64_t>& clas
   std::sort(pieces_.begin(), pieces_.end(), [&](const Piece& a, const Piece& b) {
     return a.size != b.size ? a.size > b.size : indices_[a.begin] < indices_[b.begin];
   });
-  clusters.offsets.reserve(2 * pieces_.size() + 1);
-  refinements.reserve(2 * pieces_.size());
   clusters.indices.clear();
   clusters.offsets.assign(1, 0);
-  classes_.swap(class_of);
+  classes_ = class_of;
   class_of.clear();
   refinements.clear();
   for (const Piece& piece : pieces_) {
@@ -109,7 +109,7 @@ void ClusterRefiner::replace(Clusters& clusters, std::vector<std::int64_t>& clas
 void ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOptions& options, Clusters& clusters,
                                   std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
                                   Counts& counts) {
-  start(clusters);
+  start(clusters, refinements);
   std::size_t cut = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
@@ -130,9 +130,7 @@ void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& 
                                    const std::vector<KnownObject>& known, Clusters& clusters,
                                    std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
                                    Counts& counts) {
-  start(clusters);
-  if (clusters.size() > 0) track_cut_.reserve(clusters.list_size(0));  // the largest cluster
-  part_of_.reserve(clusters.size() > 0 ? clusters.list_size(0) : 0);
+  start(clusters, refinements);
   std::size_t cut = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));

@@ -49,7 +49,7 @@ class ClusterRefiner {
                      Counts& counts);
 
  private:
-  void start(const Clusters& clusters);
+  void start(Clusters& clusters, std::vector<Refinement>& refinements);
   void place(const PointView& cluster, const Pose& pose);
   void add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts, Refinement refinement);
   void join();

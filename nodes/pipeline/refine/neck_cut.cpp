@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
-#include <utility>
 
 #include "density_cell.h"
 
@@ -68,39 +66,28 @@ bool NeckCut::project(const PointView& cluster, const Eigen::Vector3d& up) {
   return true;
 }
 
-// The height of the lowest point in the square and the eight squares around it.
-double NeckCut::floor_at(std::int32_t x, std::int32_t y) const {
-  double floor = std::numeric_limits<double>::infinity();
-  for (std::int32_t column = x - 1; column <= x + 1; ++column) {
-    for (std::int32_t row = y - 1; row <= y + 1; ++row) {
-      const auto at = std::lower_bound(
-          floor_.begin(), floor_.end(), std::pair(column, row),
-          [](const FloorPoint& p, const auto& square) { return std::pair(p.x, p.y) < square; });
-      if (at != floor_.end() && at->x == column && at->y == row) floor = std::min(floor, at->height);
+void NeckCut::find_low_points() {
+  lowest_.fill(std::numeric_limits<double>::infinity());
+  const auto square_of = [](const Eigen::Vector3d& point) {
+    return (static_cast<std::size_t>(point.x() / kSquare) + 1) * kRow +
+           static_cast<std::size_t>(point.y() / kSquare) + 1;
+  };
+  for (const Eigen::Vector3d& point : points_) {
+    double& lowest = lowest_[square_of(point)];
+    lowest = std::min(lowest, point.z());
+  }
+  for (std::size_t x = 1; x + 1 < kRow; ++x) {
+    for (std::size_t y = 1; y + 1 < kRow; ++y) {
+      double& floor = floor_[x * kRow + y];
+      floor = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < 9; ++i)
+        floor = std::min(floor, lowest_[(x + i / 3 - 1) * kRow + y + i % 3 - 1]);
     }
   }
-  return floor;
-}
-
-void NeckCut::find_low_points() {
-  floor_.clear();
-  for (std::uint32_t i = 0; i < points_.size(); ++i) {
-    const Eigen::Vector3d& p = points_[i];
-    floor_.push_back(
-        {static_cast<std::int32_t>(p.x() / kSquare), static_cast<std::int32_t>(p.y() / kSquare), p.z(), i});
-  }
-  std::sort(floor_.begin(), floor_.end(), [](const FloorPoint& a, const FloorPoint& b) {
-    return std::tie(a.x, a.y, a.height, a.point) < std::tie(b.x, b.y, b.height, b.point);
-  });
   tall_.clear();
   low_.clear();
-  double floor = 0;
-  for (std::size_t i = 0; i < floor_.size(); ++i) {
-    const FloorPoint& p = floor_[i];
-    if (i == 0 || p.x != floor_[i - 1].x || p.y != floor_[i - 1].y) floor = floor_at(p.x, p.y);
-    (p.height >= floor + kLow ? tall_ : low_).push_back(p.point);
-  }
-  std::sort(tall_.begin(), tall_.end());
+  for (std::uint32_t i = 0; i < points_.size(); ++i)
+    (points_[i].z() >= floor_[square_of(points_[i])] + kLow ? tall_ : low_).push_back(i);
 }
 
 void NeckCut::find_basins(double cell) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -44,14 +45,10 @@ class NeckCut {
     std::uint32_t part = 0;
     bool person = false;
   };
-  struct FloorPoint {
-    std::int32_t x, y;  // square of the plane
-    double height;
-    std::uint32_t point;
-  };
+  // Squares of 1 m cover a cluster of 12 m, with a margin of one square on each side.
+  static constexpr std::size_t kRow = 15;
 
   bool project(const PointView& cluster, const Eigen::Vector3d& up);
-  double floor_at(std::int32_t x, std::int32_t y) const;
   void find_low_points();
   void find_basins(double cell);
   bool give_low_points();
@@ -61,10 +58,10 @@ class NeckCut {
 
   PlanBasins plan_basins_;
   std::vector<Eigen::Vector3d> points_;
-  Eigen::AlignedBox3d box_;  // of points_
-  std::vector<FloorPoint> floor_;
-  std::vector<std::uint32_t> tall_, low_;  // points above the floor, and the others
-  std::vector<Eigen::Vector2d> plan_;      // of the points in tall_
+  Eigen::AlignedBox3d box_;                             // of points_
+  std::array<double, kRow * kRow> lowest_{}, floor_{};  // heights: of a square, and of it and those around it
+  std::vector<std::uint32_t> tall_, low_;               // points above the floor, and the others
+  std::vector<Eigen::Vector2d> plan_;                   // of the points in tall_
   std::vector<std::uint32_t> tall_basin_, basin_of_;
   std::vector<Basin> basins_;
 };

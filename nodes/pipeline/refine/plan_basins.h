@@ -21,26 +21,24 @@ namespace [[gnu::visibility("default")]] detail {
 class PlanBasins {
  public:
   /// Replaces `basin_of` by the number of each point's basin. Returns the number of basins. Basin 0 has the
-  /// densest peak. `side` is the side of a cell, above 0. Coordinates must be below 2^40 sides.
-  /// O(n log n). A reused object allocates only if it needs more memory than before.
+  /// densest peak. `side` is the side of a cell, above 0. If the points span more than 2^22 cells, all of
+  /// them are one basin. O(n log n). A reused object allocates only if it needs more memory than before.
   std::size_t find(const std::vector<Eigen::Vector2d>& points, double side,
                    std::vector<std::uint32_t>& basin_of);
 
-  /// Allocates the memory for find() of at most `points` points.
-  void reserve(std::size_t points);
+  /// Allocates the memory for find() of at most `points` points in a rectangle with these sides.
+  void reserve(std::size_t points, const Eigen::Vector2d& sides, double side);
 
  private:
   struct Cell {
-    std::int64_t x = 0, y = 0;
-    std::uint64_t count = 0, density = 0;
+    std::uint32_t place = 0;  // in the grid
+    std::uint32_t count = 0;
+    std::uint64_t density = 0;
     std::uint32_t parent = 0;  // a cell of the same basin; itself for the peak
     std::uint32_t rank = 0;    // position in the order of descending density
   };
-  struct PlacedPoint {
-    std::int64_t x, y;
-    std::uint32_t point;
-  };
 
+  bool make_grid(const Eigen::Vector2d& sides, double side);
   void fill_cells(const std::vector<Eigen::Vector2d>& points, double side);
   void sort_by_density();
   template <typename Visit>
@@ -48,8 +46,10 @@ class PlanBasins {
   std::uint32_t peak_of(std::uint32_t cell);
   void join(std::uint32_t a, std::uint32_t b, std::uint64_t saddle);
 
-  std::vector<PlacedPoint> placed_;
-  std::vector<Cell> cells_;  // by ascending x, then y
+  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();  // lower corner of the points
+  std::size_t stride_ = 0;                         // cells of a column of the grid
+  std::vector<std::uint32_t> grid_;  // number of the cell at each place; kNone between two calls
+  std::vector<Cell> cells_;
   std::vector<std::uint32_t> cell_of_, order_, number_;
 };
 

@@ -123,8 +123,10 @@ void TrackCut::give_rest(const std::vector<Eigen::Vector3d>& points,
   }
 }
 
-void TrackCut::reserve(std::size_t points) {
-  plan_basins_.reserve(points);
+// Allocates the memory for the cluster, also if it will not be cut. Which clusters are cut depends on the
+// tracks, so a later frame with the same clusters may need more memory than this one.
+void TrackCut::reserve(std::size_t points, const Eigen::AlignedBox3d& box, double cell) {
+  plan_basins_.reserve(points, box.sizes().head<2>(), cell);
   near_.reserve(points);
   plan_.reserve(points);
   basin_of_.reserve(points);
@@ -136,6 +138,8 @@ std::size_t TrackCut::find(const std::vector<Eigen::Vector3d>& points, const Eig
                            const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                            std::vector<std::uint32_t>& part_of) {
   min_size = std::max(min_size, kMinPersonPoints);
+  reserve(points.size(), box, cell);
+  part_of.reserve(points.size());
   if (!find_people(box, known)) return 1;
   find_near(points);
   if (near_.size() < min_size) return 1;

@@ -31,10 +31,6 @@ class TrackCut {
                    const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                    std::vector<std::uint32_t>& part_of);
 
-  /// Allocates the memory for find() of at most `points` points. Which clusters are cut depends on the tracks,
-  /// so a later frame with the same clusters may need more memory than this one.
-  void reserve(std::size_t points);
-
  private:
   struct Person {
     const KnownObject* expected = nullptr;
@@ -50,6 +46,7 @@ class TrackCut {
     Person* person = nullptr;
   };
 
+  void reserve(std::size_t points, const Eigen::AlignedBox3d& box, double cell);
   bool find_people(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known);
   void find_near(const std::vector<Eigen::Vector3d>& points);
   void fill_basins(const std::vector<Eigen::Vector3d>& points, std::size_t count);
