@@ -16,6 +16,7 @@
 #include "detections.h"
 #include "kitti_score.h"
 #include "pipeline/track/tracker.h"
+#include "score_program.h"
 #include "track_score.h"
 
 namespace pcl_bv::bench {
@@ -25,10 +26,6 @@ namespace {
 constexpr const char* kUsage =
     "usage: association_scores synth [SEEDS [FRAMES [FIRST_SEED]]]\n"
     "       association_scores kitti DETECTIONS.txt LABELS.txt CALIBRATION.txt [CLASS [MIN_SCORE]]\n";
-
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 using Ids = std::vector<std::optional<std::uint32_t>>;
 
@@ -251,13 +248,5 @@ int run(int argc, char** argv) {
 }  // namespace pcl_bv::bench
 
 int main(int argc, char** argv) {
-  try {
-    return pcl_bv::bench::run(argc, argv);
-  } catch (const pcl_bv::bench::UsageError& error) {
-    std::fprintf(stderr, "association_scores: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "association_scores: %s\n", error.what());
-    return 1;
-  }
+  return pcl_bv::bench::run_scores("association_scores", [&] { return pcl_bv::bench::run(argc, argv); });
 }

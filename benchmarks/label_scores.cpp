@@ -20,6 +20,7 @@
 #include "kitti_score.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/report/report.h"
+#include "score_program.h"
 #include "semantic_score.h"
 
 namespace pcl_bv::bench {
@@ -32,10 +33,6 @@ constexpr const char* kUsage =
     "                    [--classes Car,Pedestrian,Cyclist] [--min-iou 0.3] [--method NAME] "
     "[--count-unlabelled]\n"
     "       label_scores semantic-kitti FOUND_FOLDER LABELS_FOLDER [further pairs] [--sensor-height 1.73]\n";
-
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 std::string shown(double number) {
   char text[32];
@@ -251,13 +248,5 @@ int run(int argc, char** argv) {
 }  // namespace pcl_bv::bench
 
 int main(int argc, char** argv) {
-  try {
-    return pcl_bv::bench::run(argc, argv);
-  } catch (const pcl_bv::bench::UsageError& error) {
-    std::fprintf(stderr, "label_scores: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "label_scores: %s\n", error.what());
-    return 1;
-  }
+  return pcl_bv::bench::run_scores("label_scores", [&] { return pcl_bv::bench::run(argc, argv); });
 }

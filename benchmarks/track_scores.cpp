@@ -1,20 +1,22 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// track_scores [SEEDS [FRAMES [BEAMS [FIRST]]]]: scores of tracking cars, people, cyclists and poles of
-// synth:rural-road-sequence: FRAMES (300) frames of each of SEEDS (3) seeds from FIRST (1) on, with and
-// without poses, with unchanged and stabilised boxes.
+// track_scores [SEEDS [FRAMES [BEAMS [FIRST [off|neck|tracks]]]]]: scores of tracking cars, people, cyclists
+// and poles of synth:rural-road-sequence: FRAMES (300) frames of each of SEEDS (3) seeds from FIRST (1) on,
+// with this refinement (tracks), with and without poses, with unchanged and stabilised boxes.
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "motion_score.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/rural_road.h"
+#include "pipeline/config/settings.h"
 #include "track_score.h"
 
 namespace pcl_bv::bench {
@@ -36,10 +38,11 @@ Pose pose_of(const std::array<double, 12>& rows) {
   return pose;
 }
 
-PipelineConfig config_of(bool steady) {
+PipelineConfig config_of(bool steady, Refine refine) {
   PipelineConfig config;
   apply_preset("road", config);
   config.volumes = {"obb-lshape"};
+  config.cluster.refine = refine;
   config.track.enabled = true;
   config.track.smooth = config.track.grow = steady;
   return config;
@@ -47,11 +50,12 @@ PipelineConfig config_of(bool steady) {
 
 // One way to run the pipeline, and what came of it.
 struct Contest {
-  Contest(const char* row, bool with_poses, bool steadied)
-      : name(row), poses(with_poses), steady(steadied), pipeline(config_of(steadied)) {}
+  Contest(const char* row, bool with_poses, const PipelineConfig& settings)
+      : name(row), poses(with_poses), config(settings), pipeline(settings) {}
 
   const char* name;
-  bool poses, steady;
+  bool poses;
+  PipelineConfig config;
   FramePipeline pipeline;
   FrameResult result;
   TrackScore tracks;
@@ -162,15 +166,17 @@ int run(int argc, char** argv) {
   const auto argument = [&](int i, std::size_t otherwise) {
     return argc > i ? static_cast<std::size_t>(std::stoull(argv[i])) : otherwise;
   };
+  Refine refine = Refine::tracks;
+  if (argc > 5) read_text(argv[5], refine);
   std::vector<Contest> contests;
   for (const bool poses : {true, false}) {
-    contests.emplace_back(poses ? "poses" : "no poses", poses, false);
-    contests.emplace_back(poses ? "poses, steady" : "no poses, steady", poses, true);
+    contests.emplace_back(poses ? "poses" : "no poses", poses, config_of(false, refine));
+    contests.emplace_back(poses ? "poses, steady" : "no poses, steady", poses, config_of(true, refine));
   }
   const std::size_t first = argument(4, 1);
   for (std::size_t seed = first; seed < first + argument(1, 3); ++seed) {
     for (Contest& contest : contests) {
-      contest.pipeline = FramePipeline(config_of(contest.steady));
+      contest.pipeline = FramePipeline(contest.config);
       contest.tracks.start_sequence();
       contest.motion.start_sequence();
     }

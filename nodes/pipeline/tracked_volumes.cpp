@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "pcl_bv/fitting/fit.h"
+#include "pipeline/refine/geometry.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -93,10 +94,8 @@ void TrackedVolumes::know_objects(const std::vector<PointView>& clusters, const 
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     if (assignments_[i].merged) continue;
     Eigen::AlignedBox3d box;
-    for (std::size_t j = 0; j < clusters[i].count; ++j) {
-      const Coordinates c = load_point(clusters[i], j);
-      box.extend(pose * Eigen::Vector3d(c.x, c.y, c.z));
-    }
+    for (std::size_t j = 0; j < clusters[i].count; ++j)
+      box.extend(pose * point_at(clusters[i], j));
     tracker_.know(assignments_[i].slot, box, result.refinements[i]);
   }
 }

@@ -5,16 +5,11 @@
 
 #include <algorithm>
 
-#include "density_cell.h"
+#include "geometry.h"
 #include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::detail {
 namespace {
-
-Eigen::Vector3d point_at(const PointView& view, std::size_t i) {
-  const Coordinates c = load_point(view, i);
-  return {c.x, c.y, c.z};
-}
 
 std::size_t min_size_of(const RefineOptions& options, const std::vector<std::int64_t>& class_of,
                         std::size_t cluster) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "density_cell.h"
+#include "geometry.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -19,8 +19,8 @@ constexpr double kMinHeight = 0.9;
 constexpr double kMaxHeight = 2.3;
 constexpr double kMinSlenderness = 1.3;  // height divided by width
 
-// Limits for a person next to something else. On the rural road (64 beams, seeds 11 to 13) 130 of 169 people
-// keep these limits, and 32 of 180 parts of cars, walls and people that have the size of a person.
+// Limits for a person next to something else. Parts of cars and walls that have the size of a person are
+// mostly wider, lower, or have fewer points for their size.
 constexpr double kMaxWidthAlone = 0.85, kMinHeightAlone = 1.2;  // m
 constexpr double kMaxRise = 0.2;     // m; the part begins this far above the lowest point at most
 constexpr double kMinDensity = 0.5;  // of the part's points per width and height, divided by the rest's
@@ -35,10 +35,6 @@ constexpr double kMaxRemainder = 0.3;
 // objects that are apart above them. They belong to the basin within kNear, if any.
 constexpr double kSquare = 1, kLow = 0.3, kNear = 0.3;  // m
 
-double width_of(const Eigen::AlignedBox3d& box) {
-  return box.sizes().head<2>().maxCoeff();
-}
-
 double distance_to(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) {
   return (point - point.cwiseMax(box.min()).cwiseMin(box.max())).head<2>().norm();
 }
@@ -52,12 +48,11 @@ bool NeckCut::project(const PointView& cluster, const Eigen::Vector3d& up) {
   points_.clear();
   box_.setEmpty();
   for (std::size_t i = 0; i < cluster.count; ++i) {
-    const Coordinates c = load_point(cluster, i);
-    const Eigen::Vector3d point(c.x, c.y, c.z);
+    const Eigen::Vector3d point = point_at(cluster, i);
     points_.emplace_back(point.dot(x), point.dot(y), point.dot(up));
     box_.extend(points_.back());
   }
-  const double width = width_of(box_), height = box_.sizes().z();
+  const double width = plan_width(box_), height = box_.sizes().z();
   if (!(width >= kMinClusterWidth && width <= kMaxClusterWidth)) return false;
   if (!(height >= kMinHeight && height <= kMaxClusterHeight)) return false;
   for (Eigen::Vector3d& point : points_)
@@ -110,7 +105,7 @@ void NeckCut::find_basins(double cell) {
 // as narrow as a person.
 bool NeckCut::give_low_points() {
   if (std::none_of(basins_.begin(), basins_.end() - 1,
-                   [](const Basin& basin) { return width_of(basin.box) <= kMaxWidth; }))
+                   [](const Basin& basin) { return plan_width(basin.box) <= kMaxWidth; }))
     return false;
   for (const std::uint32_t i : low_) {
     double least = kNear;
@@ -132,7 +127,7 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
   std::uint32_t parts = 0;
   std::size_t rest = points_.size();
   for (Basin& basin : basins_) {
-    const double width = width_of(basin.box), height = basin.box.max().z() - basin.lowest;
+    const double width = plan_width(basin.box), height = basin.box.max().z() - basin.lowest;
     basin.person = basin.points >= min_size && width >= kMinWidth && width <= kMaxWidth &&
                    height >= kMinHeight && height <= kMaxHeight && height >= kMinSlenderness * width;
     if (!basin.person) continue;
@@ -155,11 +150,11 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
 
 // Whether a basin with the size of a person is a person next to something else.
 bool NeckCut::stands_out(const Basin& basin) const {
-  const double width = width_of(basin.box), height = basin.box.max().z() - basin.lowest;
+  const double width = plan_width(basin.box), height = basin.box.max().z() - basin.lowest;
   if (!basin.person || width > kMaxWidthAlone || height < kMinHeightAlone) return false;
   if (basin.lowest > kMaxRise) return false;
   const auto points = static_cast<double>(basin.points), rest = static_cast<double>(points_.size()) - points;
-  return points * width_of(box_) * box_.sizes().z() >= kMinDensity * rest * std::max(0.2, width) * height;
+  return points * plan_width(box_) * box_.sizes().z() >= kMinDensity * rest * std::max(0.2, width) * height;
 }
 
 // Numbers the people next to something else, and after them the rest. Returns the number of parts.
@@ -182,9 +177,8 @@ std::size_t NeckCut::find(const PointView& cluster, const Eigen::Vector3d& up, c
                           std::size_t min_size, std::vector<std::uint32_t>& part_of) {
   min_size = std::max(min_size, kMinPoints);
   if (cluster.count < 2 * min_size || !project(cluster, up)) return 1;
-  const Coordinates c = load_point(cluster, 0);
   find_low_points();
-  find_basins(density_cell((Eigen::Vector3d(c.x, c.y, c.z) - sensor).norm()));
+  find_basins(density_cell((point_at(cluster, 0) - sensor).norm()));
   if (!give_low_points()) return 1;
   std::uint32_t parts = number_group(min_size);
   if (parts == 0) parts = number_people(min_size);

@@ -22,9 +22,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// There are two kinds of cuts:
 /// - A group: at least two parts have the size of a person, and these have 70 % of the points. Each other
 ///   point belongs to the nearest person.
-/// - A person next to something else, such as a car or a wall: the part has the shape of a person, begins
-/// where
-///   the cluster begins, and is as dense as the cluster. The other points stay one object.
+/// - A person next to something else, such as a car or a wall: the part has the shape of a person, begins at
+///   the lowest point of the cluster, and has enough points for its size. The other points stay one object.
 class NeckCut {
  public:
   /// Replaces `part_of` by the number of the part of each point. Returns the number of parts. With fewer than

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "geometry.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -18,10 +20,9 @@ constexpr std::size_t kPersonDetections = 5;
 constexpr double kPersonWidth = 1.2, kPersonHeight = 0.9, kPersonShift = 0.4;  // m
 
 bool is_vehicle(const KnownObject& object) {
-  const Eigen::Vector3d size = object.box.sizes();
-  const double length = size.head<2>().maxCoeff();
+  const double length = plan_width(object.box), height = object.box.sizes().z();
   return object.has_id && object.detections >= kMinVehicleDetections && object.missed <= kMaxVehicleMissed &&
-         length >= kMinVehicleLength && length <= kMaxVehicleLength && size.z() <= kMaxVehicleHeight;
+         length >= kMinVehicleLength && length <= kMaxVehicleLength && height <= kMaxVehicleHeight;
 }
 
 double plan_area(const KnownObject& object) {
@@ -29,8 +30,7 @@ double plan_area(const KnownObject& object) {
 }
 
 bool is_tracked_person(const Piece& piece, const std::vector<KnownObject>& known) {
-  const Eigen::Vector3d size = piece.box.sizes();
-  if (size.head<2>().maxCoeff() > kPersonWidth || size.z() < kPersonHeight) return false;
+  if (plan_width(piece.box) > kPersonWidth || piece.box.sizes().z() < kPersonHeight) return false;
   const double x = piece.box.center().x();
   const auto [first, last] = objects_between(known, x - kPersonShift, x + kPersonShift);
   return std::any_of(first, last, [&](const KnownObject& object) {

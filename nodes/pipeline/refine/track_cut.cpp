@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -16,15 +18,12 @@ constexpr std::size_t kMaxCut = 60;
 constexpr std::size_t kMaxFramesMissed = 10;  // frames
 constexpr double kExpectedMargin = 0.3;       // m; an expected person is this far outside the cluster at most
 constexpr double kNearRadius = 2;             // m; radius around a person in which points are examined
-constexpr double kMinCutWidth = 1.3;          // m; a narrower cluster is one person with spread arms
+constexpr double kMaxWholeWidth = 0.9;        // m; a cluster up to this width is one person
+constexpr double kMinCutWidth = 1.3;          // m; up to this width, something else must be expected, too
 constexpr double kBasinReach = 0.5;           // m; distance of a basin from the expected centre at most
 constexpr double kMaxBasin = 1.2, kMaxPerson = 1.3;  // m; largest widths
 constexpr std::size_t kMinPersonPoints = 10;         // fewer points have no density
 constexpr double kMinHeightShare = 0.6;              // share of the known height
-
-double plan_width(const Eigen::AlignedBox3d& box) {
-  return box.sizes().head<2>().maxCoeff();
-}
 
 bool is_over(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& position, double margin) {
   return (position.head<2>().array() >= box.min().head<2>().array() - margin).all() &&
@@ -38,7 +37,7 @@ bool is_over(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& position, do
 bool TrackCut::find_people(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known) {
   people_.clear();
   const double width = plan_width(box);
-  if (width <= 0.9) return false;
+  if (width <= kMaxWholeWidth) return false;
   std::size_t expected = 0;
   const auto [first, last] =
       objects_between(known, box.min().x() - kExpectedMargin, box.max().x() + kExpectedMargin);
@@ -55,7 +54,6 @@ bool TrackCut::find_people(const Eigen::AlignedBox3d& box, const std::vector<Kno
 void TrackCut::find_near(const std::vector<Eigen::Vector3d>& points) {
   near_.clear();
   plan_.clear();
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near_person = [&](const Person& person) {
       return (points[i] - person.expected->box.center()).head<2>().squaredNorm() < kNearRadius * kNearRadius;
@@ -63,10 +61,7 @@ void TrackCut::find_near(const std::vector<Eigen::Vector3d>& points) {
     if (std::none_of(people_.begin(), people_.end(), near_person)) continue;
     near_.push_back(i);
     plan_.emplace_back(points[i].head<2>());
-    low = low.cwiseMin(plan_.back());
   }
-  for (Eigen::Vector2d& point : plan_)
-    point -= low;
 }
 
 void TrackCut::fill_basins(const std::vector<Eigen::Vector3d>& points, std::size_t count) {

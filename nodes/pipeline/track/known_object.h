@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "face_shift.h"
 #include "pcl_bv/segmentation/clusters.h"
+#include "pipeline/refine/geometry.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -29,7 +31,7 @@ struct KnownObject {
   /// Whether the object has the shape of a person: 0.9 m to 2.3 m high, at most 1.2 m wide, and 1.2 times
   /// higher than wide.
   bool upright() const {
-    const double width = box.sizes().head<2>().maxCoeff(), height = box.sizes().z();
+    const double width = plan_width(box), height = box.sizes().z();
     return width <= 1.2 && height >= 0.9 && height <= 2.3 && height >= 1.2 * width;
   }
 
@@ -47,9 +49,7 @@ struct KnownObject {
     if (box.isEmpty()) box = seen;
     for (int i = 0; i < 3; ++i) {
       const double at_low = seen.min()[i] - box.min()[i], at_high = seen.max()[i] - box.max()[i];
-      double shift = 0;
-      if (at_low > 0 && at_high > 0) shift = std::min(at_low, at_high);
-      if (at_low < 0 && at_high < 0) shift = std::max(at_low, at_high);
+      const double shift = face_shift(at_low, at_high);
       box.min()[i] += shift + (at_low < shift ? 1 : 0.03) * (at_low - shift);
       box.max()[i] += shift + (at_high > shift ? 1 : 0.03) * (at_high - shift);
     }

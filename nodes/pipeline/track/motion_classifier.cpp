@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_shift.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -19,17 +21,12 @@ constexpr double kStartSpeed = 0.7,
 // larger squared velocity, is above this value.
 constexpr double kMinAlignment = 0.25;
 
-// Along the sensor's x and y, returns the smaller displacement of the two opposite faces, or 0 if the faces
-// move apart or towards each other. If a part of the object comes into or goes out of view, only one face
-// moves, so the result is 0.
+// Returns face_shift() along the sensor's x and y.
 Eigen::Vector2d smallest_shift(const Eigen::Vector3d& displacement, const Eigen::Vector3d& before,
                                const Eigen::Vector3d& now) {
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  for (int i = 0; i < 2; ++i) {
-    const double low = displacement[i] - now[i] + before[i], high = displacement[i] + now[i] - before[i];
-    if ((low > 0) != (high > 0)) continue;
-    shift[i] = std::abs(low) < std::abs(high) ? low : high;
-  }
+  Eigen::Vector2d shift;
+  for (int i = 0; i < 2; ++i)
+    shift[i] = face_shift(displacement[i] - now[i] + before[i], displacement[i] + now[i] - before[i]);
   return shift;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_shift.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -73,10 +75,8 @@ BoxDifference Track::difference_to(const Aabb& seen_box) const {
   const Eigen::Vector3d a = seen_box.min() - expected_position - low,
                         b = seen_box.max() - expected_position - high;
   BoxDifference difference{(a + b) / 2, b - a, Eigen::Vector3d::Zero()};
-  for (int i = 0; i < 3; ++i) {
-    if (a[i] > 0 && b[i] > 0) difference.shift[i] = std::min(a[i], b[i]);
-    if (a[i] < 0 && b[i] < 0) difference.shift[i] = std::max(a[i], b[i]);
-  }
+  for (int i = 0; i < 3; ++i)
+    difference.shift[i] = face_shift(a[i], b[i]);
   return difference;
 }
 

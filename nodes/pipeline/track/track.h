@@ -22,10 +22,7 @@ namespace [[gnu::visibility("default")]] detail {
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct BoxDifference {
   Eigen::Vector3d centre, size;
-  /// Along each axis, the smaller displacement of the two opposite faces; 0 if the faces move apart or
-  /// towards each other. If a part of the object comes into or goes out of view, only one face moves, so the
-  /// shift is 0.
-  Eigen::Vector3d shift;
+  Eigen::Vector3d shift;  ///< face_shift() along each axis.
 };
 
 /// One tracked object.

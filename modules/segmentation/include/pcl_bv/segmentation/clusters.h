@@ -33,7 +33,7 @@ struct Counts {
 enum class Refinement : std::uint8_t {
   none,   ///< Nothing.
   cut,    ///< It is a part of a larger cluster.
-  joined  ///< It was joined from several clusters, or from parts of them.
+  joined  ///< It was joined from several clusters.
 };
 
 /// Treatment of clusters with more than max_size points.

@@ -1,11 +1,27 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Small functions that the steps of the refinement share.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
+
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::detail {
+
+/// Returns the point at position `i` of the view.
+inline Eigen::Vector3d point_at(const PointView& view, std::size_t i) {
+  const Coordinates c = load_point(view, i);
+  return {c.x, c.y, c.z};
+}
+
+/// Returns the longer of the first two sides of the box, metres. The third axis is up.
+inline double plan_width(const Eigen::AlignedBox3d& box) {
+  return box.sizes().head<2>().maxCoeff();
+}
 
 /// Returns the side of a cell for the density of points (PlanBasins) at this distance from the sensor,
 /// metres: 7 cm, and 2 mm more for each metre beyond 35 m. Spinning LiDARs have azimuth steps of 0.1 to 0.4
