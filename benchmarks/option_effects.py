@@ -114,6 +114,8 @@ def rows(stream):
         ("ground.sensor: [3, 0, 0]", BASE, BASE + stream.settings("ground", sensor="[3, 0, 0]")),
         ("--cluster 0.3", BASE, BASE + ["--cluster", "0.3"]),
         ("--cluster 0.5:0.01", BASE, BASE + ["--cluster", "0.5:0.01"]),
+        ("--refine off", BASE, BASE + ["--refine", "off"]),
+        ("--refine neck", BASE, BASE + ["--refine", "neck"]),
         ("--min-size 50", BASE, BASE + ["--min-size", "50"]),
         ("--max-size 500", BASE, BASE + LARGE),
         ("--min-extent 0.3,0.3,0.5", BASE, BASE + ["--min-extent", "0.3,0.3,0.5"]),
@@ -144,7 +146,7 @@ def main():
     if len(sys.argv) != 3:
         raise SystemExit(__doc__)
     with tempfile.TemporaryDirectory() as folder:
-        print("| option | objects | tracked | ids | boxes that stay the same | points | said |")
+        print("| option | objects | tracked | ids | boxes that stay the same | points and counts | said |")
         print("|---|---|---|---|---|---|---|")
         for line in rows(Stream(sys.argv[1], sys.argv[2], pathlib.Path(folder))):
             print(line, flush=True)

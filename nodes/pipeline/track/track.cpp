@@ -125,7 +125,7 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
 }
 
 // The box of an object that stands still jumps by decimetres if other parts of it come into view. Without
-// this step, 3 % of the objects that are reported as standing were faster than 1 m/s.
+// this step, such objects would often be reported as faster than 1 m/s.
 void Track::slow_down() {
   for (std::size_t i = 0; i < 2; ++i)
     motion.axes[i].slow_down(kStandingSpeed);
