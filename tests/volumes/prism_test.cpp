@@ -73,13 +73,12 @@ TEST(Prism, OfASegmentOrAPointIsFlat) {
   EXPECT_EQ(pole.aabb(), Aabb({1, 2, 0}, {1, 2, 2}));
 }
 
-TEST(Prism, RefusesWhatIsNoConvexOutline) {
+TEST(Prism, RefusesWhatIsNoOutline) {
   using Outline = std::vector<Vector2d>;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Outline& wrong :
        {Outline{{0, 0}, {0, 1}, {1, 0}}, Outline{{0, 0}, {1, 0}, {2, 0}}, Outline{{0, 0}, {0, 0}},
-        Outline{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.5}, {0, 1}}, Outline{{nan, 0}}, Outline{{1e200, 0}},
-        Outline{{0, 0}, {2, 1}, {0, 2}, {2, 0}, {1, 3}}}) {
+        Outline{{nan, 0}}, Outline{{1e200, 0}}, Outline{{0, 0}, {2, 1}, {0, 2}, {2, 0}, {1, 3}}}) {
     EXPECT_THROW(Prism(kAxes, wrong, 0, 1), std::invalid_argument);
   }
   EXPECT_THROW(Prism(kAxes, {{0, 0}}, nan, 1), std::invalid_argument);

@@ -9,6 +9,7 @@
 #include "inflated.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/outline.h"
 #include "vectors.h"
 
 namespace pcl_bv::detail {
@@ -73,6 +74,10 @@ class Planes {
   void allow_rounding_of(double magnitude) {
     region_.surface_error = std::max(region_.surface_error, 0x1p-45 * magnitude);
   }
+
+  // Adds a plane that leaves every point unclear, so that contains() decides about all points which the other
+  // planes do not exclude.
+  void leave_inside_unclear() { region_.planes.push_back({0, 0, 0, 0}); }
 
   // Limits the region to a box, which must contain every point for which contains() is true.
   void limit(const Aabb& box) {
@@ -155,7 +160,8 @@ Aabb box_of_contained(const Prism& prism) {
 
 // The normals are rotated and rounded, so each has a relative error below 2^-50. The error of the edge's
 // direction is within the same bound, because the difference of two doubles is rounded once.
-ConvexRegion region_of(const Prism& prism) {
+ConvexRegion region_of(const Prism& original) {
+  const Prism prism = convex_prism(original);
   const std::vector<Eigen::Vector2d>& outline = prism.outline();
   const Aabb box = prism.aabb();
   Planes planes(box);
@@ -177,6 +183,7 @@ ConvexRegion region_of(const Prism& prism) {
   planes.add(-north, -low.y());
   planes.allow_rounding_of(box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).sum());
   planes.limit(box_of_contained(prism));
+  if (!original.is_convex()) planes.leave_inside_unclear();
   return planes.region();
 }
 

@@ -76,6 +76,11 @@ std::vector<Eigen::Vector2d> outline_around(const std::vector<PlaneBox>& boxes) 
   return hull_of(all);
 }
 
+Prism convex_prism(const Prism& prism) {
+  if (prism.is_convex()) return prism;
+  return PrismAccess::make(prism.axes(), hull_of(prism.outline()), prism.low(), prism.high());
+}
+
 Prism inflated_prism(const Prism& prism, double padding) {
   const FloatEnvironment environment;
   if (prism.empty() || padding == 0) return prism;

@@ -19,6 +19,8 @@
 #include "pcl_bv/volumes/obb.h"
 #include "pcl_bv/volumes/outline.h"
 #include "pcl_bv/volumes/planar_hull.h"
+#include "pcl_bv/volumes/simple_polygon.h"
+#include "prism_polygon.h"
 #include "prism_sides.h"
 #include "projection.h"
 #include "ray_clip.h"
@@ -42,6 +44,23 @@ bool is_strictly_convex(const std::vector<Eigen::Vector2d>& outline) {
     if (corners[i] != (corners[0] + i) % corners.size()) return false;
   }
   return true;
+}
+
+// Returns a simple polygon that contains every polygon whose corners are in the boxes, in their order or, if
+// `reversed`, in the opposite order. Returns nothing if rounding leaves no such polygon.
+std::optional<std::vector<Eigen::Vector2d>> polygon_around_boxes(const std::vector<PlaneBox>& boxes,
+                                                                 bool reversed) {
+  std::vector<Eigen::Vector2d> corners;
+  double widest = 0;
+  for (const PlaneBox& box : boxes) {
+    corners.push_back(box.low);
+    for (int k = 0; k < 2; ++k)
+      widest = std::max(widest, add_up(box.high[k], -box.low[k]));
+  }
+  if (reversed) std::reverse(corners.begin(), corners.end());
+  corners = without_straight_corners(corners);
+  if (!is_simple_polygon(corners)) return std::nullopt;
+  return polygon_around(corners, widest);
 }
 
 // Returns whether each axis is parallel to a coordinate axis. Axes that are orthonormal to 1e-12 are then a
@@ -107,9 +126,12 @@ Prism::Prism(const Eigen::Matrix3d& axes, std::vector<Eigen::Vector2d> outline, 
                 "corners must be finite, within 1e101");
     corner = corner.array() + 0.0;
   }
-  check_prism(is_strictly_convex(outline),
-              "the outline must be a convex polygon, counter-clockwise, with no three corners on a line");
-  *this = PrismAccess::make(axes.array() + 0.0, std::move(outline), low + 0.0, high + 0.0);
+  const bool is_convex = is_strictly_convex(outline);
+  check_prism(
+      is_convex || is_simple_polygon(outline),
+      "the outline must be a polygon, counter-clockwise, whose edges meet only at the corners they share, "
+      "and with no three neighbouring corners on a line");
+  *this = PrismAccess::make(axes.array() + 0.0, std::move(outline), low + 0.0, high + 0.0, is_convex);
 }
 
 bool Prism::contains(const Eigen::Vector3d& point) const {
@@ -124,6 +146,7 @@ bool Prism::contains(const Eigen::Vector3d& point) const {
   };
   if (!between(u, sides.low().x(), sides.high().x()) || !between(v, sides.low().y(), sides.high().y()))
     return false;
+  if (!is_convex_) return polygon_contains(sides, u, v);
   return sides.all_of([&](const Eigen::Vector2d& corner, const Eigen::Vector2d& edge) {
     const SideValue side = PrismSides::cross(edge, relative(u, corner.x()), relative(v, corner.y()));
     return side.value + side.error >= 0;
@@ -145,6 +168,7 @@ std::optional<RayInterval> Prism::intersect(const Eigen::Vector3d& origin,
     const PrismSides sides(*this);
     keep_between(u, du, sides.low().x(), sides.high().x());
     keep_between(v, dv, sides.low().y(), sides.high().y());
+    if (!is_convex_) return clip_to_polygon(sides, {{u, v}, {du, dv}}, ray);
     sides.all_of([&](const Eigen::Vector2d& corner, const Eigen::Vector2d& edge) {
       const SideValue start = PrismSides::cross(edge, relative(u, corner.x()), relative(v, corner.y()));
       const SideValue step = PrismSides::cross(edge, du, dv);
@@ -188,7 +212,11 @@ Prism Prism::transformed(const Eigen::Isometry3d& transform) const {
   std::vector<PlaneBox> boxes;
   for (const Eigen::Vector2d& corner : outline_)
     boxes.push_back({{u.down(corner.x()), v.down(corner.y())}, {u.up(corner.x()), v.up(corner.y())}});
-  return PrismAccess::make(axes, outline_around(boxes), h.down(low_), h.up(high_));
+  std::optional<std::vector<Eigen::Vector2d>> concave;
+  if (!is_convex_) concave = polygon_around_boxes(boxes, mirror < 0);
+  const bool is_convex = !concave;
+  return PrismAccess::make(axes, is_convex ? outline_around(boxes) : *std::move(concave), h.down(low_),
+                           h.up(high_), is_convex);
 }
 
 bool operator==(const Prism& a, const Prism& b) {

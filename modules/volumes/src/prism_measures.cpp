@@ -11,6 +11,8 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/prism.h"
+#include "pcl_bv/volumes/simple_polygon.h"
+#include "prism_polygon.h"
 
 namespace pcl_bv {
 
@@ -82,20 +84,40 @@ Eigen::Vector3d position(const Eigen::Matrix3d& axes, const Eigen::Vector3d& at)
   return p.array() + 0.0;
 }
 
-// Returns the distance of a point of the plane from the outline; 0 if the point is inside.
-double distance_to_outline(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& p) {
+// Returns the distance of a point of the plane from the nearest edge of the outline.
+double distance_to_edges(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& p) {
   const std::size_t count = outline.size();
-  bool inside = count > 2;
   double nearest = kInfinity;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d edge = outline[i + 1 < count ? i + 1 : 0] - outline[i], from = p - outline[i];
     const double length = edge.stableNorm();
     const Eigen::Vector2d unit = edge.stableNormalized();  // zero for an edge of length 0
     const double along = std::clamp(unit.x() * from.x() + unit.y() * from.y(), 0.0, length);
-    inside = inside && cross(unit, from) >= 0;
     nearest = std::min(nearest, (from - along * unit).stableNorm());
   }
-  return inside ? 0 : nearest;
+  return nearest;
+}
+
+// Returns whether the point is inside all half-planes of a convex outline, up to rounding.
+bool is_in_convex(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& p) {
+  const std::size_t count = outline.size();
+  bool inside = count > 2;
+  for (std::size_t i = 0; i < count && inside; ++i) {
+    const Eigen::Vector2d edge = outline[i + 1 < count ? i + 1 : 0] - outline[i], from = p - outline[i];
+    inside = cross(edge.stableNormalized(), from) >= 0;
+  }
+  return inside;
+}
+
+// Appends bottom and top as triangles.
+void add_triangular_ends(const std::vector<Eigen::Vector2d>& outline, Mesh& mesh) {
+  const auto count = static_cast<std::int32_t>(outline.size());
+  for (const auto& triangle : triangles_of(outline)) {
+    const auto a = static_cast<std::int32_t>(triangle[0]), b = static_cast<std::int32_t>(triangle[1]),
+               c = static_cast<std::int32_t>(triangle[2]);
+    mesh.faces.push_back({c, b, a});
+    mesh.faces.push_back({a + count, b + count, c + count});
+  }
 }
 
 }  // namespace
@@ -162,7 +184,10 @@ double Prism::distance(const Eigen::Vector3d& point) const {
   if (contains(point)) return 0;
   const double h = dot3(axes_.col(2), point);
   const double above = std::max({0.0, low_ - h, h - high_});
-  const double beside = distance_to_outline(outline_, {dot3(axes_.col(0), point), dot3(axes_.col(1), point)});
+  const Projection u = project(axes_.col(0), point), v = project(axes_.col(1), point);
+  const Eigen::Vector2d at(u.value, v.value);
+  const bool is_above = is_convex_ ? is_in_convex(outline_, at) : polygon_contains(PrismSides(*this), u, v);
+  const double beside = is_above ? 0 : distance_to_edges(outline_, at);
   return Eigen::Vector2d(above, beside).stableNorm();
 }
 
@@ -182,7 +207,8 @@ Mesh Prism::mesh() const {
     top.push_back(count + i);
   }
   if (count == 1) mesh.faces = {{0, 1}};
-  if (count > 2) mesh.faces.insert(mesh.faces.end(), {bottom, top});
+  if (count > 2 && is_convex_) mesh.faces.insert(mesh.faces.end(), {bottom, top});
+  if (!is_convex_) add_triangular_ends(outline_, mesh);
   return mesh;
 }
 

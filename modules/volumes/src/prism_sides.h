@@ -36,13 +36,19 @@ class PrismSides {
   /// of two.
   template <typename Visit>
   bool all_of(const Visit& visit) const {
-    const std::size_t count = outline_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector2d& a = outline_[i];
-      if (!visit(a, Eigen::Vector2d((outline_[i + 1 < count ? i + 1 : 0] - a) * unit_))) return false;
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+      if (!visit(outline_[i], edge(i))) return false;
     }
     return true;
   }
+
+  /// Returns the corner after the corner i.
+  const Eigen::Vector2d& next(std::size_t i) const { return outline_[i + 1 < outline_.size() ? i + 1 : 0]; }
+
+  /// Returns the edge that begins at the corner i, multiplied by the power of two.
+  Eigen::Vector2d edge(std::size_t i) const { return (next(i) - outline_[i]) * unit_; }
+
+  const std::vector<Eigen::Vector2d>& outline() const { return outline_; }
 
   /// Returns the cross product edge x (u, v). The rounding errors of edge, u, v, two products and their
   /// difference are at most 4.01 * 2^-53 of the products' magnitudes. The bound is 8 * 2^-53 of these, and

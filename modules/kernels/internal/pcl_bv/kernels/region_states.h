@@ -46,6 +46,7 @@ struct ConvexRegion {
   std::array<double, 3> core{};
   std::array<double, 3> weight = {1, 1, 1};  ///< If a weight is infinite, no point is certainly inside.
   double radius = 0;
+  /// If a normal and its limit are 0, no point is certainly inside.
   std::vector<HalfSpace> planes;
 };
 

@@ -30,7 +30,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///   Equal radii become r + padding; unequal radii have to grow by more.
 /// - Prism: the heights move by the padding. The outline grows by a regular polygon of 16 sides around a
 ///   circle with this radius. So no point of the inflated prism is farther above, below or beside the prism
-///   than 1.02 times the padding.
+///   than 1.02 times the padding. An outline that is not convex is replaced by its convex hull first, unless
+///   the padding is 0.
 struct Region {
   /// The volume before inflation.
   AnyVolume volume;

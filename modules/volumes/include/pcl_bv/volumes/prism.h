@@ -17,17 +17,24 @@ namespace detail {
 struct PrismAccess;
 }
 
-/// An upright prism over a convex polygon, in the frame and unit of its points. Its footprint is the polygon.
+/// An upright prism over a simple polygon, in the frame and unit of its points. Its footprint is the polygon.
 ///
 /// Let u = axes.col(0) . p, v = axes.col(1) . p and h = axes.col(2) . p be the coordinates of a point p. The
-/// prism is the closed set of all p with low <= h <= high whose (u, v) is inside the outline: for each edge
-/// from a corner a to the next corner b, (b - a) x ((u, v) - a) >= 0. The stored doubles define this set
-/// without rounding. The axes are right-handed and orthonormal to 1e-12; the third one is up.
+/// prism is the closed set of all p with low <= h <= high whose (u, v) is inside the outline or on it. If the
+/// outline is convex, this means for each edge from a corner a to the next corner b that
+/// (b - a) x ((u, v) - a) >= 0. The stored doubles define this set without rounding. The axes are
+/// right-handed and orthonormal to 1e-12; the third one is up.
 ///
-/// The corners of the outline are counter-clockwise seen from above. No three corners are collinear and no
-/// two are equal. An outline of two corners is a segment, an outline of one corner is a point. A flat prism
-/// is a valid volume. The empty prism has no corners, low = infinity, high = -infinity and the coordinate
-/// axes. Coordinates beyond 1e100 are not supported.
+/// The corners of the outline are counter-clockwise seen from above. No two corners are equal, no three that
+/// follow each other are collinear, and edges meet only at the corner that they share. An outline of two
+/// corners is a segment, an outline of one corner is a point. A flat prism is a valid volume. The empty prism
+/// has no corners, low = infinity, high = -infinity and the coordinate axes. Coordinates beyond 1e100 are not
+/// supported.
+///
+/// If the outline is not convex, functions of pairs (overlaps(), distance() of pair_queries.h), inflated
+/// regions (region_mask.h) and trees of volumes use the prism over its convex hull. So they can find a
+/// contact in a bay of the outline, but they miss none. contains(), intersect(), distance() of a point, the
+/// measures and mesh() are those of the outline itself.
 class Prism {
  public:
   /// Makes the empty prism.
@@ -36,8 +43,8 @@ class Prism {
   /// Makes a prism. The columns of `axes` are the two axes of the plane and the direction up. An outline
   /// without corners, or low > high, gives the empty prism. Otherwise throws std::invalid_argument unless all
   /// numbers are finite, the corners at most 1e101 in magnitude, the axes are right-handed and orthonormal to
-  /// 1e-12, and the outline is a strictly convex polygon with counter-clockwise corners, which is tested
-  /// exactly. Stores -0 as 0. O(n log n) for n corners.
+  /// 1e-12, and the outline is a polygon as described above, which is tested exactly. Stores -0 as 0.
+  /// O(n log n) for n corners of a usual outline.
   Prism(const Eigen::Matrix3d& axes, std::vector<Eigen::Vector2d> outline, double low, double high);
 
   const Eigen::Matrix3d& axes() const { return axes_; }                     ///< The axes as columns.
@@ -45,6 +52,9 @@ class Prism {
   const std::vector<Eigen::Vector2d>& outline() const { return outline_; }  ///< Corners (u, v).
   double low() const { return low_; }    ///< Smallest height; infinity if empty.
   double high() const { return high_; }  ///< Largest height; -infinity if empty.
+
+  /// Returns whether the outline is convex. True for outlines of one or two corners and if empty. O(1).
+  bool is_convex() const { return is_convex_; }
 
   /// Returns the area of the outline in squared units; 0 if empty.
   double footprint_area() const;
@@ -63,13 +73,15 @@ class Prism {
   /// their three products, plus 2^-1022. The bound of the cross product of an edge (x, y) is
   /// |x| e_v + |y| e_u, plus 8 * 2^-53 of the magnitudes of its two products. Beyond a corner, a point can be
   /// treated as inside up to the bound divided by the sine of half the interior angle, but only if it is in
-  /// the box of the outline, within e.
+  /// the box of the outline, within e. A point is also treated as inside if it is within these bounds of an
+  /// edge of an outline that is not convex.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(corners).
   double surface_area() const;  ///< Area in squared units; both sides of a flat prism count. 0 if empty.
 
-  /// Returns the centre of mass or, if the prism is flat, of the polygon, segment or point. NaN if empty.
+  /// Returns the centre of mass or, if the prism is flat, of the polygon, segment or point. NaN if empty. It
+  /// can be outside of an outline that is not convex.
   Eigen::Vector3d center() const;
 
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty. O(corners).
@@ -80,8 +92,10 @@ class Prism {
   /// O(corners).
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the prism; see RayInterval. The
-  /// coordinates of origin and direction are widened by twice the error bound of contains(). O(corners).
+  /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the prism; see RayInterval. If the
+  /// outline is not convex, the ray can leave the prism and enter it again; the interval then lasts from the
+  /// first entry to the last exit. The coordinates of origin and direction are widened by twice the error
+  /// bound of contains(). O(corners).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns a box that contains every point of the prism, in spite of rounding errors. If the axes of the
@@ -89,14 +103,16 @@ class Prism {
   /// smallest box by about 2^-48 of the size of the prism. O(corners).
   Aabb aabb() const;
 
-  /// Returns the mesh of the prism: the corners at the height low, then those at the height high. The last
-  /// two faces are bottom and top. A segment has only its two sides. A point has one face of two vertices.
+  /// Returns the mesh of the prism: the corners at the height low, then those at the height high. The sides
+  /// come first. If the outline is convex, the last two faces are bottom and top; otherwise these consist of
+  /// triangles. A segment has only its two sides. A point has one face of two vertices.
   Mesh mesh() const;
 
   /// Returns the transformed prism. The result contains the exact value of `transform * p` for every point p
   /// of this prism. The outline and the heights move outward by the rounding errors of the axes and of the
   /// coordinates. Where this leaves a sharp corner uncovered, the outline gets further corners, which are
-  /// some rounding steps apart. O(n log n) for n corners.
+  /// some rounding steps apart. An outline that is not convex stays so, unless rounding could make two of its
+  /// edges meet; then the result has its convex hull. O(n log n) for n corners.
   Prism transformed(const Eigen::Isometry3d& transform) const;
 
  private:
@@ -105,6 +121,7 @@ class Prism {
   Eigen::Matrix3d axes_;
   std::vector<Eigen::Vector2d> outline_;
   double low_, high_;
+  bool is_convex_ = true;
 };
 
 /// Returns whether axes, outline and heights are equal, or both prisms are empty. Outlines that begin with
