@@ -58,7 +58,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   auto prepared = std::make_shared<Prepared>();
   prepared->methods = config.methods();
   prepared->classes = ClassTable(config);
-  prepared->options = {config.growth, normalized_up(config.ground.up)};
+  prepared->options = config.method_options();
   prepared->segments = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
   prepared->execution = config.execution();
   prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);

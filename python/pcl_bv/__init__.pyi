@@ -144,6 +144,8 @@ class Prism(Volume):
     def high(self) -> float: ...
     @property
     def footprint_area(self) -> float: ...
+    @property
+    def is_convex(self) -> bool: ...
 
 # Returns a volume, or a list of volumes if `method` is a list or "all". With labels, returns a dict that has
 # such a volume or list for each label.
@@ -154,6 +156,7 @@ def fit(
     *,
     up: Up = "z",
     growth: Literal["sequential", "stationary", "deferred"] = "deferred",
+    concave_length: Optional[float] = None,
     threads: int = 1,
     isa: Optional[str] = None,
 ) -> Any: ...

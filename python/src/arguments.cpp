@@ -132,6 +132,11 @@ Eigen::Vector3d up_argument(py::handle value) {
   return up;
 }
 
+double concave_length_argument(py::handle value) {
+  if (value.is_none()) return kNoLimit;
+  return number(value, "concave_length", range_of("concave_length"));
+}
+
 const Method* method_of(py::handle name) {
   Py_ssize_t size = 0;
   const char* const characters =

@@ -47,6 +47,9 @@ T parse_text(py::handle value, const char* name) {
   return read;
 }
 
+/// Returns PrismOptions::concave_length: infinity for None, otherwise a finite number above 0.
+double concave_length_argument(py::handle value);
+
 /// Returns the up direction. `value` must be "x", "-z", ... or three numbers.
 Eigen::Vector3d up_argument(py::handle value);
 

@@ -47,10 +47,11 @@ py::object fit_labelled(const PointArray& points, const std::vector<const Method
 }
 
 py::object fit(py::handle points, py::handle method, py::handle labels, py::handle up, py::handle growth,
-               py::handle threads, py::handle isa) {
+               py::handle concave_length, py::handle threads, py::handle isa) {
   const PointArray array = points_of(points);
   const Execution execution = execution_of(threads, isa);
-  const MethodOptions options{parse_text<SphereGrowth>(growth, "growth"), up_argument(up)};
+  const MethodOptions options{parse_text<SphereGrowth>(growth, "growth"), up_argument(up),
+                              concave_length_argument(concave_length)};
   if (PyUnicode_Check(method.ptr()) && labels.is_none() &&
       PyUnicode_CompareWithASCIIString(method.ptr(), "all") != 0) {
     const Method* const method_used = method_of(method);
@@ -87,7 +88,7 @@ py::object verify_volume(py::handle volume, py::handle points, py::handle thread
 }
 
 constexpr const char* fit_doc =
-    R"(fit(points, method, labels=None, *, up='z', growth='deferred', threads=1, isa=None)
+    R"(fit(points, method, labels=None, *, up='z', growth='deferred', concave_length=None, threads=1, isa=None)
 --
 
 Fits a bounding volume to points. Every finite point is inside the volume, by exact arithmetic.
@@ -98,6 +99,7 @@ method: a name of pcl_bv.methods() or its alias, or a list of them. 'all': every
 labels: an integer for each point, or Clusters. One volume is fitted per label, and none for negative labels.
 up: the direction opposite to gravity, used by obb-yaw, obb-lshape and prism: 'x', '-z', ... or three numbers.
 growth: how sphere-ritter and sphere-epos* grow the sphere: 'sequential', 'stationary' or 'deferred'.
+concave_length: outlines of prisms follow bays wider than this, above 0. None: outlines are convex.
 threads: number of threads; 0: all processors. isa: one of instruction_sets. Neither changes the result.
 
 Returns a volume in the frame and unit of the points, or a list of volumes for a list of methods. With labels,
@@ -165,7 +167,8 @@ py::dict all_methods() {
 
 void bind_fit(py::module_& module) {
   module.def("fit", fit, "points"_a, "method"_a, "labels"_a = py::none(), py::kw_only(), "up"_a = "z",
-             "growth"_a = "deferred", "threads"_a = 1, "isa"_a = py::none(), fit_doc);
+             "growth"_a = "deferred", "concave_length"_a = py::none(), "threads"_a = 1, "isa"_a = py::none(),
+             fit_doc);
   module.def("methods", all_methods, methods_doc);
   py::class_<VerificationObject>(module, "Verification", verification_doc)
       .def_property_readonly(

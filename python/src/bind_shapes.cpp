@@ -168,6 +168,9 @@ void bind_prism(py::module_& module) {
   prism.def_property_readonly(
       "footprint_area", [](const ShapeObject<Prism>& v) { return v.shape().footprint_area(); },
       "Area of the outline.");
+  prism.def_property_readonly(
+      "is_convex", [](const ShapeObject<Prism>& v) { return v.shape().is_convex(); },
+      "Whether the outline is convex.");
 }
 
 void bind_round(py::module_& module) {

@@ -74,6 +74,8 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
       {"--threads", "many", good},
       {"--isa", "mmx", good},
       {"--growth", "fast", good},
+      {"--concave", "-1", "--volume", "prism", good},
+      {"--concave", "inf", "--volume", "prism", good},
       {"--up", "w", "--volume", "obb-yaw", good},
       {"--up", "y", "--volume", "obb-min", good},
       {"--output", "", good},

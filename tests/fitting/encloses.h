@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <variant>
@@ -91,9 +92,33 @@ inline bool holds(const Hull& hull, const Coordinates& p) {
   return !hull.empty();
 }
 
+// The even-odd rule; the boundary is inside. Rationals decide where rounding could matter.
+inline bool holds_polygon(const Prism& prism, const Coordinates& p) {
+  const Eigen::Vector3d east = prism.axes().col(0), north = prism.axes().col(1);
+  const RoundedDot v = rounded_dot(north, p);
+  const std::vector<Eigen::Vector2d>& outline = prism.outline();
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const double margin = kClearly * (v.terms + std::abs(a.y()) + std::abs(b.y())) + kUnderflow;
+    if (v.value < std::min(a.y(), b.y()) - margin || v.value > std::max(a.y(), b.y()) + margin) continue;
+    const Rational x = exact_dot(east, p), y = exact_dot(north, p);
+    const Rational left = (Rational(b.x()) - Rational(a.x())) * (y - Rational(a.y()));
+    const Rational cross = left - (Rational(b.y()) - Rational(a.y())) * (x - Rational(a.x()));
+    const auto between = [](double low, const Rational& at, double high) {
+      return Rational(std::min(low, high)) <= at && at <= Rational(std::max(low, high));
+    };
+    if (cross == 0 && between(a.x(), x, b.x()) && between(a.y(), y, b.y())) return true;
+    const bool above_a = Rational(a.y()) <= y, above_b = Rational(b.y()) <= y;
+    if (above_a != above_b && (cross > 0) == above_a) inside = !inside;
+  }
+  return inside;
+}
+
 inline bool holds(const Prism& prism, const Coordinates& p) {
   const Eigen::Vector3d east = prism.axes().col(0), north = prism.axes().col(1), up = prism.up();
   if (prism.empty() || !exactly_between(prism.low(), up, p, prism.high())) return false;
+  if (!prism.is_convex()) return holds_polygon(prism, p);
   const std::vector<Eigen::Vector2d>& outline = prism.outline();
   Eigen::Vector2d low = outline[0], high = low;
   for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -201,6 +201,25 @@ TEST_F(Page, FlatEmptyAndFailedVolumesDrawWhatTheyHave) {
   EXPECT_THAT(picked.get<std::string>(), testing::StartsWith("cluster "));
 }
 
+TEST_F(Page, ABayOfAPrismIsNeitherDrawnNorPicked) {
+  const Prism prism(Eigen::Matrix3d::Identity(), {{0, 0}, {9, 0}, {9, 2}, {2, 2}, {2, 9}, {0, 9}}, 0, 0.01);
+  show(report_of({{prism}}), {{-5, -5, -5, no_label}, {12, 12, 9, no_label}});
+  const auto pick = [&](const Vector2d& at) {
+    const Json picked =
+        browser.run("return pclBv.pick(" + std::to_string(at.x()) + ", " + std::to_string(at.y()) + ")");
+    return picked.is_string() ? picked.get<std::string>() : std::string();
+  };
+  const Picture picture = settled();
+  for (const Vector2d& at : project({{1, 1, 0}, {7, 1, 0}, {1, 7, 0}})) {
+    EXPECT_GT(brightest(picture, at), 5);
+    EXPECT_THAT(pick(at), testing::StartsWith("cluster "));
+  }
+  for (const Vector2d& at : project({{4.5, 4.5, 0}, {6, 4, 0}})) {
+    EXPECT_EQ(brightest(picture, at), 0);
+    EXPECT_THAT(pick(at), testing::Not(testing::StartsWith("cluster ")));
+  }
+}
+
 TEST_F(Page, FlatPolytopesDrawTheirOutline) {
   const std::vector<float> square = {0, 0, 1, 4, 0, 1, 4, 4, 1, 0, 4, 1, 2, 2, 1};
   for (const char* method : {"aabb", "dop26", "obb", "prism", "hull"}) {

@@ -52,6 +52,12 @@ TEST(WithoutEffect, AreTheGrowthOfNoSphereAndTheRuleForNothingOversized) {
   EXPECT_THAT(ineffective_settings("cluster: {oversized: split, max_size: 500}"), IsEmpty());
 }
 
+TEST(WithoutEffect, IsAConcaveLengthWithoutAPrism) {
+  EXPECT_THAT(ineffective_settings("{concave_length: 1, volumes: [obb]}"),
+              ElementsAre("concave_length: has no effect without prism"));
+  EXPECT_THAT(ineffective_settings("{concave_length: 1, volumes: [obb, prism]}"), IsEmpty());
+}
+
 TEST(WithoutEffect, IsARefinementOfTheWholeCloud) {
   EXPECT_THAT(ineffective_settings("cluster: {tolerance: 0, refine: neck}"),
               ElementsAre("cluster.refine: has no effect without cluster.tolerance"));

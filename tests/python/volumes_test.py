@@ -164,6 +164,23 @@ class Volumes(unittest.TestCase):
             self.assertLess(volume.distance(vertices).max(), 1e-9)
             self.assertTrue(all(face.max() < len(vertices) for face in faces))
 
+    def test_a_concave_outline_follows_a_bay_and_holds_all_points(self):
+        points = np.random.default_rng(31).uniform(0, 10, (4000, 3))
+        points = points[np.minimum(points[:, 0], points[:, 1]) < 2]
+        convex = pcl_bv.fit(points, "prism")
+        concave = pcl_bv.fit(points, "prism", concave_length=1.5)
+        self.assertTrue(convex.is_convex)
+        self.assertFalse(concave.is_convex)
+        self.assertLess(concave.footprint_area, 0.6 * convex.footprint_area)
+        self.assertEqual(pcl_bv.verify(concave, points).outside, 0)
+        self.assertTrue(concave.contains(points).all())
+        self.assertFalse(concave.contains([7, 7, 5]))
+        self.assertEqual(pickle.loads(pickle.dumps(concave)), concave)
+        self.assertEqual(pcl_bv.fit(points, "prism", concave_length=None), convex)
+        for wrong in (0, -1, float("nan"), float("inf")):
+            with self.assertRaisesRegex(ValueError, "concave_length"):
+                pcl_bv.fit(points, "prism", concave_length=wrong)
+
     def test_parts_give_the_bits_of_the_whole(self):
         points = normal(9000, 28, np.float32)
         cuts = [0, 1000, 1001, 5000, 9000]

@@ -72,14 +72,19 @@ TEST_F(ReadVolumes, SayWhatIsWrong) {
   EXPECT_THROW(read_volumes("/nonexistent.json"), IoError);
 }
 
-TEST_F(ReadVolumes, OutlinesOfPrismsAreConvexPolygons) {
+TEST_F(ReadVolumes, OutlinesOfPrismsAreSimplePolygons) {
   const auto prism = [](const std::string& outline) {
     return R"({"shape":"prism","axes":[[1,0,0],[0,1,0],[0,0,1]],"outline":)" + outline +
            R"(,"low":0,"high":2})";
   };
   EXPECT_EQ(read(prism("[[0,0],[1,0],[0,1]]")).front(),
             AnyVolume(Prism(Eigen::Matrix3d::Identity(), {{0, 0}, {1, 0}, {0, 1}}, 0, 2)));
-  EXPECT_THAT(error_of(prism("[[0,0],[0,1],[1,0]]")), HasSubstr("convex"));
+  const std::string corner = "[[0,0],[4,0],[4,1],[1,1],[1,4],[0,4]]";
+  EXPECT_EQ(
+      read(prism(corner)).front(),
+      AnyVolume(Prism(Eigen::Matrix3d::Identity(), {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, 0, 2)));
+  EXPECT_THAT(error_of(prism("[[0,0],[0,1],[1,0]]")), HasSubstr("counter-clockwise"));
+  EXPECT_THAT(error_of(prism("[[0,0],[2,2],[2,0],[0,2]]")), HasSubstr("edges meet only at the corners"));
   EXPECT_THAT(error_of(prism("[[0,0,0]]")), HasSubstr("outline: two numbers"));
   EXPECT_THAT(error_of(prism("3")), HasSubstr("outline: a list"));
   EXPECT_THAT(error_of(prism("[]")), HasSubstr("empty"));

@@ -4,6 +4,7 @@
 #include "pcl_bv/fitting/methods.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -42,7 +43,7 @@ EstimationResult obb(const PointView& points, const MethodOptions& options, AnyV
 
 EstimationResult prism(const PointView& points, const MethodOptions& options, AnyVolume& volume,
                        const FitExecution& execution) {
-  return detail::fit_prism(points, options.up, volume.emplace<Prism>(), execution);
+  return detail::fit_prism(points, {options.up, options.concave_length}, volume.emplace<Prism>(), execution);
 }
 
 EstimationResult ellipsoid(const PointView& points, const MethodOptions&, AnyVolume& volume,
@@ -130,6 +131,11 @@ std::vector<Fitted<AnyVolume>> fit_methods(const PointView& points, const std::v
         [&](auto& made) { return fit_method(*method, points, options, made.volume, shared); }));
   }
   return all;
+}
+
+bool needs_all_points(const Method& method, const MethodOptions& options) {
+  return method.needs_all_points ||
+         (method.shape == "prism" && options.concave_length < std::numeric_limits<double>::infinity());
 }
 
 const Method* find_method(std::string_view name) {

@@ -11,6 +11,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -129,6 +130,49 @@ double violation(const Prism& prism, const Eigen::Vector2d& a, const Eigen::Vect
   return excess_distance(Rational(edge_y * along_u - edge_x * along_v), std::hypot(x, y));
 }
 
+// Returns 0 if the point is inside an outline that is not convex, otherwise its distance from the nearest
+// edge. Where the point is nearer to an edge than rounding allows to decide, the even-odd rule is computed
+// exactly.
+double polygon_violation(const Prism& prism, const Eigen::Vector3d& p, double u, double v, double bound) {
+  const std::vector<Eigen::Vector2d>& outline = prism.outline();
+  std::optional<Rational> exact_u, exact_v;
+  const auto locate = [&] {
+    if (exact_u) return;
+    exact_u = dot3(exact(prism.axes().col(0)), exact(p));
+    exact_v = dot3(exact(prism.axes().col(1)), exact(p));
+  };
+  const auto exactly_left = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    locate();
+    const Rational left = (Rational(b.x()) - Rational(a.x())) * (*exact_v - Rational(a.y()));
+    return Rational(left - (Rational(b.y()) - Rational(a.y())) * (*exact_u - Rational(a.x()))).sign();
+  };
+  const auto is_below = [&](double low) {  // whether `low` is at most the exact v
+    if (std::abs(v - low) > 2 * bound) return low < v;
+    locate();
+    return Rational(low) <= *exact_v;
+  };
+  bool inside = false;
+  double nearest = kInfinity;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d &a = outline[i], &b = outline[i + 1 < outline.size() ? i + 1 : 0];
+    const Eigen::Vector2d edge = b - a, from = Eigen::Vector2d(u, v) - a;
+    const double left = edge.x() * from.y(), right = edge.y() * from.x();
+    const double error = 0x1p-50 * (std::abs(left) + std::abs(right)) +
+                         2 * (std::abs(edge.x()) + std::abs(edge.y())) * bound + kSmallestNormal;
+    const bool is_clear = std::abs(left - right) > error;
+    const int side = is_clear ? (left > right ? 1 : -1) : exactly_left(a, b);
+    const auto between = [&](int axis) {  // exact, because the point is on the line of the edge
+      const Rational& at = axis == 0 ? *exact_u : *exact_v;
+      return at >= Rational(std::min(a[axis], b[axis])) && at <= Rational(std::max(a[axis], b[axis]));
+    };
+    if (side == 0 && between(0) && between(1)) return 0.0;
+    if (is_below(a.y()) != is_below(b.y()) && (side > 0) == (b.y() > a.y())) inside = !inside;
+    const double along = std::clamp(edge.dot(from) / edge.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (from - along * edge).norm());
+  }
+  return inside ? 0.0 : std::max(nearest, std::numeric_limits<double>::denorm_min());
+}
+
 // The half-planes of one or two corners do not bound the outline, but its box does.
 double violation(const Prism& prism, const Eigen::Vector3d& p) {
   const std::vector<Eigen::Vector2d>& outline = prism.outline();
@@ -149,6 +193,8 @@ double violation(const Prism& prism, const Eigen::Vector3d& p) {
     worst = std::max(worst, excess_distance(Rational(low[i]) - along, 1.0));
     worst = std::max(worst, excess_distance(along - Rational(high[i]), 1.0));
   }
+  if (!prism.is_convex())
+    return std::max(worst, polygon_violation(prism, p, rounded[0], rounded[1], bounds.head<2>().maxCoeff()));
   if (outline.size() < 2) return worst;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Eigen::Vector2d& next = outline[i + 1 < outline.size() ? i + 1 : 0];

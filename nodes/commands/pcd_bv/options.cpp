@@ -190,9 +190,10 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
-    if (!Partial::can_fit(*method))
+    if (!Partial::can_fit(*method, config.method_options()))
       throw UsageError(std::string("--volume: ")
                            .append(method->name)
+                           .append(method->needs_all_points ? "" : " with --concave")
                            .append(" needs all points, not only partial results: use --together"));
   }
 }

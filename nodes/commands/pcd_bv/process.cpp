@@ -301,7 +301,7 @@ std::string detail::coarse_warning(const Aabb& box, ScalarType scalar) {
 }
 
 MethodOptions detail::method_options(const Options& options) {
-  return {options.pipeline.growth, normalized_up(options.pipeline.ground.up)};
+  return options.pipeline.method_options();
 }
 
 Outcome detail::process(const Job& job, const Options& options, FramePipeline& pipeline) {

@@ -3,6 +3,7 @@
 
 // Finds the volume that a ray hits. Each test returns [entry, exit] along the ray or null. Volumes are
 // inflated by `pad`, the length of a few pixels, so that flat and small volumes can be hit.
+import { isConvex, trianglesOf } from "./polygon.js";
 import { isDrawable, SHAPES } from "./shapes.js";
 import { add, cross, dot, norm, scale, sub, unit } from "./vectors.js";
 
@@ -68,6 +69,23 @@ function throughCylinder(center, axis, radius, half, direction, pad) {
     throughPlanes(slab(axis, middle - half, middle + half), direction, pad));
 }
 
+// Intersects a ray with a prism over a convex outline.
+function throughConvexPrism(v, outline, from, direction, pad) {
+  const [u0, v0, h0] = v.axes.map((axis) => dot(axis, from));
+  const sides = outline.flatMap(([a, b], i) => {
+    const [c, d] = outline[(i + 1) % outline.length];
+    const length = Math.hypot(c - a, d - b);
+    if (length === 0) return [];
+    const [x, y] = [(d - b) / length, (a - c) / length];
+    return [{ n: add(scale(v.axes[0], x), scale(v.axes[1], y)), d: x * (a - u0) + y * (b - v0) }];
+  });
+  const box = [0, 1].flatMap((k) => {
+    const along = outline.map((corner) => corner[k] - [u0, v0][k]);
+    return slab(v.axes[k], Math.min(...along), Math.max(...along));
+  });
+  return throughPlanes([...sides, ...box, ...slab(v.axes[2], v.low - h0, v.high - h0)], direction, pad);
+}
+
 // The test of each shape. The arguments are: volume, start of the ray in absolute coordinates, direction of
 // the ray, pad.
 const TESTS = {
@@ -93,19 +111,9 @@ const TESTS = {
       return { n: scale(p, 1 / length), d: (p[3] - dot(p, from)) / length };
     }), direction, pad),
   prism: (v, from, direction, pad) => {
-    const [u0, v0, h0] = v.axes.map((axis) => dot(axis, from));
-    const sides = v.outline.flatMap(([a, b], i) => {
-      const [c, d] = v.outline[(i + 1) % v.outline.length];
-      const length = Math.hypot(c - a, d - b);
-      if (length === 0) return [];
-      const [x, y] = [(d - b) / length, (a - c) / length];
-      return [{ n: add(scale(v.axes[0], x), scale(v.axes[1], y)), d: x * (a - u0) + y * (b - v0) }];
-    });
-    const box = [0, 1].flatMap((k) => {
-      const along = v.outline.map((corner) => corner[k] - [u0, v0][k]);
-      return slab(v.axes[k], Math.min(...along), Math.max(...along));
-    });
-    return throughPlanes([...sides, ...box, ...slab(v.axes[2], v.low - h0, v.high - h0)], direction, pad);
+    if (isConvex(v.outline)) return throughConvexPrism(v, v.outline, from, direction, pad);
+    return union(trianglesOf(v.outline).map((triangle) =>
+      throughConvexPrism(v, triangle.map((i) => v.outline[i]), from, direction, pad)));
   },
   sphere: (v, from, direction, pad) => throughSphere(sub(v.center, from), v.radius + pad, direction),
   ellipsoid: (v, from, direction, pad) =>

@@ -6,6 +6,7 @@
 // origin of the scene. It is subtracted in double precision before the conversion to float32, so that large
 // coordinates (UTM) lose no precision.
 import { boundOfSlabs, polytope } from "./convex.js";
+import { isConvex, trianglesOf } from "./polygon.js";
 import { drawCapsule, drawCylinder, drawEllipsoid } from "./round.js";
 import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.js";
 
@@ -121,8 +122,18 @@ function drawPrism(batch, v, o, paint) {
     const n = unit(add(scale(v.axes[0], across), scale(v.axes[1], -along)));
     return { n, corners: [corner, low[next], high[next], high[i]] };
   });
-  const ends = [{ n: scale(v.axes[2], -1), corners: low.slice().reverse() }, { n: v.axes[2], corners: high }];
-  drawPolygons(batch, [...sides, ...ends], paint);
+  const down = scale(v.axes[2], -1);
+  if (isConvex(v.outline)) {
+    const ends = [{ n: down, corners: low.slice().reverse() }, { n: v.axes[2], corners: high }];
+    drawPolygons(batch, [...sides, ...ends], paint);
+    return;
+  }
+  drawPolygons(batch, sides, paint);
+  if (!paint.face) return;
+  for (const triangle of trianglesOf(v.outline)) {
+    batch.polygon(triangle.map((i) => low[i]).reverse(), down, paint.face);
+    batch.polygon(triangle.map((i) => high[i]), v.axes[2], paint.face);
+  }
 }
 
 const meters = (x) => Number(x.toPrecision(4)).toString();

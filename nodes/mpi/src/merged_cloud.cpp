@@ -85,7 +85,7 @@ class Attempt {
 
   /// Returns the rank that fits the method to all points, or nothing if the method does not need all points.
   std::optional<std::size_t> owner(std::size_t method) const {
-    if (!methods_[method]->needs_all_points) return std::nullopt;
+    if (!needs_all_points(*methods_[method], method_options(options_))) return std::nullopt;
     return method % ranks_.size();
   }
 

@@ -16,6 +16,10 @@ bool is_upright_box(const Method* method) {
   return method->upright && method->shape == "obb";
 }
 
+bool is_prism(const Method* method) {
+  return method->shape == "prism";
+}
+
 bool is_growing_sphere(const Method* method) {
   return method->shape == "sphere" && method->needs_all_points;
 }
@@ -29,13 +33,15 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
   };
   const std::vector<const Method*> all = methods();
   const bool upright = std::any_of(all.begin(), all.end(), is_upright_box),
-             sphere = std::any_of(all.begin(), all.end(), is_growing_sphere);
+             sphere = std::any_of(all.begin(), all.end(), is_growing_sphere),
+             prism = std::any_of(all.begin(), all.end(), is_prism);
   check("track.smooth", track.smooth, track.enabled, name("track.enabled"));
   check("track.grow", track.grow, track.enabled, name("track.enabled"));
   check("track.smooth", track.smooth && track.enabled, upright, "an upright box, obb-yaw or obb-lshape");
   check("track.grow", track.grow && track.enabled, upright, "an upright box, obb-yaw or obb-lshape");
   check("growth", growth != SphereGrowth::deferred, sphere,
         "a sphere that grows, sphere-ritter or sphere-epos*");
+  check("concave_length", concave_length.has_value(), prism, "prism");
   const bool limited = cluster.max_size < std::numeric_limits<std::size_t>::max() ||
                        std::any_of(cluster.classes.begin(), cluster.classes.end(),
                                    [](const ClassConfig& own) { return own.max_size.has_value(); });

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "pcl_bv/nodes/stream_runner.h"
+#include "pcl_bv/segmentation/up.h"
 
 namespace pcl_bv {
 
@@ -33,6 +35,10 @@ Execution PipelineConfig::execution() const {
   const UsableIsa instructions = parse_isa(isa);
   if (threads == 1) return {Serial{}, instructions};
   return {Threads{static_cast<unsigned>(threads)}, instructions};
+}
+
+MethodOptions PipelineConfig::method_options() const {
+  return {growth, normalized_up(ground.up), concave_length.value_or(std::numeric_limits<double>::infinity())};
 }
 
 Refine PipelineConfig::effective_refine() const {

@@ -164,6 +164,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"growth", "sequential, stationary, deferred",
           "Sphere growth (Ritter, EPOS)",
           {}, {}, "--growth", "POLICY"}, c.growth);
+  visit(S{"concave_length", "m", "Outlines of prisms follow bays that are wider than this",
+          {0, kFinite, false}, "convex outlines", "--concave", "M"}, c.concave_length);
   visit_track(c.track, visit);
   visit(S{"threads", "0: all processors", "Threads, 0 for all processors",
           {0, 1024}, {}, "--threads", "N"}, c.threads);

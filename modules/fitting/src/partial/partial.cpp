@@ -213,14 +213,14 @@ void Partial::merge(const Partial& other) {
   state_ = size() == 0 ? other.state_ : std::make_shared<PartialState>(merged(*state_, *other.state_));
 }
 
-bool Partial::can_fit(const Method& method) {
-  return !method.needs_all_points;
+bool Partial::can_fit(const Method& method, const MethodOptions& options) {
+  return !needs_all_points(method, options);
 }
 
 Fitted<AnyVolume> Partial::fit(const Method& method, const MethodOptions& options,
                                const Execution& execution) const {
   const FloatEnvironment environment;
-  if (!can_fit(method)) refuse_partial(method.name);
+  if (!can_fit(method, options)) refuse_partial(method.needs_all_points ? method.name : kConcavePrism);
   if (state_->stores_all()) {
     const PackedPoints all(state_->loose, state_->scalar);
     return method.fit(all.view(), options, execution);

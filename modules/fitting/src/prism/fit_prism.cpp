@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A SIMD filter drops the points inside the polygon of the extremal points seen from above. The convex hull
-// of the other points is computed in exact arithmetic.
+// of the other points is computed in exact arithmetic. A concave outline then needs all points again.
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "box/outline.h"
 #include "map_chunks.h"
 #include "pcl_bv/fitting/fit_into.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/volumes/planar_hull.h"
+#include "pcl_bv/volumes/simple_polygon.h"
+#include "prism/concave_outline.h"
 #include "prism/projected_hull.h"
 #include "same_points.h"
 #include "schedule.h"
@@ -77,6 +84,72 @@ std::vector<Eigen::Vector2d> outline_of(const ProjectedPoints& corners, const Gr
   return outline_around(boxes);
 }
 
+// Returns the rounded coordinates of all points seen from above.
+std::vector<Eigen::Vector2d> seen_from_above(const PointView& points, const Supports& supports,
+                                             const GroundProjection& projection,
+                                             const FitExecution& execution) {
+  using Positions = std::vector<Eigen::Vector2d>;
+  Positions all;
+  map_chunks<Positions, 16>(
+      points, worthwhile(execution, Work::outline, points.count),
+      [&](const PointView& chunk) {
+        Positions found;
+        found.reserve(chunk.count);
+        for (std::size_t i = 0; i < chunk.count; ++i) {
+          const Coordinates p = load_point(chunk, i);
+          if (!is_valid(p)) continue;
+          require_same_points(within(supports, p));
+          found.emplace_back(projection.project(p).at.array() + 0.0);
+        }
+        return found;
+      },
+      [&](Positions part) {
+        if (all.empty()) {
+          all = std::move(part);
+        } else {
+          all.insert(all.end(), part.begin(), part.end());
+        }
+      });
+  require_same_points(all.size() == supports.used);
+  return all;
+}
+
+// Returns whether an edge of the convex hull is longer than a length.
+bool has_longer_edge(const ProjectedPoints& corners, double length) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d edge = corners[i + 1 < corners.size() ? i + 1 : 0].at - corners[i].at;
+    if (edge.squaredNorm() > length * length) return true;
+  }
+  return false;
+}
+
+// Returns a concave outline around all points, or nothing if the convex one has no edge to replace. The
+// rounded coordinates differ from the exact ones by at most the error bound, which polygon_around() covers.
+std::optional<std::vector<Eigen::Vector2d>> concave_outline_of(const PointView& points,
+                                                               const Supports& supports,
+                                                               const ProjectedPoints& corners,
+                                                               const GroundProjection& projection,
+                                                               double length, const FitExecution& execution) {
+  if (!(length < kInfinity) || !has_longer_edge(corners, length)) return std::nullopt;
+  const std::vector<Eigen::Vector2d> seen = seen_from_above(points, supports, projection, execution);
+  std::vector<Eigen::Vector2d> hull;
+  if (projection.is_exact()) {
+    hull = outline_of(corners, projection);
+  } else {
+    for (const std::size_t i : planar_hull(seen))
+      hull.push_back(seen[i]);
+  }
+  if (hull.size() < 3) return std::nullopt;
+  const std::vector<Eigen::Vector2d> outline = concave_outline(hull, seen, length);
+  if (outline == hull) return std::nullopt;
+  return polygon_around(outline, projection.error_bound());
+}
+
+double checked_length(double length) {
+  if (length > 0) return length;
+  throw std::invalid_argument("fit_prism: concave_length " + std::to_string(length) + " is not above 0");
+}
+
 struct Heights {
   double low, high;
 };
@@ -104,6 +177,8 @@ EstimationResult fit_prism(const PointView& points, const PrismOptions& options,
                            const FitExecution& execution) {
   prism = Prism();
   const Eigen::Vector3d up = unit_up("fit_prism", options.up);
+  const double length = checked_length(options.concave_length);
+  if (length < kInfinity) require_all_points(execution, kConcavePrism);
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used > 0) {
     const Ground ground(up);
@@ -112,8 +187,11 @@ EstimationResult fit_prism(const PointView& points, const PrismOptions& options,
     const Heights heights = heights_of(points, supports, ground.up, execution);
     Eigen::Matrix3d axes;
     axes << ground.east, ground.north, ground.up;
-    prism = PrismAccess::make(axes.array() + 0.0, outline_of(corners, projection), heights.low + 0.0,
-                              heights.high + 0.0);
+    auto concave = concave_outline_of(points, supports, corners, projection, length, execution);
+    const bool is_convex = !concave;
+    prism = PrismAccess::make(axes.array() + 0.0,
+                              is_convex ? outline_of(corners, projection) : *std::move(concave),
+                              heights.low + 0.0, heights.high + 0.0, is_convex);
   }
   return result_of(supports);
 }

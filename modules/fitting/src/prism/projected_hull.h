@@ -31,6 +31,9 @@ class GroundProjection {
   /// Whether the coordinates of all points are doubles, because the axes of the ground are coordinate axes.
   bool is_exact() const { return error_bound_ == 0; }
 
+  /// Bound of the rounding errors of the coordinates of project(); 0 if is_exact().
+  double error_bound() const { return error_bound_; }
+
   /// Keeps the corners of the convex hull, counter-clockwise, beginning with the smallest (u, v). Of points
   /// with equal coordinates one remains. O(n log n).
   void keep_corners(std::vector<ProjectedPoint>& points) const;

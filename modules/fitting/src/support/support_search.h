@@ -30,6 +30,9 @@ inline bool represents_cloud(const FitExecution& execution) {
 /// function. `fit` is the name of the fit in the message.
 void require_all_points(const FitExecution& execution, const char* fit);
 
+/// The name of a fit for require_all_points() and refuse_partial().
+inline constexpr const char* kConcavePrism = "prism with a concave outline (concave_length)";
+
 /// Throws the std::invalid_argument of require_all_points().
 [[noreturn]] void refuse_partial(std::string_view fit);
 

@@ -158,6 +158,9 @@ struct PipelineConfig {
   /// is 0.
   std::vector<std::string> volumes;
   SphereGrowth growth = SphereGrowth::deferred;  ///< Policy of sphere-ritter and sphere-epos*.
+  /// Outlines of prisms follow bays wider than this, metres (PrismOptions). If not given: outlines are
+  /// convex.
+  std::optional<double> concave_length{};
   TrackConfig track;
   std::size_t threads = 1;   ///< Number of threads; 0: all processors.
   std::string isa = "auto";  ///< Instruction set, a name that parse_isa() knows.
@@ -181,7 +184,8 @@ struct PipelineConfig {
 
   /// Returns the execution for `threads` and `isa`. Throws std::invalid_argument if `isa` is not usable.
   Execution execution() const;
-  Refine effective_refine() const;  ///< Not `automatic`.
+  Refine effective_refine() const;       ///< Not `automatic`.
+  MethodOptions method_options() const;  ///< `up` has length 1.
 };
 
 /// Returns a configuration that suits any cloud: no filter, no ground removal, all points in one object,

@@ -203,6 +203,7 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
 /// Fills a geometry_msgs/PolygonStamped with the footprint of a prism, as costmaps read it: the corners of
 /// the outline at the height low(), counter-clockwise seen from above, rounded to float. Rounding can move a
 /// corner inward by half a unit in the last place of its coordinates. An empty prism gives no points.
+/// The polygon is not convex if the outline of the prism is not.
 template <class Polygon>
 void fill_footprint(const Frame& frame, const Prism& prism, Polygon& message) {
   topics::set_header(frame, message.header);

@@ -255,7 +255,8 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
   ObbOptions options_;
 };
 
-/// Estimates an upright prism over the convex hull of the points seen from above. See fit_prism().
+/// Estimates an upright prism over the convex hull of the points seen from above, or over a concave outline
+/// (setConcaveLength()). See fit_prism().
 template <typename PointT>
 class PrismEstimation : public BoundingVolumeEstimation<PointT, Prism> {
  public:
@@ -266,6 +267,11 @@ class PrismEstimation : public BoundingVolumeEstimation<PointT, Prism> {
   /// throws std::invalid_argument unless the largest component of `up` is from 1e-30 to 1e30 in magnitude.
   void setUpAxis(const Eigen::Vector3d& up) { options_.up = up; }
   const Eigen::Vector3d& getUpAxis() const { return options_.up; }
+
+  /// Sets PrismOptions::concave_length. The default, infinity, gives convex outlines. compute() throws
+  /// std::invalid_argument unless the length is above 0.
+  void setConcaveLength(double length) { options_.concave_length = length; }
+  double getConcaveLength() const { return options_.concave_length; }
 
  protected:
   Fitted<Prism> fit(const PointView& points, const Execution& execution) const override {

@@ -108,8 +108,9 @@ Fitted<Obb> fit_obb(const PointView& points, const ObbOptions& options = {}, con
 /// computes the hull of the m remaining points, usually in O(m log m) (Barber, Dobkin, Huhdanpaa 1996).
 Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 
-/// Fits an upright prism around the points. Its outline is the exact convex hull of the points seen from
-/// above. Its heights are the exact minimum and maximum along `up`. Coordinates are in the points' unit.
+/// Fits an upright prism around the points. By default its outline is the exact convex hull of the points
+/// seen from above. Its heights are the exact minimum and maximum along `up`. Coordinates are in the points'
+/// unit.
 ///
 /// If `up` is a coordinate axis, the corners of the outline are coordinates of points, and no smaller prism
 /// along this axis encloses the points. Otherwise the coordinates along the axes are usually no doubles, so
@@ -117,11 +118,16 @@ Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 /// rank is that of the points. Points that are flat seen from above give an outline of one or two corners if
 /// `up` is a coordinate axis, otherwise an outline that is a few rounding steps wide.
 ///
-/// Empty input and errors are as for fit_aabb(). Throws std::invalid_argument for an `up` outside its range,
-/// too. The bits are the same for every execution and every order of the points.
+/// With PrismOptions::concave_length, the outline need not be convex (Duckham et al. 2008). It is a simple
+/// polygon that contains all points. If `up` is a coordinate axis, its corners are points, and its area is
+/// not larger than that of the convex hull. Points exactly on one line have no area, so no bay begins there.
+///
+/// Empty input and errors are as for fit_aabb(). Throws std::invalid_argument for an `up` or a concave_length
+/// outside its range, too. The bits are the same for every execution and every order of the points.
 ///
 /// O(n): two passes, and a third one if `up` is no coordinate axis. O(m log m) for the m points near the
-/// outline (Akl, Toussaint 1978; Andrew 1979).
+/// outline (Akl, Toussaint 1978; Andrew 1979). A concave outline needs another pass, O(n log n), memory for
+/// the positions of all points, and O(k + e) for each of its edges, with k cells (at most 2^16) and e edges.
 Fitted<Prism> fit_prism(const PointView& points, const PrismOptions& options = {},
                         const Execution& execution = {});
 

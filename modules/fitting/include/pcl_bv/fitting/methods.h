@@ -5,6 +5,7 @@
 // formats and the method name `all` use this table.
 #pragma once
 
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct MethodOptions {
   SphereGrowth growth = SphereGrowth::deferred;   ///< Used by all spheres but sphere-exact.
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Used by obb-yaw, obb-lshape and prism.
+  /// Used by prism: PrismOptions::concave_length. Infinity: convex.
+  double concave_length = std::numeric_limits<double>::infinity();
 };
 
 namespace detail {
@@ -27,15 +30,20 @@ struct MethodFit;
 struct Method {
   std::string_view name;                  ///< The canonical name, as written into results, e.g. "dop26".
   std::vector<std::string_view> aliases;  ///< Other accepted names.
-  std::string_view shape;         ///< The result of shape_name(); empty for `best`, whose shape varies.
-  bool upright = false;           ///< Whether the volumes are upright and MethodOptions::up is used.
-  bool needs_all_points = false;  ///< Whether points deep inside the cloud can change the volume.
+  std::string_view shape;  ///< The result of shape_name(); empty for `best`, whose shape varies.
+  bool upright = false;    ///< Whether the volumes are upright and MethodOptions::up is used.
+  /// Whether points deep inside the cloud can change the volume, with default options.
+  bool needs_all_points = false;
   const detail::MethodFit* implementation = nullptr;  ///< Not null for the methods of methods().
 
   /// Fits the volume to the points. The result is that of the method's function in fit.h.
   Fitted<AnyVolume> fit(const PointView& points, const MethodOptions& options = {},
                         const Execution& execution = {}) const;
 };
+
+/// Returns whether points deep inside the cloud can change the volume: with Method::needs_all_points, and for
+/// a prism with a concave outline.
+bool needs_all_points(const Method& method, const MethodOptions& options);
 
 /// Returns all methods of this build, in the order of the documentation.
 const std::vector<Method>& methods();

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -86,11 +87,17 @@ struct ObbOptions {
 /// Options of fit_prism().
 struct PrismOptions {
   // Not explicit, so that a direction can be passed alone.
-  PrismOptions(const Eigen::Vector3d& u = Eigen::Vector3d::UnitZ()) : up(u) {}
+  PrismOptions(const Eigen::Vector3d& u = Eigen::Vector3d::UnitZ(),
+               double c = std::numeric_limits<double>::infinity())
+      : up(u), concave_length(c) {}
 
   /// The direction against gravity. Its length does not matter, but its largest component must be from 1e-30
   /// to 1e30 in magnitude.
   Eigen::Vector3d up;
+  /// Infinity: the outline is the convex hull. Otherwise each edge of the outline that is longer than this
+  /// length is replaced by shorter ones along the points behind it, as far as the points allow. So the
+  /// outline follows bays that are wider than this length. In the unit of the points, above 0.
+  double concave_length;
 };
 
 /// Proof that a sphere cannot be smaller: up to four points p_i of the cloud and weights w_i >= 0 with sum 1.

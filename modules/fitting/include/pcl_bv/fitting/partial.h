@@ -49,12 +49,13 @@ class Partial {
   /// float and the other double coordinates.
   void merge(const Partial& other);
 
-  /// Returns whether the method can be fitted to parts. This is true for all methods except obb-lshape and
-  /// the spheres other than sphere-exact. Those volumes can depend on points deep inside the cloud.
-  static bool can_fit(const Method& method);
+  /// Returns whether the method can be fitted to parts. This is true for all methods except obb-lshape, the
+  /// spheres other than sphere-exact, and a prism with a concave outline. Those volumes can depend on points
+  /// deep inside the cloud.
+  static bool can_fit(const Method& method, const MethodOptions& options = {});
 
   /// Fits the volume around all points. Status, rank and counts are those of all points. O(m log m) for m
-  /// extreme points. Throws std::invalid_argument unless can_fit(method).
+  /// extreme points. Throws std::invalid_argument unless can_fit(method, options).
   Fitted<AnyVolume> fit(const Method& method, const MethodOptions& options = {},
                         const Execution& execution = {}) const;
 
