@@ -7,12 +7,9 @@
 #include <algorithm>
 
 #include "command.h"
-#include "pcl_bv/report/read_volumes.h"
 
 namespace pcl_bv::test {
 namespace {
-
-using namespace detail;
 
 // Points 0.5 m apart on two legs of 10 m and 1 m width.
 std::vector<std::string> corner() {
@@ -32,12 +29,19 @@ TEST_F(PcdBv, AConcaveOutlineIsCheckedPrintedAndReadBack) {
   const Result result = run({"--volume", "prism", "--concave", "1", "--check", "--format", "json", "--output",
                              at("out.json"), "--mesh", at("out.ply"), "--image", at("out.svg"), cloud});
   ASSERT_EQ(result.status, 0) << result.err;
-  const AnyVolume volume = read_volumes(at("out.json")).front();
-  const auto& prism = std::get<Prism>(volume);
-  EXPECT_FALSE(prism.is_convex());
-  EXPECT_EQ(prism.footprint_area(), 19) << "10 + 9 squares of 1 m";
-  EXPECT_FALSE(prism.contains({3, 3, 1.5}));
-  EXPECT_EQ(Json::parse(convex.out)["clusters"][0]["volumes"][0]["outline"].size(), 5U);
+  const Json outline = Json::parse(read_file(at("out.json")))[0]["clusters"][0]["volumes"][0]["outline"];
+  double doubled = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Json &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    doubled += a[0].get<double>() * b[1].get<double>() - a[1].get<double>() * b[0].get<double>();
+  }
+  EXPECT_EQ(doubled / 2, 19) << "10 + 9 squares of 1 m";
+  // Read back as a region, it has all points of the cloud, and a point in the bay is not in it.
+  const std::string other = ascii("other.pcd", {"3 3 1.5", "0.25 0.25 1.5", "9.75 0.75 1.5"});
+  const Result left = run({"--drop-inside", at("out.json"), "--volume", "aabb", "--format", "json", other});
+  EXPECT_EQ(Json::parse(left.out)[0]["clusters"][0]["points"], 1) << left.out << left.err;
+  EXPECT_EQ(Json::parse(left.out)[0]["clusters"][0]["volumes"][0]["min"], Json::parse("[3, 3, 1.5]"));
+  EXPECT_EQ(Json::parse(convex.out)[0]["clusters"][0]["volumes"][0]["outline"].size(), 5U);
 }
 
 TEST_F(PcdBv, AConcaveLengthMustBeAboveZeroAndNeedsAllPoints) {
