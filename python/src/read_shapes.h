@@ -116,8 +116,8 @@ inline constexpr const char* prism_doc = R"(Prism(axes, outline, low, high)
 An upright prism over a simple polygon. A point p has the coordinates u = axes[0] . p, v = axes[1] . p and
 h = axes[2] . p. The prism is the set of all p with low <= h <= high whose (u, v) is inside the outline, which
 has counter-clockwise corners and need not be convex. Its edges meet only at the corners that they share.
-Without corners or with low > high, the prism is empty. overlaps() and regions use the prism over the convex hull
-of the outline.
+Without corners or with low > high, the prism is empty. overlaps() and padded regions use the prism over the
+convex hull of the outline.
 
 >>> import numpy, pcl_bv
 >>> prism = pcl_bv.Prism(numpy.eye(3), [[0, 0], [2, 0], [0, 2]], 0, 1)

@@ -26,8 +26,9 @@ std::vector<std::string> corner() {
 TEST_F(PcdBv, AConcaveOutlineIsCheckedPrintedAndReadBack) {
   const std::string cloud = ascii("corner.pcd", corner());
   const Result convex = run({"--volume", "prism", "--format", "json", cloud});
-  const Result result = run({"--volume", "prism", "--concave", "0.6", "--check", "--format", "json", "--output",
-                             at("out.json"), "--mesh", at("out.ply"), "--image", at("out.svg"), cloud});
+  const Result result =
+      run({"--volume", "prism", "--concave", "0.6", "--check", "--format", "json", "--output", at("out.json"),
+           "--mesh", at("out.ply"), "--image", at("out.svg"), cloud});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json outline = Json::parse(read_file(at("out.json")))[0]["clusters"][0]["volumes"][0]["outline"];
   double doubled = 0;
