@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace pcl_bv::detail {
 namespace {
@@ -14,6 +13,7 @@ namespace {
 constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
 constexpr double kMaxCells = 0x1p22;
 constexpr std::size_t kReach = 2;  // number of cells to each side that add to a density
+constexpr std::size_t kWidth = 2 * kReach + 1;
 
 // Weights of the cells around a cell in its density.
 constexpr std::array<std::array<std::uint64_t, 5>, 5> kWeights{
@@ -24,9 +24,9 @@ constexpr std::array<std::array<std::uint64_t, 5>, 5> kWeights{
 void PlanBasins::reserve(std::size_t points, const Eigen::Vector2d& sides, double side) {
   make_grid(sides, side);
   cells_.reserve(points);
-  cell_of_.reserve(points);
-  order_.reserve(points);
-  number_.reserve(points);
+  parent_.reserve(points);
+  place_of_.reserve(points);
+  basin_.reserve(points);
 }
 
 // Returns whether the grid is small enough. It has a margin of kReach cells on each side, so that all
@@ -36,68 +36,73 @@ bool PlanBasins::make_grid(const Eigen::Vector2d& sides, double side) {
   if (!(cells.maxCoeff() < kMaxCells) || !((cells.x() + 1) * (cells.y() + 1) <= kMaxCells)) return false;
   const auto columns = static_cast<std::size_t>(cells.x()) + 1 + 2 * kReach;
   stride_ = static_cast<std::size_t>(cells.y()) + 1 + 2 * kReach;
-  if (grid_.size() < columns * stride_) grid_.resize(columns * stride_, kNone);
+  if (count_.size() < columns * stride_) {
+    count_.resize(columns * stride_, 0);
+    number_.resize(columns * stride_, kNone);
+  }
   return true;
 }
 
 void PlanBasins::fill_cells(const std::vector<Eigen::Vector2d>& points, double side) {
   cells_.clear();
-  cell_of_.clear();
+  place_of_.clear();
   for (const Eigen::Vector2d& point : points) {
     const Eigen::Vector2d at = (point - low_) / side;
     const std::size_t place =
         (static_cast<std::size_t>(at.x()) + kReach) * stride_ + static_cast<std::size_t>(at.y()) + kReach;
-    if (grid_[place] == kNone) {
-      grid_[place] = static_cast<std::uint32_t>(cells_.size());
-      cells_.push_back({static_cast<std::uint32_t>(place)});
-    }
-    ++cells_[grid_[place]].count;
-    cell_of_.push_back(grid_[place]);
+    if (count_[place]++ == 0) cells_.push_back({0, static_cast<std::uint32_t>(place)});
+    place_of_.push_back(static_cast<std::uint32_t>(place));
   }
 }
 
-// Calls visit(number, weight) for each cell that is at most kReach cells away, the cell itself included.
-template <typename Visit>
-void PlanBasins::visit_neighbours(std::uint32_t cell, const Visit& visit) const {
-  const std::size_t place = cells_[cell].place - kReach * stride_ - kReach;
-  for (std::size_t i = 0; i <= 2 * kReach; ++i) {
-    for (std::size_t j = 0; j <= 2 * kReach; ++j) {
-      const std::uint32_t other = grid_[place + i * stride_ + j];
-      if (other != kNone) visit(other, kWeights[i][j]);
-    }
-  }
-}
-
-// Cells of equal density are sorted by their place, so the result does not depend on the order of the points.
 void PlanBasins::sort_by_density() {
-  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-    visit_neighbours(c, [&](std::uint32_t other, std::uint64_t weight) {
-      cells_[c].density += weight * cells_[other].count;
-    });
+  for (Cell& cell : cells_) {
+    const std::uint32_t* column = &count_[cell.place - kReach * stride_ - kReach];
+    for (const auto& weights : kWeights) {
+      for (std::size_t j = 0; j < weights.size(); ++j)
+        cell.density += weights[j] * column[j];
+      column += stride_;
+    }
   }
-  order_.resize(cells_.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Cell &first = cells_[a], &second = cells_[b];
-    return first.density != second.density ? first.density > second.density : first.place < second.place;
-  });
-  for (std::uint32_t rank = 0; rank < order_.size(); ++rank)
-    cells_[order_[rank]].rank = rank;
+  std::sort(cells_.begin(), cells_.end());
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    number_[cells_[c].place] = c;
 }
 
 std::uint32_t PlanBasins::peak_of(std::uint32_t cell) {
-  while (cells_[cell].parent != cell)
-    cell = cells_[cell].parent = cells_[cells_[cell].parent].parent;
+  while (parent_[cell] != cell)
+    cell = parent_[cell] = parent_[parent_[cell]];
   return cell;
 }
 
+// Joins the basins of two peaks, unless the saddle is too low.
 void PlanBasins::join(std::uint32_t a, std::uint32_t b, std::uint64_t saddle) {
-  const std::uint32_t low = cells_[a].rank > cells_[b].rank ? a : b, high = low == a ? b : a;
-  if (low != high && 2 * saddle >= cells_[low].density) cells_[low].parent = high;
+  const auto [high, low] = std::minmax(a, b);
+  if (low != high && 2 * saddle >= cells_[low].density) parent_[low] = high;
 }
 
 // Adds the cells in the order of descending density. Each cell joins its densest neighbour. If other
 // neighbours belong to other basins, the cell is the saddle between these basins.
+void PlanBasins::join_cells() {
+  parent_.resize(cells_.size());
+  std::array<std::uint32_t, kWidth * kWidth> denser{};
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+    std::size_t count = 0;
+    std::uint32_t densest = c;
+    const std::uint32_t* column = &number_[cells_[c].place - kReach * stride_ - kReach];
+    for (std::size_t i = 0; i < kWidth; ++i, column += stride_) {
+      for (std::size_t j = 0; j < kWidth; ++j) {
+        if (column[j] >= c) continue;
+        denser[count++] = column[j];
+        densest = std::min(densest, column[j]);
+      }
+    }
+    parent_[c] = densest == c ? c : peak_of(densest);
+    for (std::size_t i = 0; i < count; ++i)
+      join(peak_of(c), peak_of(denser[i]), cells_[c].density);
+  }
+}
+
 std::size_t PlanBasins::find(const std::vector<Eigen::Vector2d>& points, double side,
                              std::vector<std::uint32_t>& basin_of) {
   basin_of.assign(points.size(), 0);
@@ -110,24 +115,17 @@ std::size_t PlanBasins::find(const std::vector<Eigen::Vector2d>& points, double 
   if (!make_grid(high - low_, side)) return 1;
   fill_cells(points, side);
   sort_by_density();
-  for (const std::uint32_t c : order_) {
-    std::uint32_t densest = c;
-    visit_neighbours(c, [&](std::uint32_t other, std::uint64_t /*weight*/) {
-      if (cells_[other].rank < cells_[densest].rank) densest = other;
-    });
-    cells_[c].parent = densest == c ? c : peak_of(densest);
-    visit_neighbours(c, [&](std::uint32_t other, std::uint64_t /*weight*/) {
-      if (cells_[other].rank < cells_[c].rank) join(peak_of(c), peak_of(other), cells_[c].density);
-    });
-  }
-  number_.assign(cells_.size(), 0);
+  join_cells();
+  basin_.assign(cells_.size(), 0);
   std::uint32_t basins = 0;
-  for (const std::uint32_t c : order_)
-    if (peak_of(c) == c) number_[c] = basins++;
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    basin_[c] = parent_[c] == c ? basins++ : basin_[peak_of(c)];
   for (std::size_t i = 0; i < points.size(); ++i)
-    basin_of[i] = number_[peak_of(cell_of_[i])];
-  for (const Cell& cell : cells_)
-    grid_[cell.place] = kNone;
+    basin_of[i] = basin_[number_[place_of_[i]]];
+  for (const Cell& cell : cells_) {
+    count_[cell.place] = 0;
+    number_[cell.place] = kNone;
+  }
   return basins;
 }
 

@@ -31,26 +31,29 @@ class PlanBasins {
 
  private:
   struct Cell {
-    std::uint32_t place = 0;  // in the grid
-    std::uint32_t count = 0;
     std::uint64_t density = 0;
-    std::uint32_t parent = 0;  // a cell of the same basin; itself for the peak
-    std::uint32_t rank = 0;    // position in the order of descending density
+    std::uint32_t place = 0;  // in the grid
+    // Denser cells are first. Cells of equal density are sorted by their place, so the result does not depend
+    // on the order of the points.
+    bool operator<(const Cell& other) const {
+      return density != other.density ? density > other.density : place < other.place;
+    }
   };
 
   bool make_grid(const Eigen::Vector2d& sides, double side);
   void fill_cells(const std::vector<Eigen::Vector2d>& points, double side);
   void sort_by_density();
-  template <typename Visit>
-  void visit_neighbours(std::uint32_t cell, const Visit& visit) const;
+  void join_cells();
   std::uint32_t peak_of(std::uint32_t cell);
   void join(std::uint32_t a, std::uint32_t b, std::uint64_t saddle);
 
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();  // lower corner of the points
   std::size_t stride_ = 0;                         // cells of a column of the grid
-  std::vector<std::uint32_t> grid_;  // number of the cell at each place; kNone between two calls
-  std::vector<Cell> cells_;
-  std::vector<std::uint32_t> cell_of_, order_, number_;
+  std::vector<std::uint32_t> count_;   // number of points at each place of the grid; 0 between two calls
+  std::vector<std::uint32_t> number_;  // number of the cell at each place; kNone between two calls
+  std::vector<Cell> cells_;            // in the order of descending density
+  std::vector<std::uint32_t> parent_;  // for each cell, a cell of the same basin; itself for the peak
+  std::vector<std::uint32_t> place_of_, basin_;
 };
 
 }  // namespace detail
