@@ -143,6 +143,21 @@ TEST(NeckCut, SeparatesAPersonFromTheGrassAround) {
   EXPECT_GT(share_of_right_points(cloud, parts), 0.9);  // the grass within 0.3 m is the person's
 }
 
+// A kerb leads away from two people.
+TEST(NeckCut, SeparatesAGroupFromTheKerbThatLeadsAwayFromIt) {
+  std::mt19937_64 random(7);
+  std::vector<std::uint32_t> parts;
+  Cloud cloud;
+  add_person(cloud, 1, 10, 0, 400, random);
+  add_person(cloud, 2, 10.7, 0, 400, random);
+  for (int i = 0; i < 60; ++i) {
+    cloud.points.emplace_back(10.9F + 0.05F * static_cast<float>(i), 0.0F, 0.1F);
+    cloud.owner.push_back(0);
+  }
+  ASSERT_EQ(cut(cloud, parts), 3U);
+  EXPECT_GT(share_of_right_points(cloud, parts), 0.98);
+}
+
 TEST(NeckCut, DependsNeitherOnTheOrderOfThePointsNorOnTheDirectionOfUp) {
   std::mt19937_64 random(4);
   Cloud cloud;

@@ -28,8 +28,11 @@ constexpr double kMinDensity = 0.5;  // of the part's points per width and heigh
 // A narrower cluster is one person with spread arms. A wider or higher one is a building or a row of trees.
 constexpr double kMinClusterWidth = 0.9, kMaxClusterWidth = 12, kMaxClusterHeight = 3;
 constexpr std::size_t kMinPoints = 10;  // fewer points have no density
+constexpr std::size_t kSampleStep = 16;
 // At most this share of the points of a group may be in other parts, such as arms and bags.
 constexpr double kMaxRemainder = 0.3;
+// Other parts that are farther from all people, such as grass and kerbs, are no part of a person, metres.
+constexpr double kGroupReach = 0.8;
 
 // Points less than kLow above the lowest point of the squares around are grass, kerbs and feet: they join
 // objects that are apart above them. They belong to the basin within kNear, if any.
@@ -45,13 +48,19 @@ double distance_to(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point)
 // cluster.
 bool NeckCut::project(const PointView& cluster, const Eigen::Vector3d& up) {
   const Eigen::Vector3d x = up.unitOrthogonal(), y = up.cross(x);
-  points_.clear();
-  box_.setEmpty();
-  for (std::size_t i = 0; i < cluster.count; ++i) {
-    const Eigen::Vector3d point = point_at(cluster, i);
-    points_.emplace_back(point.dot(x), point.dot(y), point.dot(up));
-    box_.extend(points_.back());
-  }
+  const auto project_every = [&](std::size_t step) {
+    points_.clear();
+    box_.setEmpty();
+    for (std::size_t i = 0; i < cluster.count; i += step) {
+      const Eigen::Vector3d point = point_at(cluster, i);
+      points_.emplace_back(point.dot(x), point.dot(y), point.dot(up));
+      box_.extend(points_.back());
+    }
+  };
+  // Most points are in clusters that are too large. A few points show it.
+  project_every(kSampleStep);
+  if (plan_width(box_) > kMaxClusterWidth || box_.sizes().z() > kMaxClusterHeight) return false;
+  project_every(1);
   const double width = plan_width(box_), height = box_.sizes().z();
   if (!(width >= kMinClusterWidth && width <= kMaxClusterWidth)) return false;
   if (!(height >= kMinHeight && height <= kMaxClusterHeight)) return false;
@@ -135,6 +144,13 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
     rest -= basin.points;
   }
   if (parts < 2 || static_cast<double>(rest) > kMaxRemainder * static_cast<double>(points_.size())) return 0;
+  return parts + give_remainder(parts, min_size);
+}
+
+// Gives each of the other basins to the nearest person. If those out of reach are large enough together, they
+// become part number `parts`. Returns the number of parts that were added.
+std::uint32_t NeckCut::give_remainder(std::uint32_t parts, std::size_t min_size) {
+  std::size_t out_of_reach = 0;
   for (Basin& other : basins_) {
     if (other.person || other.points == 0) continue;
     double least = std::numeric_limits<double>::infinity();
@@ -144,8 +160,13 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
       least = distance;
       other.part = basin.part;
     }
+    other.apart = other.box.isEmpty() || least > kGroupReach;
+    if (other.apart) out_of_reach += other.points;
   }
-  return parts;
+  if (out_of_reach < min_size) return 0;
+  for (Basin& other : basins_)
+    if (other.apart) other.part = parts;
+  return 1;
 }
 
 // Whether a basin with the size of a person is a person next to something else.

@@ -43,6 +43,7 @@ class NeckCut {
     std::size_t points = 0;
     std::uint32_t part = 0;
     bool person = false;
+    bool apart = false;  // no person, and out of the reach of all people
   };
   // Squares of 1 m cover a cluster of 12 m, with a margin of one square on each side.
   static constexpr std::size_t kRow = 15;
@@ -52,6 +53,7 @@ class NeckCut {
   void find_basins(double cell);
   bool give_low_points();
   std::uint32_t number_group(std::size_t min_size);
+  std::uint32_t give_remainder(std::uint32_t parts, std::size_t min_size);
   std::uint32_t number_people(std::size_t min_size);
   bool stands_out(const Basin& basin) const;
 
