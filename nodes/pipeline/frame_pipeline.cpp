@@ -23,6 +23,7 @@
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/check.h"
 #include "refine/cluster_refiner.h"
+#include "reserve_ahead.h"
 #include "synthetic_sweep.h"
 #include "tracked_volumes.h"
 
@@ -232,6 +233,9 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   make_views(cloud, result);
   const std::size_t methods = now.methods.size();
   result.methods.assign(now.methods.begin(), now.methods.end());
+  reserve_ahead(result.volumes, views.size() * methods);
+  reserve_ahead(result.results, views.size() * methods);
+  reserve_ahead(result.requested, views.size() * methods);
   result.volumes.resize(views.size() * methods);
   result.results.resize(result.volumes.size());
   result.requested.resize(result.volumes.size());

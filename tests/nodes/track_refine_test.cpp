@@ -182,6 +182,34 @@ void run_road(std::size_t frames, unsigned threads, const Check& check) {
   }
 }
 
+// A person who stands still stretches out the left arm and the right arm in turn.
+TEST(TrackedPeople, StandWhateverTheirArmsDo) {
+  PipelineConfig config;
+  config.volumes = {"aabb"};
+  config.ground.method = GroundMethod::none;
+  config.track.enabled = true;
+  FramePipeline pipeline(config);
+  FrameResult result;
+  for (int i = 0; i < 30; ++i) {
+    std::mt19937_64 random(11);
+    std::vector<Eigen::Vector3d> points;
+    add_faces(points, box_at(8, 3, 0.3, 0.4, 1.7), 400, random);
+    const double side = i / 4 % 2 == 0 ? 1 : -1;
+    const Eigen::Vector3d hand(8, 3 + 0.7 * side, 1.4), shoulder(8, 3 + 0.2 * side, 1.4);
+    for (int k = 0; k <= 20; ++k)
+      points.push_back(shoulder + k / 20.0 * (hand - shoulder));
+    Frame frame;
+    frame.header.stamp_ns = i * 100'000'000LL;
+    frame.pose = Pose::Identity();
+    frame.points = PointView::of(points.data()->data(), sizeof(Eigen::Vector3d), points.size());
+    pipeline.process(frame, result);
+    ASSERT_EQ(result.tracks.size(), 1U);
+    if (!result.tracks[0]) continue;
+    EXPECT_LT(result.tracks[0]->velocity.norm(), 0.25) << i;
+    EXPECT_NEAR(result.tracks[0]->pose[1], 3, 0.06) << i;
+  }
+}
+
 TEST(RefineByTracks, KeepsEveryPointInOneObjectAndTheOrderOfClusters) {
   std::size_t cut = 0, joined = 0;
   run_road(12, 1, [&](const Frame&, const FrameResult& without, const FrameResult& with) {

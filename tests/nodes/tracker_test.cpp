@@ -97,6 +97,33 @@ TEST(Tracker, BridgesGapsShorterThanDeathAndNeverReusesIds) {
   EXPECT_EQ(id_of(update(tracker, 2, {box(3, 0)}, config)[0]), 2U);
 }
 
+// Of a person behind a van nothing is seen for two seconds.
+TEST(Tracker, AnObjectHiddenBehindAnotherKeepsItsId) {
+  for (const bool hidden : {true, false}) {
+    Tracker tracker;
+    const Aabb van({9, -2, -1}, {10, 2, 1}), person = box(15, 0, 0.6);
+    for (int i = 0; i < 5; ++i)
+      update(tracker, i, {person});
+    for (int i = 5; i < 25; ++i)
+      update(tracker, i, hidden ? std::vector<Aabb>{van} : std::vector<Aabb>{});
+    EXPECT_EQ(id_of(update(tracker, 25, {person})[0]), hidden ? std::optional(0U) : std::nullopt);
+  }
+}
+
+// The front of a car is seen, then nothing, then its rear.
+TEST(Tracker, APartOfACarThatComesIntoViewElsewhereHasTheIdOfTheCar) {
+  Tracker tracker;
+  const auto part = [](double from, double to) { return Aabb({from, 5, 0}, {to, 6.8, 1.5}); };
+  for (int i = 0; i < 10; ++i)
+    update(tracker, i, {part(10, 14.5)});
+  for (int i = 10; i < 20; ++i)
+    EXPECT_EQ(id_of(update(tracker, i, {part(10, 11.5)})[0]), 0U) << i;
+  for (int i = 20; i < 23; ++i)
+    update(tracker, i, {});
+  for (int i = 23; i < 30; ++i)
+    EXPECT_EQ(id_of(update(tracker, i, {part(13, 14.5)})[0]), 0U) << i;
+}
+
 TEST(Tracker, AnObjectBeyondTheGateIsAnother) {
   Tracker tracker;
   for (int i = 0; i < 4; ++i)

@@ -13,6 +13,7 @@
 #include "pipeline/track/assignment.h"
 #include "pipeline/track/ego_motion.h"
 #include "pipeline/track/motion_filter.h"
+#include "pipeline/track/occlusion.h"
 #include "pipeline/track/track.h"
 #include "pipeline/tracked_volumes.h"
 
@@ -214,6 +215,59 @@ TEST(Track, PartsThatComeIntoViewAreNoMotion) {
   }
   EXPECT_LT(track.motion.velocity().norm(), 0.05);
   EXPECT_FALSE(track.moving);
+}
+
+// A car ahead comes nearer at 10 m/s, and 0.4 m more of its length come into view in each frame.
+TEST(Track, ACarThatComesIntoViewHasTheVelocityOfItsFront) {
+  const auto seen = [](int i) { return Aabb({40.0 - i, 2, 0}, {41 - 0.6 * i, 4, 1.5}); };
+  Track track;
+  track.start(seen(0), Pose::Identity());
+  for (int i = 1; i < 9; ++i) {
+    track.predict(0.1);
+    track.expect(Pose::Identity());
+    track.correct(seen(i), Pose::Identity(), 0.1);
+  }
+  EXPECT_NEAR(track.motion.velocity().x(), -10, 1);
+  EXPECT_TRUE(track.moving);
+}
+
+// Another object hides the near half of a parked car for three frames.
+TEST(Track, ANearFaceThatIsHiddenIsNoMotion) {
+  Track track;
+  track.start({{10, 2, 0}, {14, 4, 1.5}}, Pose::Identity());
+  for (int i = 1; i < 20; ++i) {
+    track.predict(0.1);
+    track.expect(Pose::Identity());
+    track.correct({{i > 10 && i < 14 ? 12.0 : 10.0, 2, 0}, {14, 4, 1.5}}, Pose::Identity(), 0.1);
+    EXPECT_LT(track.motion.velocity().norm(), 0.3) << i;
+    EXPECT_FALSE(track.moving) << i;
+  }
+}
+
+TEST(Track, KeepsTheExtentsOfPartsThatAreHidden) {
+  Track track;
+  track.start({{10, 2, 0}, {14, 4, 1.5}}, Pose::Identity());
+  for (int i = 1; i < 10; ++i) {
+    track.predict(0.1);
+    track.expect(Pose::Identity());
+    track.correct({{10, 2, 0}, {i < 4 ? 14.0 : 11.0, 4, 1.5}}, Pose::Identity(), 0.1);
+  }
+  EXPECT_NEAR(track.high.x() - track.low.x(), 1, 0.2);
+  EXPECT_GT(track.kept_high.x() - track.kept_low.x(), 3.4);
+  EXPECT_NEAR(track.expected_position.x() + track.kept_low.x(), 10, 0.1);
+  EXPECT_TRUE(track.has_vehicle_size());
+}
+
+TEST(Occlusion, HidesWhatIsBehindTheBoxAndNotHigherThanIt) {
+  const Aabb box({9, -2, -1}, {10, 2, 1});
+  EXPECT_TRUE(hides(box, {20, 0, 0}));
+  EXPECT_TRUE(hides(box, {20, 3.9, 0.9}));
+  EXPECT_FALSE(hides(box, {20, 4.6, 0}));                          // beside
+  EXPECT_FALSE(hides(box, {20, 0, 1.1}));                          // above
+  EXPECT_FALSE(hides(box, {8, 0, 0}));                             // before
+  EXPECT_FALSE(hides(box, {-20, 0, 0}));                           // on the other side
+  EXPECT_FALSE(hides(Aabb({-1, -1, -1}, {1, 1, 1}), {20, 0, 0}));  // around the sensor
+  EXPECT_FALSE(hides(Aabb(), {20, 0, 0}));
 }
 
 TEST(Track, ItsCovarianceIsPositiveDefiniteInEveryFrame) {

@@ -16,4 +16,12 @@ inline double face_shift(double low, double high) {
   return 0;
 }
 
+/// Extends the interval from `low` to `high` to the faces that are seen, or shrinks it towards them by 3 %: a
+/// part that is not seen any more is usually hidden.
+inline void follow_faces(double& low, double& high, double seen_low, double seen_high) {
+  constexpr double kShrink = 0.03;
+  low += (seen_low < low ? 1 : kShrink) * (seen_low - low);
+  high += (seen_high > high ? 1 : kShrink) * (seen_high - high);
+}
+
 }  // namespace pcl_bv::detail

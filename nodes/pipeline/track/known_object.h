@@ -43,15 +43,15 @@ struct KnownObject {
   }
 
  private:
-  // Moves the box with a measured box, as far as both faces moved in the same direction. Then extends it to
-  // the faces of the measured box, or shrinks it towards them by 3 %.
+  // Moves the box with a measured box, as far as both faces moved in the same direction. Then extends or
+  // shrinks it.
   void follow(const Eigen::AlignedBox3d& seen) {
     if (box.isEmpty()) box = seen;
     for (int i = 0; i < 3; ++i) {
-      const double at_low = seen.min()[i] - box.min()[i], at_high = seen.max()[i] - box.max()[i];
-      const double shift = face_shift(at_low, at_high);
-      box.min()[i] += shift + (at_low < shift ? 1 : 0.03) * (at_low - shift);
-      box.max()[i] += shift + (at_high > shift ? 1 : 0.03) * (at_high - shift);
+      const double shift = face_shift(seen.min()[i] - box.min()[i], seen.max()[i] - box.max()[i]);
+      box.min()[i] += shift;
+      box.max()[i] += shift;
+      follow_faces(box.min()[i], box.max()[i], seen.min()[i], seen.max()[i]);
     }
   }
 };

@@ -16,24 +16,46 @@ constexpr double kFirstSpeed = 8;            // m/s; standard deviation of an un
 constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise density of 1.7 m/s^2 every 0.1 s
 constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed: 57 degrees/s every 0.1 s
 constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
-constexpr double kStandingSpeed = 0.5;       // m/s; standard deviation of the velocity of objects that stand
-constexpr double kMaxStandingSpeed = 1;      // m/s; limit of the reported speed of such objects
-constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
+// An object that comes into view as a growing part has no velocity at first. Slowed down from its third
+// detection on, a car at 10 m/s was reported at 1 m/s after eight frames.
+constexpr std::size_t kStandingDetections = 5;
+constexpr double kStandingSpeed = 0.5;   // m/s; standard deviation of the velocity of objects that stand
+constexpr double kMaxStandingSpeed = 1;  // m/s; limit of the reported speed of such objects
+constexpr double kMaxJump = 2;           // standard deviations; larger displacements of a face are jumps
+constexpr double kMinVehicleLength = 1.5, kMaxVehicleLength = 7;  // m
+constexpr double kKeptCost = 0.5;  // of a box that is a part of the kept extents
+constexpr double kMinStep = 0.03;  // seconds; smallest step that gives a first velocity
 
 // Returns the variances along the axes after a rotation R, which are the diagonal of R diag(v) R^T.
 Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& variances) {
   return rotation.cwiseAbs2() * variances;
 }
 
+// Returns the displacement of the face that the sensor sees. The sensor is at the origin. The near face is
+// seen, unless something hides it or has become one cluster with it. Then it jumps by more than `limit`, and
+// the far face counts if it does not jump, too.
+double seen_shift(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
+  const bool above = box.min()[axis] > 0, below = box.max()[axis] < 0;
+  if (!above && !below) return difference.shift(axis);
+  const double near = above ? difference.low[axis] : difference.high[axis],
+               far = above ? difference.high[axis] : difference.low[axis];
+  if (std::abs(near) <= limit) return near;
+  return std::abs(far) <= limit ? far : difference.shift(axis);
+}
+
 // Returns the innovation. If the size changes by at most 0.05 m, the innovation is the shift of the centre.
-// If the size changes by 0.25 m or more, it is the smaller shift of the two faces. In between, it is a
-// weighted mean of both shifts.
-double innovation_of(const BoxDifference& difference, int axis) {
-  const double part = std::clamp((std::abs(difference.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
-  return (1 - part) * difference.centre[axis] + part * difference.shift[axis];
+// If the size changes by 0.25 m or more, it is the shift of the visible face. In between, it is a weighted
+// mean of both shifts.
+double innovation_of(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
+  const double part = std::clamp((std::abs(difference.size(axis)) - 0.05) / 0.2, 0.0, 1.0);
+  return (1 - part) * difference.centre(axis) + part * seen_shift(difference, box, axis, limit);
 }
 
 }  // namespace
+
+double BoxDifference::shift(int axis) const {
+  return face_shift(low[axis], high[axis]);
+}
 
 void Track::start(const Aabb& box, const Pose& sensor) {
   *this = Track();
@@ -41,8 +63,8 @@ void Track::start(const Aabb& box, const Pose& sensor) {
   const Eigen::Vector3d position = sensor * box.center();
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)] = {position[i], 0, kFaceVariance, 0, kFirstSpeed * kFirstSpeed};
-  low = seen_low = -half;
-  high = seen_high = half;
+  low = kept_low = seen_low = -half;
+  high = kept_high = seen_high = half;
   expected_position = box.center();
   const Eigen::Vector3d long_axis =
       half.x() >= half.y() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
@@ -72,25 +94,41 @@ Aabb Track::static_box(const Pose& sensor) const {
 }
 
 BoxDifference Track::difference_to(const Aabb& seen_box) const {
-  const Eigen::Vector3d a = seen_box.min() - expected_position - low,
-                        b = seen_box.max() - expected_position - high;
-  BoxDifference difference{(a + b) / 2, b - a, Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d min = seen_box.min() - expected_position, max = seen_box.max() - expected_position;
+  const Eigen::Vector3d below = (kept_low - min).cwiseMax(0), above = (max - kept_high).cwiseMax(0);
+  BoxDifference difference{min - low, max - high, Eigen::Vector3d::Zero(), kept_high - kept_low - max + min};
+  // A box that is larger on both sides is not outside: it may be the object and its neighbour.
   for (int i = 0; i < 3; ++i)
-    difference.shift[i] = face_shift(a[i], b[i]);
+    if (below[i] == 0 || above[i] == 0) difference.outside[i] = below[i] + above[i];
   return difference;
 }
 
+bool Track::has_vehicle_size() const {
+  const double length = (kept_high - kept_low).head<2>().maxCoeff();
+  return length >= kMinVehicleLength && length <= kMaxVehicleLength;
+}
+
 void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
-  const BoxDifference difference = difference_to(seen_box);
+  const double passed = std::max(seconds_unseen, seconds);
+  measure(difference_to(seen_box), seen_box, sensor, passed);
+  resize(seen_box, sensor);
+  missed = occluded = 0;
+  ++detections;
+  classify_motion(high, sensor, passed);
+  seconds_unseen = 0;
+}
+
+void Track::measure(const BoxDifference& difference, const Aabb& seen_box, const Pose& sensor,
+                    double passed) {
+  const Eigen::Matrix3d rotation = sensor.linear();
+  const Eigen::Vector3d prior = rotated_variances(rotation.transpose(), motion.position_variance());
   Eigen::Vector3d innovation, variance;
   for (int i = 0; i < 3; ++i) {
-    innovation[i] = innovation_of(difference, i);
-    variance[i] = kFaceVariance + 0.09 * difference.size[i] * difference.size[i];
+    innovation[i] = innovation_of(difference, seen_box, i, kMaxJump * std::sqrt(prior[i] + kFaceVariance));
+    variance[i] = kFaceVariance + 0.09 * difference.size(i) * difference.size(i);
   }
-  const Eigen::Matrix3d rotation = sensor.linear();
   innovation = rotation * innovation;
   variance = rotated_variances(rotation, variance);
-  const double passed = std::max(seconds_unseen, seconds);
   for (int i = 0; i < 3; ++i) {
     AxisFilter& axis = motion.axes[static_cast<std::size_t>(i)];
     if (detections == 1 && passed >= kMinStep) {
@@ -101,27 +139,30 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
   }
   motion.limit_speed(kMaxSpeed);
   expect(sensor);
+}
+
+void Track::resize(const Aabb& seen_box, const Pose& sensor) {
   for (int i = 0; i < 3; ++i) {
     // A part that grew for one frame, because the object was one cluster with its neighbour, must not replace
     // the whole size.
-    const double part = std::clamp(std::abs(difference.size[i]) / 0.5, 0.3, 0.5);
-    low[i] += part * (seen_box.min()[i] - expected_position[i] - low[i]);
-    high[i] += part * (seen_box.max()[i] - expected_position[i] - high[i]);
+    const double below = seen_box.min()[i] - expected_position[i],
+                 above = seen_box.max()[i] - expected_position[i];
+    const double change = (above - below) - (high[i] - low[i]);
+    const double part = std::clamp(std::abs(change) / 0.5, 0.3, 0.5);
+    low[i] += part * (below - low[i]);
+    high[i] += part * (above - high[i]);
+    follow_faces(kept_low[i], kept_high[i], below, above);
   }
   // Moves the tracked position to the centre of the box. A position off the centre would rotate with the
   // sensor and seem to move: at 0.8 m/s for 1.5 m off the centre and 30 degrees/s.
-  const Eigen::Vector3d offset = (low + high) / 2, fixed_offset = rotation * offset;
+  const Eigen::Vector3d offset = (low + high) / 2, fixed_offset = sensor.linear() * offset;
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)].position += fixed_offset[i];
-  low -= offset;
-  high -= offset;
+  for (Eigen::Vector3d* const face : {&low, &high, &kept_low, &kept_high})
+    *face -= offset;
   expect(sensor);
   seen_low = seen_box.min() - expected_position;
   seen_high = seen_box.max() - expected_position;
-  missed = occluded = 0;
-  ++detections;
-  classify_motion(high, sensor, passed);
-  seconds_unseen = 0;
 }
 
 // The box of an object that stands still jumps by decimetres if other parts of it come into view. Without
@@ -134,7 +175,7 @@ void Track::slow_down() {
 void Track::classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds) {
   motion_classifier.add(motion.position(), half, sensor.linear(), seconds);
   moving = motion_classifier.moving();
-  if (!moving && detections >= 3) slow_down();
+  if (!moving && detections >= kStandingDetections) slow_down();
   const Eigen::Vector3d velocity = motion.velocity(), variance = motion.velocity_variance();
   const double speed = velocity.head<2>().norm(), slowest = 0.35;
   if (!moving || speed < slowest) return;
@@ -185,14 +226,16 @@ double cost_of(const Track& track, const Aabb& box, double gate) {
   // the sensor's axes.
   const Eigen::Vector3d variance = track.motion.position_variance();
   const double slack = kFaceVariance + gate * gate / 16, max_variance = std::max(variance.x(), variance.y());
-  double cost = 0;
+  const auto square = [](double value) { return value * value; };
+  double whole = 0, part = kKeptCost;
   for (int i = 0; i < 3; ++i) {
-    const double size = track.high[i] - track.low[i];
-    const double change_in_size = difference.size[i] / (1 + 0.3 * size);
-    cost += difference.shift[i] * difference.shift[i] / ((i < 2 ? max_variance : variance.z()) + slack) +
-            change_in_size * change_in_size + difference.centre[i] * difference.centre[i];
+    const double size = track.high[i] - track.low[i], kept = track.kept_high[i] - track.kept_low[i];
+    const double scale = (i < 2 ? max_variance : variance.z()) + slack, centre = square(difference.centre(i));
+    whole += square(difference.shift(i)) / scale + square(difference.size(i) / (1 + 0.3 * size)) + centre;
+    part +=
+        square(difference.outside[i]) / scale + square(difference.hidden[i] / (1 + 0.3 * kept)) + centre / 4;
   }
-  return cost;
+  return track.id && track.has_vehicle_size() ? std::min(whole, part) : whole;
 }
 
 }  // namespace pcl_bv::detail

@@ -12,6 +12,8 @@
 #include "assignment.h"
 #include "box_grid.h"
 #include "ego_motion.h"
+#include "occlusion.h"
+#include "pipeline/reserve_ahead.h"
 #include "track.h"
 
 namespace pcl_bv::detail {
@@ -154,21 +156,24 @@ void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes
   }
 }
 
-// Counts missed frames. A track whose expected centre is inside the box of another track is occluded: its
-// object is probably part of that box. Such a track is deleted later than others, so that it continues when
-// the objects separate.
+// Counts missed frames. A track is occluded if its expected centre is inside the box of another track: its
+// object is probably part of that box. A track with an id is also occluded if another box hides its centre.
+// An occluded track is deleted later than others, so that it continues when its object is seen again.
 void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
     if (!track.active || track_taken[t] != 0) continue;
-    bool occluded = false;
+    bool merged = false;
     const Eigen::Vector3d centre = track.expected_box().center();
     grid.visit_near(centre, [&](std::size_t b) {
       if (!contains_point(boxes[b], centre)) return;
-      occluded = true;
+      merged = true;
       if (track.id) assignments[b].merged = true;
     });
-    if (occluded) track.detections_since_split = 0;
+    if (merged) track.detections_since_split = 0;
+    const bool occluded =
+        merged || (track.id && std::any_of(boxes.begin(), boxes.end(),
+                                           [&](const Aabb& box) { return hides(box, centre); }));
     if (occluded && ++track.occluded % kOccludedFramesPerMiss != 0) continue;
     ++track.missed;
   }
@@ -253,6 +258,9 @@ void Tracker::predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
 void Tracker::assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
                      std::vector<Assignment>& assignments) {
   State& s = *state_;
+  reserve_ahead(assignments, boxes.size());
+  reserve_ahead(s.box_taken, boxes.size());
+  reserve_ahead(s.predicted, boxes.size());
   assignments.assign(boxes.size(), Assignment());
   s.find_pairs(boxes, config.gate);
   s.assign_boxes(s.elapsed, boxes, assignments);
