@@ -15,6 +15,7 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/street.h"
 #include "pipeline/track/box_grid.h"
+#include "pipeline/track/occlusion.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -107,6 +108,34 @@ TEST(Tracker, AnObjectHiddenBehindAnotherKeepsItsId) {
     for (int i = 5; i < 25; ++i)
       update(tracker, i, hidden ? std::vector<Aabb>{van} : std::vector<Aabb>{});
     EXPECT_EQ(id_of(update(tracker, 25, {person})[0]), hidden ? std::optional(0U) : std::nullopt);
+  }
+}
+
+// A truck beside the vehicle hides 22 of 30 posts, and both brake.
+TEST(Tracker, FindsTheMotionOfTheSensorWhileMostObjectsAreHidden) {
+  std::vector<Eigen::Vector3d> posts;
+  for (int i = 0; i < 22; ++i)
+    posts.emplace_back(14 + 1.5 * i, 16 + i % 3, 0);
+  for (int i = 0; i < 8; ++i)
+    posts.emplace_back(5 + 4.5 * i, -6 - i % 4, 0);
+  const Aabb truck({-12, 3, -1}, {18, 5, 3});
+  Tracker tracker;
+  double x = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double speed = i < 10 ? 10 : std::max(4.0, 10 - 0.9 * (i - 9));
+    x += 0.1 * speed;
+    std::vector<Aabb> boxes;
+    for (const Eigen::Vector3d& post : posts)
+      if (i < 10 || !hides(truck, post - Eigen::Vector3d(x, 0, 0)))
+        boxes.push_back(box(post.x() - x, post.y(), 0.4));
+    if (i >= 10) boxes.push_back(truck);
+    const std::size_t seen = boxes.size();
+    ASSERT_TRUE(i < 10 || seen <= 14) << i;
+    const std::vector<Tracker::Assignment> found = update(tracker, i, boxes);
+    for (std::size_t b = 0; i >= 10 && b + 1 < seen; ++b) {
+      EXPECT_LT(found[b].velocity.norm(), 0.5) << i << ' ' << b;
+      EXPECT_FALSE(found[b].moving) << i << ' ' << b;
+    }
   }
 }
 

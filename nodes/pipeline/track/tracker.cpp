@@ -89,7 +89,7 @@ Eigen::Vector3d Tracker::State::apparent_velocity(const Eigen::Vector3d& positio
 void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
   expected.clear();
   for (const Track& track : tracks)
-    if (track.active && track.missed == 0) expected.push_back(track.static_box(sensor));
+    if (track.active && track.missed + track.occluded == 0) expected.push_back(track.static_box(sensor));
   PlanarMotion guess;
   if (step_seconds > 0) {
     const double part = seconds / step_seconds;
