@@ -195,6 +195,30 @@ TEST(GroundZones, DoNotTakeAWallsFootForGround) {
   expect_split(split(scene_view(cloud)), ground, cloud.size());
 }
 
+// In every second sector no ground is visible within 0.5 m of the wall, so that the lowest point of the cell is
+// on the wall, 2 cm above the ground. The sectors between show the height of the ground. Without them, points up
+// to 7 cm above the ground would be ground.
+TEST(GroundZones, TakeTheGroundAtAWallFromTheSectorsBeside) {
+  constexpr float wall = 6.4F;
+  const auto wall_hides = [](double x, double y) {
+    return y > wall - 0.5 && static_cast<int>(std::atan2(y, x) * 128 / std::numbers::pi) % 2 == 1;
+  };
+  Cloud<float> cloud = ground_of(level);
+  for (float x = -2; x < 2; x += 0.02F) {
+    for (float y = 5; y < wall; y += 0.05F)
+      cloud.push_back({x, y, -1.7F});
+  }
+  std::erase_if(cloud, [&](const auto& p) { return p[1] > wall || wall_hides(p[0], p[1]); });
+  for (float x = -1; x < 1; x += 0.01F)
+    cloud.push_back({x, wall, -1.68F});
+  const std::size_t ground = cloud.size();
+  for (float x = -1; x < 1; x += 0.01F) {
+    for (const float z : {-1.64F, -1.5F, -1.3F, -1.1F, -0.9F})
+      cloud.push_back({x, wall, z});
+  }
+  expect_split(split(scene_view(cloud)), ground, cloud.size());
+}
+
 // Nothing of the road is seen for 28 m, in which it climbs by 3 m: the sectors beside know it.
 TEST(GroundZones, GoOnWhereALorryHidesTheRoad) {
   Cloud<float> cloud = ground_of(hill);

@@ -4,6 +4,7 @@
 #include "ground_surface.h"
 
 #include <algorithm>
+#include <array>
 
 #include "slope_limit.h"
 
@@ -20,6 +21,10 @@ constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 // These values replace `above` and `above_growth` in cells with an object. They are small because the lowest
 // point may belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
+
+// If the lowest point of a cell is this far below the expected height, the cell is in a ditch, metres. The bank
+// of the ditch may rise by 0.3 m and more within the cell. It is not an object.
+constexpr float ditch_depth = 0.1F;
 
 // A rise changes the slope by rise / (slope_memory + since_ground). All three are in metres.
 constexpr float slope_memory = 2.6F;
@@ -65,16 +70,19 @@ void GroundSurface::estimate_outwards(const CellSummary& cells) {
       state.since_ground.fill(first_since_ground);
   for (std::size_t ring = 0; ring < rings_; ++ring) {
     const std::size_t first = ring * sector_count;
+    const float* const lowest_of = cells.lowest.data() + first;
+    const std::uint8_t* const has_object = cells.has_object.data() + first;
+    std::uint8_t *const seen_row = seen_.data() + first, *const object_row = has_object_.data() + first;
     for (std::size_t s = 0; s < sector_count; ++s) {
-      const float lowest = cells.lowest[first + s];
-      const bool has_object = cells.has_object[first + s] != 0;
+      const float lowest = lowest_of[s];
+      const std::uint8_t object = has_object[s];
       float& height = state.height[s + 1];
       float& since_ground = state.since_ground[s + 1];
       float& slope = state.slope[s + 1];
       height += slope * ring_width;
       since_ground += ring_width;
-      const float up = has_object ? foot_above + foot_growth * since_ground
-                                  : std::min(above_max, above + above_growth * since_ground);
+      const float up = object != 0 ? foot_above + foot_growth * since_ground
+                                   : std::min(above_max, above + above_growth * since_ground);
       const float down = std::min(below_max, below + below_growth * since_ground);
       const float rise = lowest - height;
       const bool seen = rise <= up && rise >= -down;
@@ -82,7 +90,8 @@ void GroundSurface::estimate_outwards(const CellSummary& cells) {
       height = seen ? std::max(lowest, height - max_fall * ring_width) : height;
       state.last_ground[s + 1] = seen ? lowest : state.last_ground[s + 1];
       since_ground = seen ? 0 : since_ground;
-      seen_[first + s] = seen;
+      seen_row[s] = seen;
+      object_row[s] = seen && rise < -ditch_depth ? std::uint8_t{0} : object;
     }
     state.mix_with_neighbours(width_of(ring));
     for (std::size_t s = 0; s < sector_count; ++s)
@@ -114,6 +123,26 @@ void GroundSurface::interpolate_inwards() {
   }
 }
 
+// Lowers the height of a cell with an object to the mean height of the cells at both sides in the same ring, one
+// or two sectors away. The lowest point of such a cell is often on the foot of the object, while the ground in
+// front of the object is visible in the sectors beside it. Most errors of the surface at objects are upwards.
+void GroundSurface::lower_at_objects() {
+  constexpr std::size_t margin = 2;
+  std::array<float, sector_count + 2 * margin> old;
+  for (std::size_t ring = 0; ring < rings_; ++ring) {
+    float* const row = height_.data() + ring * sector_count;
+    const std::uint8_t* const has_object = has_object_.data() + ring * sector_count;
+    std::copy_n(row + sector_count - margin, margin, old.data());
+    std::copy_n(row, sector_count, old.data() + margin);
+    std::copy_n(row, margin, old.data() + margin + sector_count);
+    for (std::size_t s = 0; s < sector_count; ++s) {
+      const float near = old[s + 1] + old[s + 3], far = old[s] + old[s + 4];
+      const float lowered = std::min(old[s + 2], 0.5F * std::min(near, far));
+      row[s] = has_object[s] != 0 ? lowered : old[s + 2];
+    }
+  }
+}
+
 void GroundSurface::compute_lines() {
   lines_.resize(cell_count);
   for (std::size_t ring = 0; ring < rings_; ++ring) {
@@ -135,10 +164,11 @@ void GroundSurface::find(const CellSummary& cells, const Slope& plane, float max
     --last;
   rings_ = (last + sector_count - 1) / sector_count;
   height_.resize(cell_count), last_ground_.resize(cell_count), since_ground_.resize(cell_count),
-      seen_.resize(cell_count);
+      seen_.resize(cell_count), has_object_.resize(cell_count);
   estimate_outwards(cells);
   interpolate_inwards();
   limit_slopes(height_.data(), rings_, plane, max_slope);
+  lower_at_objects();
   compute_lines();
 }
 

@@ -29,6 +29,9 @@ class GroundSurface {
     return points.height[i] - (line.base + points.range[i] * line.slope);
   }
 
+  /// Returns CellSummary::has_object of the cell of point `i`, but 0 in a ditch. Call it only after find().
+  std::uint8_t has_object(const ZonePoints& points, std::size_t i) const { return has_object_[points.cell[i]]; }
+
  private:
   /// The state of a traversal in the current ring, for each sector.
   struct WalkState {
@@ -41,11 +44,12 @@ class GroundSurface {
 
   void estimate_outwards(const CellSummary& cells);
   void interpolate_inwards();
+  void lower_at_objects();
   void compute_lines();
 
   std::size_t rings_ = 0;  // number of rings up to the last with a point
   std::vector<float> height_, last_ground_, since_ground_;
-  std::vector<std::uint8_t> seen_;
+  std::vector<std::uint8_t> seen_, has_object_;
   std::vector<Line> lines_;
 };
 

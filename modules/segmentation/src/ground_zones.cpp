@@ -71,7 +71,7 @@ struct GroundZones::Scratch : ZonePoints {
     write_split(central, valid, split, [&](const auto& put) {
       for (const ZonePart& part : parts) {
         for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
-          put(number[i], central && surface.clearance(*this, i) <= limit[cells().has_object[cell[i]]]);
+          put(number[i], central && surface.clearance(*this, i) <= limit[surface.has_object(*this, i)]);
       }
     });
   }
