@@ -22,8 +22,8 @@ constexpr float below = 0.1F, below_growth = 0.05F, below_max = 1;
 // point may belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// If the lowest point of a cell is this far below the expected height, the cell is in a ditch, metres. The bank
-// of the ditch may rise by 0.3 m and more within the cell. It is not an object.
+// If the lowest point of a cell is this far below the expected height, the cell is in a ditch, metres. The
+// bank of the ditch may rise by 0.3 m and more within the cell. It is not an object.
 constexpr float ditch_depth = 0.1F;
 
 // A rise changes the slope by rise / (slope_memory + since_ground). All three are in metres.
@@ -123,9 +123,10 @@ void GroundSurface::interpolate_inwards() {
   }
 }
 
-// Lowers the height of a cell with an object to the mean height of the cells at both sides in the same ring, one
-// or two sectors away. The lowest point of such a cell is often on the foot of the object, while the ground in
-// front of the object is visible in the sectors beside it. Most errors of the surface at objects are upwards.
+// Lowers the height of a cell with an object to the mean height of the cells at both sides in the same ring,
+// one or two sectors away. The lowest point of such a cell is often on the foot of the object, while the
+// ground in front of the object is visible in the sectors beside it. Most errors of the surface at objects
+// are upwards.
 void GroundSurface::lower_at_objects() {
   constexpr std::size_t margin = 2;
   std::array<float, sector_count + 2 * margin> old;

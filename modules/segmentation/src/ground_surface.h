@@ -30,7 +30,9 @@ class GroundSurface {
   }
 
   /// Returns CellSummary::has_object of the cell of point `i`, but 0 in a ditch. Call it only after find().
-  std::uint8_t has_object(const ZonePoints& points, std::size_t i) const { return has_object_[points.cell[i]]; }
+  std::uint8_t has_object(const ZonePoints& points, std::size_t i) const {
+    return has_object_[points.cell[i]];
+  }
 
  private:
   /// The state of a traversal in the current ring, for each sector.

@@ -133,13 +133,16 @@ struct GroundZonesOptions {
 /// - Interpolate the surface linearly between two cells of a sector with visible ground.
 /// - Lower the surface where it is too steep. The result is the highest surface that is nowhere above the
 ///   interpolated surface and nowhere steeper than max_slope_degrees.
+/// - In cells with an object, lower the surface to the mean of the cells on both sides, one or two sectors
+///   away.
 ///
 /// So the ground may rise and fall, reflections below the ground do not lower it, and roofs and bonnets are
 /// not ground.
 ///
 /// As with split_ground(), every point at most `distance` above the surface is ground, and so are all points
-/// below the surface. A cell has an object if it has points 0.3 to 2 m above its lowest point. In such cells
-/// the limit is a fifth of `distance`, so that the feet of walls and cars are not ground.
+/// below the surface. A cell has an object if it has points 0.3 to 2 m above its lowest point and is not in a
+/// ditch. In such cells the limit is a fifth of `distance`, so that the feet of walls and cars are not
+/// ground.
 ///
 /// Source: the slope criterion of Vosselman 2000, which compares all pairs of points. Here distances are path
 /// lengths from cell to cell (Borgefors 1986).
