@@ -8,8 +8,9 @@
 
 namespace pcl_bv::detail {
 
-/// Reserves twice `count`, if the capacity is smaller than `count`. The replay of a sequence must not allocate,
-/// but its first frames can have more objects than before: the tracks of the first pass cut more clusters.
+/// Reserves 2 * count if the capacity is below `count`, so that a replay with a few more objects allocates
+/// nothing. The first frames of a replay can have more objects than before, because the tracks of the first
+/// pass cut more clusters.
 template <typename T>
 void reserve_ahead(std::vector<T>& values, std::size_t count) {
   if (values.capacity() < count) values.reserve(2 * count);

@@ -8,12 +8,30 @@
 #include <algorithm>
 
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/points/point_source.h"
 #include "pipeline/refine/geometry.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
+
+// Returns the mean of x and y of the valid points. Without clustering, the points may be invalid, or filtered
+// when they are loaded. There must be a valid point.
+Eigen::Vector2d plan_mean(const PointView& points) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double count = 0;
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    for (std::size_t i = 0; i < loaded.view().count; ++i) {
+      const Coordinates point = load_point(loaded.view(), i);
+      if (!is_valid(point)) continue;
+      sum += Eigen::Vector2d(point.x, point.y);
+      ++count;
+    }
+  }
+  return sum / count;
+}
 
 // Returns the box that the tracker gets for a cluster, made from its axis-aligned box. The box of a person
 // changes with arms and legs. The mean of the points is steadier, so a person is a box of a constant width
@@ -22,10 +40,7 @@ Aabb tracked_box(const Aabb& box, const PointView& points) {
   constexpr double kWidestPerson = 1.3, kLowestPerson = 0.8, kPersonHalfWidth = 0.25;  // m
   const Eigen::Vector3d size = box.max() - box.min();
   if (size.head<2>().maxCoeff() > kWidestPerson || size.z() < kLowestPerson) return box;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < points.count; ++i)
-    sum += point_at(points, i).head<2>();
-  const Eigen::Vector2d mean = sum / static_cast<double>(points.count);
+  const Eigen::Vector2d mean = plan_mean(points);
   const Eigen::Vector2d low = mean.array() - kPersonHalfWidth, high = mean.array() + kPersonHalfWidth;
   return {{low.x(), low.y(), box.min().z()}, {high.x(), high.y(), box.max().z()}};
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -179,6 +180,36 @@ void run_road(std::size_t frames, unsigned threads, const Check& check) {
     off.process(frame, without);
     tracks.process(frame, with);
     check(frame, without, with);
+  }
+}
+
+// The whole cloud is one object without an index list. Its points may be invalid, and more than 32 768 points
+// are filtered when they are loaded.
+TEST(TrackedPeople, AreTrackedWithoutClustersWithInvalidAndFilteredPoints) {
+  for (const std::size_t count : {500, 40'000}) {
+    PipelineConfig config;
+    config.volumes = {"aabb"};
+    config.ground.method = GroundMethod::none;
+    config.cluster.tolerance = 0;
+    config.filter.range_min = count == 500 ? 0 : 1;
+    config.track.enabled = true;
+    FramePipeline pipeline(config);
+    FrameResult result;
+    std::mt19937_64 random(12);
+    std::vector<Eigen::Vector3d> points;
+    add_faces(points, box_at(8, 3, 0.3, 0.4, 1.7), count, random);
+    points[7].x() = std::numeric_limits<double>::quiet_NaN();
+    if (count != 500) points[8].setConstant(0.1);  // below range_min
+    for (int i = 0; i < 4; ++i) {
+      Frame frame;
+      frame.header.stamp_ns = i * 100'000'000LL;
+      frame.points = PointView::of(points.data()->data(), sizeof(Eigen::Vector3d), points.size());
+      pipeline.process(frame, result);
+    }
+    ASSERT_EQ(result.tracks.size(), 1U);
+    ASSERT_TRUE(result.tracks[0]) << count;
+    EXPECT_NEAR(result.tracks[0]->pose[0], 8, 0.02);
+    EXPECT_NEAR(result.tracks[0]->pose[1], 3, 0.02);
   }
 }
 

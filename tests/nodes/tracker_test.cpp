@@ -98,7 +98,7 @@ TEST(Tracker, BridgesGapsShorterThanDeathAndNeverReusesIds) {
   EXPECT_EQ(id_of(update(tracker, 2, {box(3, 0)}, config)[0]), 2U);
 }
 
-// Of a person behind a van nothing is seen for two seconds.
+// A person behind a van has no measurement for two seconds.
 TEST(Tracker, AnObjectHiddenBehindAnotherKeepsItsId) {
   for (const bool hidden : {true, false}) {
     Tracker tracker;
@@ -126,7 +126,7 @@ TEST(Tracker, FindsTheMotionOfTheSensorWhileMostObjectsAreHidden) {
     x += 0.1 * speed;
     std::vector<Aabb> boxes;
     for (const Eigen::Vector3d& post : posts)
-      if (i < 10 || !hides(truck, post - Eigen::Vector3d(x, 0, 0)))
+      if (i < 10 || !occludes(truck, post - Eigen::Vector3d(x, 0, 0)))
         boxes.push_back(box(post.x() - x, post.y(), 0.4));
     if (i >= 10) boxes.push_back(truck);
     const std::size_t seen = boxes.size();

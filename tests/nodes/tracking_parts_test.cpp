@@ -253,21 +253,21 @@ TEST(Track, KeepsTheExtentsOfPartsThatAreHidden) {
     track.correct({{10, 2, 0}, {i < 4 ? 14.0 : 11.0, 4, 1.5}}, Pose::Identity(), 0.1);
   }
   EXPECT_NEAR(track.high.x() - track.low.x(), 1, 0.2);
-  EXPECT_GT(track.kept_high.x() - track.kept_low.x(), 3.4);
-  EXPECT_NEAR(track.expected_position.x() + track.kept_low.x(), 10, 0.1);
+  EXPECT_GT(track.full_high.x() - track.full_low.x(), 3.4);
+  EXPECT_NEAR(track.expected_position.x() + track.full_low.x(), 10, 0.1);
   EXPECT_TRUE(track.has_vehicle_size());
 }
 
-TEST(Occlusion, HidesWhatIsBehindTheBoxAndNotHigherThanIt) {
+TEST(Occlusion, ABoxOccludesPositionsBehindItUpToItsHeight) {
   const Aabb box({9, -2, -1}, {10, 2, 1});
-  EXPECT_TRUE(hides(box, {20, 0, 0}));
-  EXPECT_TRUE(hides(box, {20, 3.9, 0.9}));
-  EXPECT_FALSE(hides(box, {20, 4.6, 0}));                          // beside
-  EXPECT_FALSE(hides(box, {20, 0, 1.1}));                          // above
-  EXPECT_FALSE(hides(box, {8, 0, 0}));                             // before
-  EXPECT_FALSE(hides(box, {-20, 0, 0}));                           // on the other side
-  EXPECT_FALSE(hides(Aabb({-1, -1, -1}, {1, 1, 1}), {20, 0, 0}));  // around the sensor
-  EXPECT_FALSE(hides(Aabb(), {20, 0, 0}));
+  EXPECT_TRUE(occludes(box, {20, 0, 0}));
+  EXPECT_TRUE(occludes(box, {20, 3.9, 0.9}));
+  EXPECT_FALSE(occludes(box, {20, 4.6, 0}));                          // beside
+  EXPECT_FALSE(occludes(box, {20, 0, 1.1}));                          // above
+  EXPECT_FALSE(occludes(box, {8, 0, 0}));                             // before
+  EXPECT_FALSE(occludes(box, {-20, 0, 0}));                           // on the other side
+  EXPECT_FALSE(occludes(Aabb({-1, -1, -1}, {1, 1, 1}), {20, 0, 0}));  // around the sensor
+  EXPECT_FALSE(occludes(Aabb(), {20, 0, 0}));
 }
 
 TEST(Track, ItsCovarianceIsPositiveDefiniteInEveryFrame) {

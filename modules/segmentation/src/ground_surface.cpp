@@ -125,7 +125,7 @@ void GroundSurface::interpolate_inwards() {
 
 // Lowers the height of a cell with an object to the mean height of the cells at both sides in the same ring,
 // one or two sectors away. The lowest point of such a cell is often on the foot of the object, while the
-// ground in front of the object is visible in the sectors beside it. Most errors of the surface at objects
+// ground in front of the object is visible in the next sectors. Most errors of the surface at objects
 // are upwards.
 void GroundSurface::lower_at_objects() {
   constexpr std::size_t margin = 2;

@@ -31,8 +31,9 @@ constexpr std::size_t kMinPoints = 10;  // fewer points have no density
 constexpr std::size_t kSampleStep = 16;
 // At most this share of the points of a group may be in other parts, such as arms and bags.
 constexpr double kMaxRemainder = 0.3;
-// Other parts that are farther from all people, such as grass and kerbs, are no part of a person, metres.
-constexpr double kGroupReach = 0.8;
+// Other parts whose box centre is farther from those of all people, such as grass and kerbs, are no part of a
+// person.
+constexpr double kMaxPersonDistance = 0.8;  // m
 
 // Points less than kLow above the lowest point of the squares around are grass, kerbs and feet: they join
 // objects that are apart above them. They belong to the basin within kNear, if any.
@@ -57,7 +58,7 @@ bool NeckCut::project(const PointView& cluster, const Eigen::Vector3d& up) {
       box_.extend(points_.back());
     }
   };
-  // Most points are in clusters that are too large. A few points show it.
+  // Large clusters hold most points; every 16th point suffices to reject them.
   project_every(kSampleStep);
   if (plan_width(box_) > kMaxClusterWidth || box_.sizes().z() > kMaxClusterHeight) return false;
   project_every(1);
@@ -147,25 +148,25 @@ std::uint32_t NeckCut::number_group(std::size_t min_size) {
   return parts + give_remainder(parts, min_size);
 }
 
-// Gives each of the other basins to the nearest person. If those out of reach are large enough together, they
+// Gives each of the other basins to the nearest person. If those too far away are large enough together, they
 // become part number `parts`. Returns the number of parts that were added.
 std::uint32_t NeckCut::give_remainder(std::uint32_t parts, std::size_t min_size) {
-  std::size_t out_of_reach = 0;
+  std::size_t far_points = 0;
   for (Basin& other : basins_) {
     if (other.person || other.points == 0) continue;
-    double least = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
     for (const Basin& basin : basins_) {
       const double distance = (basin.box.center() - other.box.center()).head<2>().norm();
-      if (!basin.person || distance >= least) continue;
-      least = distance;
+      if (!basin.person || distance >= nearest) continue;
+      nearest = distance;
       other.part = basin.part;
     }
-    other.apart = other.box.isEmpty() || least > kGroupReach;
-    if (other.apart) out_of_reach += other.points;
+    other.far_from_people = other.box.isEmpty() || nearest > kMaxPersonDistance;
+    if (other.far_from_people) far_points += other.points;
   }
-  if (out_of_reach < min_size) return 0;
+  if (far_points < min_size) return 0;
   for (Basin& other : basins_)
-    if (other.apart) other.part = parts;
+    if (other.far_from_people) other.part = parts;
   return 1;
 }
 

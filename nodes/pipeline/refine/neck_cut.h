@@ -43,7 +43,7 @@ class NeckCut {
     std::size_t points = 0;
     std::uint32_t part = 0;
     bool person = false;
-    bool apart = false;  // no person, and out of the reach of all people
+    bool far_from_people = false;
   };
   // Squares of 1 m cover a cluster of 12 m, with a margin of one square on each side.
   static constexpr std::size_t kRow = 15;

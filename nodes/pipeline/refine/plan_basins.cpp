@@ -77,8 +77,8 @@ std::uint32_t PlanBasins::peak_of(std::uint32_t cell) {
 
 // Joins the basins of two peaks, unless the saddle is too low.
 void PlanBasins::join(std::uint32_t a, std::uint32_t b, std::uint64_t saddle) {
-  const auto [high, low] = std::minmax(a, b);
-  if (low != high && 2 * saddle >= cells_[low].density) parent_[low] = high;
+  const auto [denser, sparser] = std::minmax(a, b);
+  if (denser != sparser && 2 * saddle >= cells_[sparser].density) parent_[sparser] = denser;
 }
 
 // Adds the cells in the order of descending density. Each cell joins its densest neighbour. If other

@@ -53,7 +53,8 @@ class PlanBasins {
   std::vector<std::uint32_t> number_;  // number of the cell at each place; kNone between two calls
   std::vector<Cell> cells_;            // in the order of descending density
   std::vector<std::uint32_t> parent_;  // for each cell, a cell of the same basin; itself for the peak
-  std::vector<std::uint32_t> place_of_, basin_;
+  std::vector<std::uint32_t> place_of_;  // of each point
+  std::vector<std::uint32_t> basin_;     // of each cell
 };
 
 }  // namespace detail

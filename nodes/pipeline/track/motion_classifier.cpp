@@ -14,11 +14,12 @@ namespace {
 constexpr double kWindow = 0.55;   // seconds; length of the evaluated window
 constexpr double kSpacing = 0.09;  // seconds between stored measurements
 constexpr double kMinTime = 0.15;  // seconds; shortest time that allows a decision
-// metres; smallest displacement of a moving object. The faces of a large object that come into view move its
-// box farther: a fifth of its length. Without this share, 1 % more of the standing objects seem to move.
+// A moving object is displaced by at least kMinShift metres and by this share of its length. Faces that come
+// into view displace the box of a long object farther. Without the share, 1 % more of the static objects are
+// classified as moving.
 constexpr double kMinShift = 0.3, kMinShiftShare = 0.2;
-// m/s; moving starts above kStartSpeed, and above this much more for each metre of the object's length. It
-// ends below kStopSpeed.
+// An object starts to move above kStartSpeed + kStartSpeedPerMetre * length, and is static again below
+// kStopSpeed, m/s.
 constexpr double kStartSpeed = 0.7, kStartSpeedPerMetre = 0.2, kStopSpeed = 0.5;
 // The velocities in the two halves of the window have the same direction if their dot product, divided by the
 // larger squared velocity, is above this value.

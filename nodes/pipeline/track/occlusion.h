@@ -11,9 +11,9 @@
 
 namespace pcl_bv::detail {
 
-/// Whether the box probably hides the position from the sensor: seen from above, the straight line from the
+/// Whether the box probably occludes the position: seen from above, the straight line from the
 /// sensor at the origin to the position enters the box, and the box reaches the height of the position.
-inline bool hides(const Aabb& box, const Eigen::Vector3d& position) {
+inline bool occludes(const Aabb& box, const Eigen::Vector3d& position) {
   if (box.max().z() < position.z()) return false;
   double enter = 0, leave = 1;  // parts of the line
   for (int i = 0; i < 2; ++i) {

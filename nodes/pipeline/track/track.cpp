@@ -16,29 +16,29 @@ constexpr double kFirstSpeed = 8;            // m/s; standard deviation of an un
 constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise density of 1.7 m/s^2 every 0.1 s
 constexpr double kTurnNoise = 0.1;           // 1/s; noise density per squared speed: 57 degrees/s every 0.1 s
 constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
-// An object that comes into view as a growing part has no velocity at first. Slowed down from its third
-// detection on, a car at 10 m/s was reported at 1 m/s after eight frames.
-constexpr std::size_t kStandingDetections = 5;
+// Objects that are static until this detection are slowed down. With a limit of 3, a car at 10 m/s that came
+// into view part by part was reported at 1 m/s after eight frames.
+constexpr std::size_t kStaticDetections = 5;
 constexpr double kStandingSpeed = 0.5;   // m/s; standard deviation of the velocity of objects that stand
 constexpr double kMaxStandingSpeed = 1;  // m/s; limit of the reported speed of such objects
 constexpr double kMaxJump = 2;           // standard deviations; larger displacements of a face are jumps
 constexpr double kMinVehicleLength = 1.5, kMaxVehicleLength = 7;  // m
-constexpr double kKeptCost = 0.5;  // of a box that is a part of the kept extents
-constexpr double kMinStep = 0.03;  // seconds; smallest step that gives a first velocity
+constexpr double kPartialViewCost = 0.5;  // of a box that is a part of the stored extents
+constexpr double kMinStep = 0.03;         // seconds; smallest step that gives a first velocity
 
 // Returns the variances along the axes after a rotation R, which are the diagonal of R diag(v) R^T.
 Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& variances) {
   return rotation.cwiseAbs2() * variances;
 }
 
-// Returns the displacement of the face that the sensor sees. The sensor is at the origin. The near face is
-// seen, unless something hides it or has become one cluster with it. Then it jumps by more than `limit`, and
-// the far face counts if it does not jump, too.
-double seen_shift(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
-  const bool above = box.min()[axis] > 0, below = box.max()[axis] < 0;
-  if (!above && !below) return difference.shift(axis);
-  const double near = above ? difference.low[axis] : difference.high[axis],
-               far = above ? difference.high[axis] : difference.low[axis];
+// Returns the displacement of the visible face; the sensor is at the origin. Uses the near face. If it jumps
+// by more than `limit`, because another object occludes it or has merged with it, uses the far face. If both
+// jump, uses face_shift().
+double visible_face_shift(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
+  const bool beyond = box.min()[axis] > 0, before = box.max()[axis] < 0;
+  if (!beyond && !before) return difference.shift(axis);
+  const double near = beyond ? difference.low[axis] : difference.high[axis],
+               far = beyond ? difference.high[axis] : difference.low[axis];
   if (std::abs(near) <= limit) return near;
   return std::abs(far) <= limit ? far : difference.shift(axis);
 }
@@ -48,7 +48,7 @@ double seen_shift(const BoxDifference& difference, const Aabb& box, int axis, do
 // mean of both shifts.
 double innovation_of(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
   const double part = std::clamp((std::abs(difference.size(axis)) - 0.05) / 0.2, 0.0, 1.0);
-  return (1 - part) * difference.centre(axis) + part * seen_shift(difference, box, axis, limit);
+  return (1 - part) * difference.centre(axis) + part * visible_face_shift(difference, box, axis, limit);
 }
 
 }  // namespace
@@ -63,8 +63,8 @@ void Track::start(const Aabb& box, const Pose& sensor) {
   const Eigen::Vector3d position = sensor * box.center();
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)] = {position[i], 0, kFaceVariance, 0, kFirstSpeed * kFirstSpeed};
-  low = kept_low = seen_low = -half;
-  high = kept_high = seen_high = half;
+  low = full_low = seen_low = -half;
+  high = full_high = seen_high = half;
   expected_position = box.center();
   const Eigen::Vector3d long_axis =
       half.x() >= half.y() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
@@ -95,8 +95,8 @@ Aabb Track::static_box(const Pose& sensor) const {
 
 BoxDifference Track::difference_to(const Aabb& seen_box) const {
   const Eigen::Vector3d min = seen_box.min() - expected_position, max = seen_box.max() - expected_position;
-  const Eigen::Vector3d below = (kept_low - min).cwiseMax(0), above = (max - kept_high).cwiseMax(0);
-  BoxDifference difference{min - low, max - high, Eigen::Vector3d::Zero(), kept_high - kept_low - max + min};
+  const Eigen::Vector3d below = (full_low - min).cwiseMax(0), above = (max - full_high).cwiseMax(0);
+  BoxDifference difference{min - low, max - high, Eigen::Vector3d::Zero(), full_high - full_low - max + min};
   // A box that is larger on both sides is not outside: it may be the object and its neighbour.
   for (int i = 0; i < 3; ++i)
     if (below[i] == 0 || above[i] == 0) difference.outside[i] = below[i] + above[i];
@@ -104,7 +104,7 @@ BoxDifference Track::difference_to(const Aabb& seen_box) const {
 }
 
 bool Track::has_vehicle_size() const {
-  const double length = (kept_high - kept_low).head<2>().maxCoeff();
+  const double length = (full_high - full_low).head<2>().maxCoeff();
   return length >= kMinVehicleLength && length <= kMaxVehicleLength;
 }
 
@@ -151,14 +151,14 @@ void Track::resize(const Aabb& seen_box, const Pose& sensor) {
     const double part = std::clamp(std::abs(change) / 0.5, 0.3, 0.5);
     low[i] += part * (below - low[i]);
     high[i] += part * (above - high[i]);
-    follow_faces(kept_low[i], kept_high[i], below, above);
+    follow_faces(full_low[i], full_high[i], below, above);
   }
   // Moves the tracked position to the centre of the box. A position off the centre would rotate with the
   // sensor and seem to move: at 0.8 m/s for 1.5 m off the centre and 30 degrees/s.
   const Eigen::Vector3d offset = (low + high) / 2, fixed_offset = sensor.linear() * offset;
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)].position += fixed_offset[i];
-  for (Eigen::Vector3d* const face : {&low, &high, &kept_low, &kept_high})
+  for (Eigen::Vector3d* const face : {&low, &high, &full_low, &full_high})
     *face -= offset;
   expect(sensor);
   seen_low = seen_box.min() - expected_position;
@@ -175,7 +175,7 @@ void Track::slow_down() {
 void Track::classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds) {
   motion_classifier.add(motion.position(), half, sensor.linear(), seconds);
   moving = motion_classifier.moving();
-  if (!moving && detections >= kStandingDetections) slow_down();
+  if (!moving && detections >= kStaticDetections) slow_down();
   const Eigen::Vector3d velocity = motion.velocity(), variance = motion.velocity_variance();
   const double speed = velocity.head<2>().norm(), slowest = 0.35;
   if (!moving || speed < slowest) return;
@@ -227,13 +227,13 @@ double cost_of(const Track& track, const Aabb& box, double gate) {
   const Eigen::Vector3d variance = track.motion.position_variance();
   const double slack = kFaceVariance + gate * gate / 16, max_variance = std::max(variance.x(), variance.y());
   const auto square = [](double value) { return value * value; };
-  double whole = 0, part = kKeptCost;
+  double whole = 0, part = kPartialViewCost;
   for (int i = 0; i < 3; ++i) {
-    const double size = track.high[i] - track.low[i], kept = track.kept_high[i] - track.kept_low[i];
+    const double size = track.high[i] - track.low[i], full = track.full_high[i] - track.full_low[i];
     const double scale = (i < 2 ? max_variance : variance.z()) + slack, centre = square(difference.centre(i));
     whole += square(difference.shift(i)) / scale + square(difference.size(i) / (1 + 0.3 * size)) + centre;
     part +=
-        square(difference.outside[i]) / scale + square(difference.hidden[i] / (1 + 0.3 * kept)) + centre / 4;
+        square(difference.outside[i]) / scale + square(difference.unseen[i] / (1 + 0.3 * full)) + centre / 4;
   }
   return track.id && track.has_vehicle_size() ? std::min(whole, part) : whole;
 }

@@ -22,9 +22,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct BoxDifference {
   Eigen::Vector3d low, high;  ///< Displacements of the lower and upper faces.
-  /// How far the box is outside the kept extents of the track, on the side where it is outside.
+  /// How far the box is outside the stored extents of the track. 0 if it is outside on both sides.
   Eigen::Vector3d outside;
-  Eigen::Vector3d hidden;  ///< Kept extents minus the size of the box.
+  Eigen::Vector3d unseen;  ///< Size of the stored extents minus the size of the box.
 
   double centre(int axis) const { return (low[axis] + high[axis]) / 2; }
   double size(int axis) const { return high[axis] - low[axis]; }
@@ -38,7 +38,7 @@ struct Track {
   // Lower and upper faces of the box relative to the tracked position, along the sensor's axes.
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
   // The same faces of all parts of the object that have been seen (follow_faces()).
-  Eigen::Vector3d kept_low = Eigen::Vector3d::Zero(), kept_high = Eigen::Vector3d::Zero();
+  Eigen::Vector3d full_low = Eigen::Vector3d::Zero(), full_high = Eigen::Vector3d::Zero();
   // The same faces of the last measured box.
   Eigen::Vector3d seen_low = Eigen::Vector3d::Zero(), seen_high = Eigen::Vector3d::Zero();
   Eigen::Vector3d expected_position = Eigen::Vector3d::Zero();  // in the sensor's frame
@@ -63,7 +63,7 @@ struct Track {
   Aabb static_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
   BoxDifference difference_to(const Aabb& box) const;
-  /// Whether the kept extents have the size of a vehicle, of which only a part may be in view.
+  /// Whether the stored extents have the size of a vehicle, of which only a part may be in view.
   bool has_vehicle_size() const;
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 

@@ -157,7 +157,7 @@ void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes
 }
 
 // Counts missed frames. A track is occluded if its expected centre is inside the box of another track: its
-// object is probably part of that box. A track with an id is also occluded if another box hides its centre.
+// object is probably part of that box. A track with an id is also occluded if a box occludes its centre.
 // An occluded track is deleted later than others, so that it continues when its object is seen again.
 void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
@@ -173,7 +173,7 @@ void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<As
     if (merged) track.detections_since_split = 0;
     const bool occluded =
         merged || (track.id && std::any_of(boxes.begin(), boxes.end(),
-                                           [&](const Aabb& box) { return hides(box, centre); }));
+                                           [&](const Aabb& box) { return occludes(box, centre); }));
     if (occluded && ++track.occluded % kOccludedFramesPerMiss != 0) continue;
     ++track.missed;
   }

@@ -32,7 +32,8 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// A track gets its id when it has TrackConfig::birth detections. A track is deleted after TrackConfig::death
 /// frames in a row without a detection. A track is occluded if its expected centre is inside the box of
-/// another object or, for a track with an id, behind such a box (hides()). Four frames in which a track is occluded are counted as one frame without a detection.
+/// another object. A track with an id is also occluded if a box is between the sensor and this centre
+/// (occludes()). Four frames in which a track is occluded are counted as one frame without a detection.
 class Tracker {
  public:
   /// The track to which a box is assigned.

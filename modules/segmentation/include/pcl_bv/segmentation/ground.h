@@ -140,9 +140,9 @@ struct GroundZonesOptions {
 /// not ground.
 ///
 /// As with split_ground(), every point at most `distance` above the surface is ground, and so are all points
-/// below the surface. A cell has an object if it has points 0.3 to 2 m above its lowest point and is not in a
-/// ditch. In such cells the limit is a fifth of `distance`, so that the feet of walls and cars are not
-/// ground.
+/// below the surface. A cell has an object if it has points 0.3 to 2 m above its lowest point. In such cells
+/// the limit is a fifth of `distance`, so that the feet of walls and cars are not ground. The banks of a
+/// ditch have no object: a cell whose lowest point is ground, and more than 0.1 m below the expected height.
 ///
 /// Source: the slope criterion of Vosselman 2000, which compares all pairs of points. Here distances are path
 /// lengths from cell to cell (Borgefors 1986).
