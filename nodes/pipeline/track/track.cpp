@@ -197,8 +197,10 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
   if (!moving && speed > kMaxStandingSpeed) {
     const double variance = motion.velocity_variance().head<2>().maxCoeff();
     entry.moving = !motion_classifier.decided() && speed * speed > 9 * variance;
-    if (!entry.moving) entry.velocity.head<2>() *= kMaxStandingSpeed / speed;
   }
+  // The factor makes up for rounding: programs compare with the limit.
+  if (const double all = entry.velocity.norm(); !entry.moving && all > kMaxStandingSpeed)
+    entry.velocity *= (1 - 1e-12) * kMaxStandingSpeed / all;
   if (!fixed) entry.velocity = rotation * entry.velocity + apparent_velocity;
   const Eigen::Vector3d position = fixed ? Eigen::Vector3d(sensor * centre) : centre;
   const Eigen::Vector3d facing = rotation * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
