@@ -38,11 +38,11 @@ std::optional<Corners> moved_corners(const Corners& corners, double distance) {
   return moved;
 }
 
-// The corners of the squares around both ends of an edge. Their convex hull contains all points whose
+// The strip of an edge: the convex hull of the squares around both ends. It contains all points whose
 // coordinates differ by at most the distance from those of a point of the edge.
-class WideEdge {
+class Strip {
  public:
-  WideEdge(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double distance) {
+  Strip(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double distance) {
     for (std::size_t k = 0; k < 4; ++k) {
       from_[k] = corner(a, k, distance);
       to_[k] = corner(b, k, distance);
@@ -52,18 +52,18 @@ class WideEdge {
   Eigen::Vector2d low() const { return from_[0].cwiseMin(to_[0]); }
   Eigen::Vector2d high() const { return from_[3].cwiseMax(to_[3]); }
 
-  // Returns whether a line separates the segment from p to q from the inside of the hull.
+  // Returns whether a line separates the strip's interior and the segment p q.
   bool is_apart(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const {
-    const Eigen::Vector2d least = low(), most = high();
+    const Eigen::Vector2d from = low(), to = high();
     for (int axis = 0; axis < 2; ++axis) {
-      if (std::max(p[axis], q[axis]) <= least[axis] || std::min(p[axis], q[axis]) >= most[axis]) return true;
+      if (std::max(p[axis], q[axis]) <= from[axis] || std::min(p[axis], q[axis]) >= to[axis]) return true;
     }
-    if (is_beside(p, q, 1) || is_beside(p, q, -1)) return true;
+    if (is_on_side(p, q, 1) || is_on_side(p, q, -1)) return true;
     for (std::size_t k = 0; k < 4; ++k) {
       for (const int side : {1, -1}) {
         const bool beyond =
             side * orientation(from_[k], to_[k], p) <= 0 && side * orientation(from_[k], to_[k], q) <= 0;
-        if (beyond && from_[k] != to_[k] && is_beside(from_[k], to_[k], side)) return true;
+        if (beyond && from_[k] != to_[k] && is_on_side(from_[k], to_[k], side)) return true;
       }
     }
     return false;
@@ -78,33 +78,49 @@ class WideEdge {
   }
 
   // Returns whether all corners are on one side of the line from p to q: the left if `side` is 1.
-  bool is_beside(const Eigen::Vector2d& p, const Eigen::Vector2d& q, int side) const {
-    const auto beside = [&](const Eigen::Vector2d& at) { return side * orientation(p, q, at) >= 0; };
-    return std::all_of(from_.begin(), from_.end(), beside) && std::all_of(to_.begin(), to_.end(), beside);
+  bool is_on_side(const Eigen::Vector2d& p, const Eigen::Vector2d& q, int side) const {
+    const auto holds = [&](const Eigen::Vector2d& corner) { return side * orientation(p, q, corner) >= 0; };
+    return std::all_of(from_.begin(), from_.end(), holds) && std::all_of(to_.begin(), to_.end(), holds);
   }
 
   std::array<Eigen::Vector2d, 4> from_, to_;
 };
 
-// Returns whether no edge of `outer` meets the inside of a wide edge of `inner`.
+// The range of x of a strip or of an edge of the outer polygon.
+struct Span {
+  double low, high;
+  std::size_t i;
+  bool is_strip;
+};
+
+// Returns whether no edge of `outer` meets the interior of the strip of an edge of `inner`.
 bool boundaries_are_apart(const Corners& outer, const Corners& inner, double distance) {
-  struct Edge {
-    double low, high;
-    Eigen::Vector2d a, b;
+  const auto next = [](const Corners& corners, std::size_t i) -> const Eigen::Vector2d& {
+    return corners[i + 1 < corners.size() ? i + 1 : 0];
   };
-  std::vector<Edge> edges;
-  for (std::size_t i = 0; i < outer.size(); ++i) {
-    const Eigen::Vector2d &a = outer[i], &b = outer[i + 1 < outer.size() ? i + 1 : 0];
-    edges.push_back({std::min(a.x(), b.x()), std::max(a.x(), b.x()), a, b});
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.low < f.low; });
+  std::vector<Strip> strips;
+  std::vector<Span> spans;
   for (std::size_t i = 0; i < inner.size(); ++i) {
-    const WideEdge wide(inner[i], inner[i + 1 < inner.size() ? i + 1 : 0], distance);
-    const double low = wide.low().x(), high = wide.high().x();
-    for (const Edge& edge : edges) {
-      if (edge.low > high) break;
-      if (edge.high >= low && !wide.is_apart(edge.a, edge.b)) return false;
+    const Strip& strip = strips.emplace_back(inner[i], next(inner, i), distance);
+    spans.push_back({strip.low().x(), strip.high().x(), i, true});
+  }
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    const double a = outer[i].x(), b = next(outer, i).x();
+    spans.push_back({std::min(a, b), std::max(a, b), i, false});
+  }
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.low < b.low; });
+  // A line moves to the right. It meets the active edges and strips.
+  std::array<std::vector<Span>, 2> active;
+  for (const Span& span : spans) {
+    std::vector<Span>& others = active[span.is_strip ? 0 : 1];
+    others.erase(std::remove_if(others.begin(), others.end(),
+                                [&](const Span& other) { return other.high < span.low; }),
+                 others.end());
+    for (const Span& other : others) {
+      const std::size_t strip = span.is_strip ? span.i : other.i, edge = span.is_strip ? other.i : span.i;
+      if (!strips[strip].is_apart(outer[edge], next(outer, edge))) return false;
     }
+    active[span.is_strip ? 1 : 0].push_back(span);
   }
   return true;
 }
