@@ -18,7 +18,6 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/obb.h"
 #include "pcl_bv/volumes/outline.h"
-#include "pcl_bv/volumes/planar_hull.h"
 #include "pcl_bv/volumes/simple_polygon.h"
 #include "prism_polygon.h"
 #include "prism_sides.h"
@@ -36,18 +35,8 @@ void check_prism(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("Prism: ") + what);
 }
 
-// Returns whether the corners are those of their convex hull in the same order, from any first corner on.
-bool is_strictly_convex(const std::vector<Eigen::Vector2d>& outline) {
-  const std::vector<std::size_t> corners = planar_hull(outline);
-  if (corners.size() != outline.size()) return false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i] != (corners[0] + i) % corners.size()) return false;
-  }
-  return true;
-}
-
 // Returns a simple polygon that contains every polygon whose corners are in the boxes, in their order or, if
-// `reversed`, in the opposite order. Returns nothing if rounding leaves no such polygon.
+// `reversed`, in the opposite order. Returns nothing if rounding leaves no such polygon, or a convex one.
 std::optional<std::vector<Eigen::Vector2d>> polygon_around_boxes(const std::vector<PlaneBox>& boxes,
                                                                  bool reversed) {
   std::vector<Eigen::Vector2d> corners;
@@ -60,7 +49,9 @@ std::optional<std::vector<Eigen::Vector2d>> polygon_around_boxes(const std::vect
   if (reversed) std::reverse(corners.begin(), corners.end());
   corners = without_straight_corners(corners);
   if (!is_simple_polygon(corners)) return std::nullopt;
-  return polygon_around(corners, widest);
+  std::optional<std::vector<Eigen::Vector2d>> around = polygon_around(corners, widest);
+  if (around && is_strictly_convex(*around)) return std::nullopt;
+  return around;
 }
 
 // Returns whether each axis is parallel to a coordinate axis. Axes that are orthonormal to 1e-12 are then a

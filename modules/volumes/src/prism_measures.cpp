@@ -183,12 +183,12 @@ double Prism::distance(const Eigen::Vector3d& point) const {
   if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const double h = dot3(axes_.col(2), point);
-  const double above = std::max({0.0, low_ - h, h - high_});
+  const double vertical = std::max({0.0, low_ - h, h - high_});
   const Projection u = project(axes_.col(0), point), v = project(axes_.col(1), point);
   const Eigen::Vector2d at(u.value, v.value);
-  const bool is_above = is_convex_ ? is_in_convex(outline_, at) : polygon_contains(PrismSides(*this), u, v);
-  const double beside = is_above ? 0 : distance_to_edges(outline_, at);
-  return Eigen::Vector2d(above, beside).stableNorm();
+  const bool in_outline = is_convex_ ? is_in_convex(outline_, at) : polygon_contains(PrismSides(*this), u, v);
+  const double horizontal = in_outline ? 0 : distance_to_edges(outline_, at);
+  return Eigen::Vector2d(vertical, horizontal).stableNorm();
 }
 
 Mesh Prism::mesh() const {

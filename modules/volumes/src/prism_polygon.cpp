@@ -28,7 +28,7 @@ std::optional<RayInterval> meeting_edge(const PrismSides& sides, std::size_t i, 
   return ray.interval();
 }
 
-bool is_above(const PrismSides& sides, const PlaneRay& plane, double t) {
+bool is_over_outline(const PrismSides& sides, const PlaneRay& plane, double t) {
   Projection at[2];
   for (int k = 0; k < 2; ++k) {
     const double moved = t * plane.direction[k].value;
@@ -75,8 +75,8 @@ void clip_to_polygon(const PrismSides& sides, const PlaneRay& plane, RayClip& ra
     exit = std::max(exit, part->exit);
   }
   for (const double t : {whole->enter, whole->exit}) {
-    // The exit is infinite only for a ray along the heights that no height ends, so for a rounded direction.
-    if (std::isfinite(t) && !is_above(sides, plane, t)) continue;
+    // An infinite exit means that rounding hides the slope of all three axes; treat it as above the outline.
+    if (std::isfinite(t) && !is_over_outline(sides, plane, t)) continue;
     enter = std::min(enter, t);
     exit = std::max(exit, t);
   }

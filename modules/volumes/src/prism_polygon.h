@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points and rays against an outline that is not convex, in spite of rounding errors.
+// Point and ray queries for outlines that are not convex, conservative under rounding.
 #pragma once
 
 #include "prism_sides.h"

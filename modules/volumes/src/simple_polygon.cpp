@@ -29,7 +29,7 @@ bool is_counter_clockwise(const Corners& corners) {
 }
 
 // Returns whether the edges that begin at the corners i and k have no point in common but a shared corner.
-// Two edges that follow each other are known not to be on one line.
+// Neighbouring edges are known not to be on one line.
 bool are_apart(const Corners& corners, std::size_t i, std::size_t k) {
   const std::size_t count = corners.size();
   if ((i + 1) % count == k || (k + 1) % count == i) return true;
@@ -74,6 +74,15 @@ bool is_simple_polygon(const Corners& corners) {
   return true;
 }
 
+bool is_strictly_convex(const Corners& corners) {
+  const std::vector<std::size_t> hull = planar_hull(corners);
+  if (hull.size() != corners.size()) return false;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    if (hull[i] != (hull[0] + i) % hull.size()) return false;
+  }
+  return true;
+}
+
 // Even-odd rule: counts the edges to the right of the point. An edge has its lower end, but not its upper.
 bool polygon_contains(const Corners& corners, const Eigen::Vector2d& p) {
   bool inside = false;
@@ -88,12 +97,12 @@ bool polygon_contains(const Corners& corners, const Eigen::Vector2d& p) {
 }
 
 Corners without_straight_corners(const Corners& corners) {
-  Corners kept;
+  Corners result;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (orientation(corner_at(corners, i + corners.size() - 1), corners[i], corner_at(corners, i + 1)) != 0)
-      kept.push_back(corners[i]);
+      result.push_back(corners[i]);
   }
-  return kept;
+  return result;
 }
 
 // A corner is an ear if the interior angle is below 180 degrees and no other corner is in its closed

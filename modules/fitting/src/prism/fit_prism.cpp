@@ -5,6 +5,7 @@
 // of the other points is computed in exact arithmetic. A concave outline then needs all points again.
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -84,10 +85,10 @@ std::vector<Eigen::Vector2d> outline_of(const ProjectedPoints& corners, const Gr
   return outline_around(boxes);
 }
 
-// Returns the rounded coordinates of all points seen from above.
-std::vector<Eigen::Vector2d> seen_from_above(const PointView& points, const Supports& supports,
-                                             const GroundProjection& projection,
-                                             const FitExecution& execution) {
+// Returns the rounded coordinates (u, v) of all points.
+std::vector<Eigen::Vector2d> projected_points(const PointView& points, const Supports& supports,
+                                              const GroundProjection& projection,
+                                              const FitExecution& execution) {
   using Positions = std::vector<Eigen::Vector2d>;
   Positions all;
   map_chunks<Positions, 16>(
@@ -123,31 +124,36 @@ bool has_longer_edge(const ProjectedPoints& corners, double length) {
   return false;
 }
 
-// Returns a concave outline around all points, or nothing if the convex one has no edge to replace. The
-// rounded coordinates differ from the exact ones by at most the error bound, which polygon_around() covers.
+// Returns a concave outline around all points. Returns nothing if the convex one has no edge to replace, or
+// if none remains after polygon_around() has moved the edges outward by the error bound, by which the rounded
+// coordinates differ from the exact ones at most.
 std::optional<std::vector<Eigen::Vector2d>> concave_outline_of(const PointView& points,
                                                                const Supports& supports,
                                                                const ProjectedPoints& corners,
                                                                const GroundProjection& projection,
                                                                double length, const FitExecution& execution) {
   if (!(length < kInfinity) || !has_longer_edge(corners, length)) return std::nullopt;
-  const std::vector<Eigen::Vector2d> seen = seen_from_above(points, supports, projection, execution);
+  const std::vector<Eigen::Vector2d> all = projected_points(points, supports, projection, execution);
   std::vector<Eigen::Vector2d> hull;
   if (projection.is_exact()) {
     hull = outline_of(corners, projection);
   } else {
-    for (const std::size_t i : planar_hull(seen))
-      hull.push_back(seen[i]);
+    for (const std::size_t i : planar_hull(all))
+      hull.push_back(all[i]);
   }
   if (hull.size() < 3) return std::nullopt;
-  const std::vector<Eigen::Vector2d> outline = concave_outline(hull, seen, length);
+  const std::vector<Eigen::Vector2d> outline = concave_outline(hull, all, length);
   if (outline == hull) return std::nullopt;
-  return polygon_around(outline, projection.error_bound());
+  std::optional<std::vector<Eigen::Vector2d>> around = polygon_around(outline, projection.error_bound());
+  if (around && is_strictly_convex(*around)) return std::nullopt;
+  return around;
 }
 
 double checked_length(double length) {
   if (length > 0) return length;
-  throw std::invalid_argument("fit_prism: concave_length " + std::to_string(length) + " is not above 0");
+  char digits[32];
+  const std::string text(digits, std::to_chars(digits, digits + sizeof digits, length).ptr);
+  throw std::invalid_argument("fit_prism: concave_length " + text + " is not above 0");
 }
 
 struct Heights {

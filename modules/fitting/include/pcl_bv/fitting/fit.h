@@ -120,14 +120,19 @@ Fitted<Hull> fit_hull(const PointView& points, const Execution& execution = {});
 ///
 /// With PrismOptions::concave_length, the outline need not be convex (Duckham et al. 2008). It is a simple
 /// polygon that contains all points. If `up` is a coordinate axis, its corners are points, and its area is
-/// not larger than that of the convex hull. Points exactly on one line have no area, so no bay begins there.
+/// not larger than that of the convex hull. Two walls without thickness keep their convex hull: the outline
+/// between them would touch itself. If `up` is no coordinate axis, the outline is the convex hull also if
+/// rounding could make two of its edges meet, or if one of its angles, inside or outside, is below 0.11
+/// degrees.
 ///
 /// Empty input and errors are as for fit_aabb(). Throws std::invalid_argument for an `up` or a concave_length
 /// outside its range, too. The bits are the same for every execution and every order of the points.
 ///
 /// O(n): two passes, and a third one if `up` is no coordinate axis. O(m log m) for the m points near the
-/// outline (Akl, Toussaint 1978; Andrew 1979). A concave outline needs another pass, O(n log n), memory for
-/// the positions of all points, and O(k + e) for each of its edges, with k cells (at most 2^16) and e edges.
+/// outline (Akl, Toussaint 1978; Andrew 1979). A concave outline needs another pass, O(n log n), and memory
+/// for the positions of all points. Each of its e edges takes O(e), and O(1) for each of at most 2^16 cells
+/// of a grid and for each point in the cells near the edge. The worst case is O(n^2): if one far outlier puts
+/// all other points into one cell, or if concave_length is below the distance between neighbouring points.
 Fitted<Prism> fit_prism(const PointView& points, const PrismOptions& options = {},
                         const Execution& execution = {});
 

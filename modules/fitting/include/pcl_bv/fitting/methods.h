@@ -41,8 +41,7 @@ struct Method {
                         const Execution& execution = {}) const;
 };
 
-/// Returns whether points deep inside the cloud can change the volume: with Method::needs_all_points, and for
-/// a prism with a concave outline.
+/// Returns true for methods with Method::needs_all_points and for prisms with a concave outline.
 bool needs_all_points(const Method& method, const MethodOptions& options);
 
 /// Returns all methods of this build, in the order of the documentation.

@@ -95,8 +95,9 @@ struct PrismOptions {
   /// to 1e30 in magnitude.
   Eigen::Vector3d up;
   /// Infinity: the outline is the convex hull. Otherwise each edge of the outline that is longer than this
-  /// length is replaced by shorter ones along the points behind it, as far as the points allow. So the
-  /// outline follows bays that are wider than this length. In the unit of the points, above 0.
+  /// length is replaced by two edges through a point inside the outline, as far as the points allow. So the
+  /// outline follows bays that are wider than this length. A bay is a region between the outline and its
+  /// convex hull; its width is the edge of the hull that closes it. In the unit of the points, above 0.
   double concave_length;
 };
 

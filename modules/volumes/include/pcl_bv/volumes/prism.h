@@ -32,9 +32,10 @@ struct PrismAccess;
 /// supported.
 ///
 /// If the outline is not convex, functions of pairs (overlaps(), distance() of pair_queries.h), inflated
-/// regions (region_mask.h) and trees of volumes use the prism over its convex hull. So they can find a
-/// contact in a bay of the outline, but they miss none. contains(), intersect(), distance() of a point, the
-/// measures and mesh() are those of the outline itself.
+/// regions (region_mask.h) and trees of volumes use the prism over its convex hull. They report every
+/// contact, and also contacts with the convex hull inside a bay, a region between the outline and its convex
+/// hull. contains(), intersect(), distance() of a point, the measures and mesh() are those of the outline
+/// itself.
 class Prism {
  public:
   /// Makes the empty prism.
@@ -44,7 +45,8 @@ class Prism {
   /// without corners, or low > high, gives the empty prism. Otherwise throws std::invalid_argument unless all
   /// numbers are finite, the corners at most 1e101 in magnitude, the axes are right-handed and orthonormal to
   /// 1e-12, and the outline is a polygon as described above, which is tested exactly. Stores -0 as 0.
-  /// O(n log n) for n corners of a usual outline.
+  /// O(n log n) for a convex outline of n corners; otherwise O(n^2) at worst, and O(n log n) if few edges
+  /// share a range of u.
   Prism(const Eigen::Matrix3d& axes, std::vector<Eigen::Vector2d> outline, double low, double high);
 
   const Eigen::Matrix3d& axes() const { return axes_; }                     ///< The axes as columns.
@@ -80,8 +82,8 @@ class Prism {
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(corners).
   double surface_area() const;  ///< Area in squared units; both sides of a flat prism count. 0 if empty.
 
-  /// Returns the centre of mass or, if the prism is flat, of the polygon, segment or point. NaN if empty. It
-  /// can be outside of an outline that is not convex.
+  /// Returns the centre of mass or, if the prism is flat, of the polygon, segment or point. NaN if empty. The
+  /// centre can be outside the outline if this is not convex.
   Eigen::Vector3d center() const;
 
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty. O(corners).
@@ -93,8 +95,8 @@ class Prism {
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray `origin + t * direction`, t >= 0, inside the prism; see RayInterval. If the
-  /// outline is not convex, the ray can leave the prism and enter it again; the interval then lasts from the
-  /// first entry to the last exit. The coordinates of origin and direction are widened by twice the error
+  /// outline is not convex, the ray can leave the prism and enter it again; the interval then extends from
+  /// the first entry to the last exit. The coordinates of origin and direction are widened by twice the error
   /// bound of contains(). O(corners).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
@@ -105,14 +107,19 @@ class Prism {
 
   /// Returns the mesh of the prism: the corners at the height low, then those at the height high. The sides
   /// come first. If the outline is convex, the last two faces are bottom and top; otherwise these consist of
-  /// triangles. A segment has only its two sides. A point has one face of two vertices.
+  /// triangles. A segment has only its two sides. A point has one face of two vertices. O(n) for a convex
+  /// outline of n corners. Otherwise usually O(n^2), at worst O(n^3).
   Mesh mesh() const;
 
   /// Returns the transformed prism. The result contains the exact value of `transform * p` for every point p
   /// of this prism. The outline and the heights move outward by the rounding errors of the axes and of the
   /// coordinates. Where this leaves a sharp corner uncovered, the outline gets further corners, which are
-  /// some rounding steps apart. An outline that is not convex stays so, unless rounding could make two of its
-  /// edges meet; then the result has its convex hull. O(n log n) for n corners.
+  /// some rounding steps apart.
+  ///
+  /// An outline that is not convex usually stays so. In these cases the result is the prism over the convex
+  /// hull: rounding could make two edges meet; rounding removes all bays; or one angle, inside or outside, is
+  /// below 0.11 degrees. O(n log n) for a convex outline of n corners; otherwise O(n^2) at worst, and
+  /// O(n log n) if few edges share a range of u.
   Prism transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Simple polygons, which need not be convex. Exact arithmetic decides everything in this file.
+// Simple polygons, which need not be convex. The predicates are exact. Only polygon_around() computes rounded
+// corners.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,9 +19,13 @@ bool segments_touch(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Ei
                     const Eigen::Vector2d& d);
 
 /// Returns whether the corners are those of a simple polygon with at least three corners, counter-clockwise.
-/// Two edges that follow each other have only their corner in common, and are not on one line. Any other two
-/// edges have no point in common. O(n log n) for n corners of which few have nearly equal x, O(n^2) at most.
+/// Neighbouring edges have only their corner in common, and are not on one line. Any other two edges have no
+/// point in common. O(n^2) at worst, O(n log n) if few edges share a range of x.
 bool is_simple_polygon(const std::vector<Eigen::Vector2d>& corners);
+
+/// Returns whether the corners are those of their convex hull, in the same order, from any first corner on.
+/// No three of them are then on one line. True for one corner and for two different ones. O(n log n).
+bool is_strictly_convex(const std::vector<Eigen::Vector2d>& corners);
 
 /// Returns whether a simple polygon contains the point. The boundary belongs to the polygon. O(n).
 bool polygon_contains(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& p);
@@ -29,14 +34,15 @@ bool polygon_contains(const std::vector<Eigen::Vector2d>& corners, const Eigen::
 /// after. The polygon stays the same set of points.
 std::vector<Eigen::Vector2d> without_straight_corners(const std::vector<Eigen::Vector2d>& corners);
 
-/// Returns triangles that together are a simple polygon, as positions of corners, counter-clockwise. They
-/// overlap only in edges. n - 2 triangles by ear clipping (Meisters 1975), O(n^2) for usual polygons.
+/// Returns a triangulation (ear clipping): n - 2 counter-clockwise triples of corner positions (Meisters
+/// 1975). Usually O(n^2). O(n^3) at worst, if most corners that are tried are not ears.
 std::vector<std::array<std::size_t, 3>> triangles_of(const std::vector<Eigen::Vector2d>& corners);
 
 /// Returns a simple polygon that contains every point whose coordinates differ from those of a point of the
 /// given simple polygon by at most `distance`. Its edges are those of the given polygon, moved outward by
-/// about four times the distance. Returns nothing if this gives no such polygon, for example because two
-/// edges are nearer to each other than this. O(n log n) for usual polygons.
+/// about four times the distance. Returns nothing if this gives no such polygon: if two edges are nearer to
+/// each other than this, or if an angle, inside or outside, is below 0.11 degrees. The result can be convex
+/// even if the given polygon is not. O(n^2) at worst, O(n log n) if few edges share a range of x.
 std::optional<std::vector<Eigen::Vector2d>> polygon_around(const std::vector<Eigen::Vector2d>& corners,
                                                            double distance);
 
