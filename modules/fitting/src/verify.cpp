@@ -167,7 +167,9 @@ double polygon_violation(const Prism& prism, const Eigen::Vector3d& p, double u,
     };
     if (side == 0 && between(0) && between(1)) return 0.0;
     if (is_below(a.y()) != is_below(b.y()) && (side > 0) == (b.y() > a.y())) inside = !inside;
-    const double along = std::clamp(edge.dot(from) / edge.squaredNorm(), 0.0, 1.0);
+    // 0 if it underflows: the edge is then treated as its first end.
+    const double squared = edge.squaredNorm();
+    const double along = squared > 0 ? std::clamp(edge.dot(from) / squared, 0.0, 1.0) : 0.0;
     nearest = std::min(nearest, (from - along * edge).norm());
   }
   return inside ? 0.0 : std::max(nearest, std::numeric_limits<double>::denorm_min());

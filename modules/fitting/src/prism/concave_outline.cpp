@@ -13,6 +13,7 @@
 #include <queue>
 #include <tuple>
 
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/planar_hull.h"
 #include "pcl_bv/volumes/simple_polygon.h"
 #include "prism/planar_grid.h"
@@ -46,7 +47,7 @@ struct Triangle {
       const Eigen::Vector2d from = leftmost - corners[i];
       const double left = edge.x() * from.y(), right = edge.y() * from.x();
       const double rounding = 0x1p-48 * (std::abs(left) + std::abs(right)) +
-                              4 * margin * (std::abs(edge.x()) + std::abs(edge.y()));
+                              4 * margin * (std::abs(edge.x()) + std::abs(edge.y())) + kSmallestNormal;
       if (left - right < -rounding) return true;
     }
     return false;
@@ -56,10 +57,10 @@ struct Triangle {
   Eigen::Vector2d low, high;
 };
 
-class OutlineDigger {
+class OutlineRefiner {
  public:
-  OutlineDigger(const std::vector<Eigen::Vector2d>& hull, const std::vector<Eigen::Vector2d>& points,
-                double length)
+  OutlineRefiner(const std::vector<Eigen::Vector2d>& hull, const std::vector<Eigen::Vector2d>& points,
+                 double length)
       : grid_(points), squared_length_(length * length), is_corner_(grid_.points().size(), 0) {
     for (std::size_t i = 0; i < hull.size(); ++i) {
       edges_.push_back({hull[i], hull[(i + 1) % hull.size()], (i + 1) % hull.size()});
@@ -112,34 +113,41 @@ class OutlineDigger {
 
   // Returns a point by which an edge can be replaced, if there is one.
   std::optional<std::uint32_t> point_for(const Edge& edge) const {
-    std::optional<std::uint32_t> p = widest_angle(grid_, is_corner_, edge.a, edge.b);
-    while (p && orientation(edge.a, edge.b, grid_.points()[*p]) > 0) {
-      // Each other point in the triangle has a smaller triangle, so this comes to an end.
-      const Triangle triangle(edge.a, edge.b, grid_.points()[*p]);
-      const std::optional<std::uint32_t> other = other_point_in(triangle);
-      if (!other) return meets_edge(edge, triangle) ? std::nullopt : p;
-      if (is_corner_[*other] != 0) return std::nullopt;
-      p = other;
-    }
-    return p;  // on the edge
+    const std::optional<std::uint32_t> widest = widest_angle(grid_, is_corner_, edge.a, edge.b);
+    if (!widest || is_on(edge, *widest)) return widest;
+    const std::uint32_t p = apex_of_empty_triangle(edge, *widest);
+    if (is_corner_[p] != 0) return std::nullopt;
+    if (is_on(edge, p) || !meets_edge(edge, {edge.a, edge.b, grid_.points()[p]})) return p;
+    return std::nullopt;
   }
 
-  // Returns a point in the closed triangle that is none of its corners.
-  std::optional<std::uint32_t> other_point_in(const Triangle& triangle) const {
-    std::optional<std::uint32_t> found;
+  bool is_on(const Edge& edge, std::uint32_t i) const {
+    return orientation(edge.a, edge.b, grid_.points()[i]) == 0;
+  }
+
+  // Returns a point of the closed triangle over the edge with this apex. The triangle over the edge with the
+  // returned apex has no other point, unless the apex is a corner of the outline or on the edge.
+  std::uint32_t apex_of_empty_triangle(const Edge& edge, std::uint32_t apex) const {
+    Triangle triangle(edge.a, edge.b, grid_.points()[apex]);
+    const Eigen::Vector2d box_low = triangle.low, box_high = triangle.high;
     grid_.visit_cells(
-        triangle.low, triangle.high,
+        box_low, box_high,
         [&](std::uint32_t begin, std::uint32_t end, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
           if (triangle.is_apart(low, high, grid_.rounding())) return false;
-          for (std::uint32_t i = begin; i < end && !found; ++i) {
+          for (std::uint32_t i = begin; i < end; ++i) {
             const Eigen::Vector2d& p = grid_.points()[i];
             const auto& corners = triangle.corners;
-            if (triangle.contains(p) && std::find(corners.begin(), corners.end(), p) == corners.end())
-              found = i;
+            if (!triangle.contains(p) || std::find(corners.begin(), corners.end(), p) != corners.end())
+              continue;
+            // The new triangle is inside the old one and does not have the old apex, so no point has to be
+            // tested again.
+            apex = i;
+            if (is_corner_[i] != 0 || is_on(edge, i)) return true;
+            triangle = Triangle(edge.a, edge.b, p);
           }
-          return found.has_value();
+          return false;
         });
-    return found;
+    return apex;
   }
 
   // Returns whether one of the two new edges would meet another edge. The neighbours of the replaced edge may
@@ -173,7 +181,7 @@ class OutlineDigger {
 
 std::vector<Eigen::Vector2d> concave_outline(const std::vector<Eigen::Vector2d>& hull,
                                              const std::vector<Eigen::Vector2d>& points, double length) {
-  return OutlineDigger(hull, points, length).run();
+  return OutlineRefiner(hull, points, length).run();
 }
 
 }  // namespace pcl_bv::detail

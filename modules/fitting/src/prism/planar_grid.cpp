@@ -24,11 +24,11 @@ PlanarGrid::PlanarGrid(const std::vector<Eigen::Vector2d>& points) : low_(points
   }
   rounding_ = 0x1p-48 * std::max(low_.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
   const Eigen::Vector2d extent = high - low_;
-  const double most = std::clamp(static_cast<double>(points.size()) / 4, 1.0, 65'536.0);
-  const double ratio = extent.y() > 0 ? std::sqrt(most) * std::sqrt(extent.x() / extent.y()) : most;
-  const double columns = std::clamp(std::floor(ratio), 1.0, most);
+  const double max_cells = std::clamp(static_cast<double>(points.size()) / 4, 1.0, 65'536.0);
+  const double ratio = extent.y() > 0 ? std::sqrt(max_cells) * std::sqrt(extent.x() / extent.y()) : max_cells;
+  const double columns = std::clamp(std::floor(ratio), 1.0, max_cells);
   counts_[0] = static_cast<std::size_t>(columns);
-  counts_[1] = static_cast<std::size_t>(std::clamp(std::floor(most / columns), 1.0, most));
+  counts_[1] = static_cast<std::size_t>(std::clamp(std::floor(max_cells / columns), 1.0, max_cells));
   for (int k = 0; k < 2; ++k)
     size_[k] = extent[k] / static_cast<double>(counts_[k]);
   std::vector<std::uint32_t> cells, next(counts_[0] * counts_[1] + 1, 0);

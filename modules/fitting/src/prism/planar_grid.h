@@ -11,8 +11,8 @@
 
 namespace pcl_bv::detail {
 
-/// The different points of a plane, sorted into at most 2^16 cells of equal size. Of equal points one
-/// remains. The order of the points does not depend on their order before.
+/// The distinct points of a plane, sorted into at most 2^16 cells of equal size. Duplicates are removed. The
+/// stored order does not depend on the input order.
 class PlanarGrid {
  public:
   /// Coordinates must be finite, and there must be at least one point.

@@ -18,8 +18,8 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 // Compares angles by their cotangents, so that the result needs no function that libraries round differently.
-// Points that see the edge under at least the angle of the best point so far are in the circle through a, b
-// and this point.
+// Points at which the edge subtends at least the angle of the best point so far are in the circle through a,
+// b and this point.
 class AngleSearch {
  public:
   AngleSearch(const PlanarGrid& grid, const std::vector<char>& is_corner, const Eigen::Vector2d& a,
@@ -27,7 +27,7 @@ class AngleSearch {
       : grid_(grid), is_corner_(is_corner), a_(a), b_(b), edge_(b - a), normal_(-edge_.y(), edge_.x()) {}
 
   std::optional<std::uint32_t> find() {
-    // The neighbours of the ends often see a long edge best. They make the circle small from the beginning.
+    // A long edge often subtends the largest angle near its ends. Points there make the circle small at once.
     const Eigen::Vector2d& size = grid_.cell_size();
     search(a_ - size, a_ + size);
     search(b_ - size, b_ + size);
