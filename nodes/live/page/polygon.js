@@ -13,8 +13,8 @@ export function isConvex(corners) {
   return corners.every((b, i) => turn(corners[(i + count - 1) % count], b, corners[(i + 1) % count]) >= 0);
 }
 
-// Divides a polygon into triangles by ear clipping (Meisters 1975). Returns triples of positions. Rounding can
-// hide all ears of a very thin rest; it is then divided from its first corner.
+// Divides a polygon into triangles by ear clipping (Meisters 1975). Returns triples of positions. Rounding
+// can hide all ears of a very thin remaining polygon; it is then divided from its first corner.
 export function trianglesOf(corners) {
   const left = corners.map((_, i) => i);
   const isEar = (k) => {
