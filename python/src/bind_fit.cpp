@@ -88,7 +88,8 @@ py::object verify_volume(py::handle volume, py::handle points, py::handle thread
 }
 
 constexpr const char* fit_doc =
-    R"(fit(points, method, labels=None, *, up='z', growth='deferred', concave_length=None, threads=1, isa=None)
+    "fit(points, method, labels=None, *, up='z', growth='deferred', concave_length=None, threads=1, "
+    R"(isa=None)
 --
 
 Fits a bounding volume to points. Every finite point is inside the volume, by exact arithmetic.

@@ -6,8 +6,8 @@
 # differ. A module may import only from modules that precede it in the list below. Comment lines and
 # indentation are removed, because they are a fifth of 110 kB and nobody reads them in a browser.
 cmake_minimum_required(VERSION 3.22)
-set(modules vectors palette convex polygon batch round shapes messages connection history camera shaders renderer scene picking
-            elements notices overlay objects plots settings view controls page main)
+set(modules vectors palette convex polygon batch round shapes messages connection history camera shaders
+            renderer scene picking elements notices overlay objects plots settings view controls page main)
 
 # Texts are always quoted, because CMake treats `;`, `[` and `]` in unquoted texts as list syntax.
 set(script "")
