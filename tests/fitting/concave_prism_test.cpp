@@ -11,99 +11,28 @@
 #include <stdexcept>
 #include <string>
 
-#include "clouds.h"
-#include "encloses.h"
+#include "concave_clouds.h"
 #include "executions.h"
 #include "fits.h"
 #include "numbers.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/volumes/simple_polygon.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using test::body;
+using test::cloud_of;
+using test::expect_sound;
+using test::hedge;
 using test::numbers;
 using test::TestCloud;
 
 constexpr int kClouds = test::kFewCases ? 200 : 3000;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-template <typename T>
-TestCloud<T> cloud_of(const std::vector<Vector3d>& points) {
-  TestCloud<T> cloud;
-  for (const Vector3d& p : points) {
-    for (const double c : p)
-      cloud.xyz.push_back(static_cast<T>(c));
-  }
-  return cloud;
-}
-
-Vector3d in_box(std::mt19937_64& random, const Vector3d& low, const Vector3d& high) {
-  std::uniform_real_distribution<double> uniform(0, 1);
-  Vector3d p;
-  for (int k = 0; k < 3; ++k)
-    p[k] = low[k] + uniform(random) * (high[k] - low[k]);
-  return p;
-}
-
-// Points of boxes, an equal number in each.
-std::vector<Vector3d> in_boxes(std::mt19937_64& random, std::size_t count,
-                               const std::vector<std::pair<Vector3d, Vector3d>>& boxes) {
-  std::vector<Vector3d> points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& [low, high] = boxes[i % boxes.size()];
-    points.push_back(in_box(random, low, high));
-  }
-  return points;
-}
-
-// A hedge of 1 m around a corner, 28 m and 11 m long.
-std::vector<Vector3d> hedge(std::mt19937_64& random, std::size_t count) {
-  std::vector<Vector3d> points = in_boxes(random, count * 28 / 38, {{{0, 0, 0}, {28, 1, 2}}});
-  const std::vector<Vector3d> leg = in_boxes(random, count * 10 / 38, {{{0, 1, 0}, {1, 11, 2}}});
-  points.insert(points.end(), leg.begin(), leg.end());
-  return points;
-}
-
-// The bodies that have bays, and those that make ties: lattices, lines, circles, equal points.
-std::vector<Vector3d> body(int kind, std::mt19937_64& random, std::size_t count) {
-  std::vector<Vector3d> points;
-  switch (kind % 9) {
-    case 0:
-      return hedge(random, count);
-    case 1:  // a U
-      return in_boxes(random, count,
-                      {{{0, 0, 0}, {6, 1, 1}}, {{0, 0, 0}, {1, 8, 1}}, {{5, 0, 0}, {6, 8, 1}}});
-    case 2:  // a comb
-      return in_boxes(random, count,
-                      {{{0, 0, 0}, {9, 1, 1}},
-                       {{0, 0, 0}, {1, 5, 1}},
-                       {{2, 0, 0}, {3, 5, 1}},
-                       {{4, 0, 0}, {5, 5, 1}},
-                       {{8, 0, 0}, {9, 5, 1}}});
-    case 3:  // a ring with a gap
-      for (std::size_t i = 0; i < count; ++i) {
-        const Vector3d p = in_box(random, {0.3, 4, 0}, {6, 5, 1});
-        points.emplace_back(p.y() * std::cos(p.x()), p.y() * std::sin(p.x()), p.z());
-      }
-      return points;
-    default:
-      break;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    Vector3d p = in_box(random, {-5, -5, -1}, {5, 5, 1});
-    if (kind % 9 == 4) p = p.array().round();                       // a lattice
-    if (kind % 9 == 5) p[i % 2] = 0;                                // two lines that cross
-    if (kind % 9 == 6) p.head<2>() = 5 * p.head<2>().normalized();  // on a circle
-    if (kind % 9 == 7 && (p.x() > -4 && p.y() > -4)) p.head<2>() = p.head<2>().array().round().min(-4.0);
-    points.push_back(p);
-  }
-  return points;
-}
 
 struct Case {
   std::vector<Vector3d> points;
@@ -119,26 +48,6 @@ Case random_case(int i, std::mt19937_64& random) {
     p = scale * p + offset;
   made.length *= scale;
   return made;
-}
-
-template <typename T>
-void expect_sound(const TestCloud<T>& cloud, const Vector3d& up, double length, const std::string& what) {
-  const Prism prism = *fit_prism(cloud.view(), {up, length});
-  ASSERT_NO_FATAL_FAILURE(test::expect_encloses(prism, cloud.view())) << what;
-  ASSERT_EQ(verify(prism, cloud.view()).outside, 0U) << what;
-  const Prism convex = *fit_prism(cloud.view(), up);
-  const Aabb box = convex.aabb();
-  const double rounding =
-      0x1p-47 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  const double allowed = up.maxCoeff() == 1 ? 0 : 4 * rounding * (box.max() - box.min()).sum();
-  ASSERT_LE(prism.footprint_area(), convex.footprint_area() * (1 + 1e-12) + allowed) << what;
-  ASSERT_EQ(prism.low(), convex.low());
-  ASSERT_EQ(prism.high(), convex.high());
-  if (prism.is_convex()) {
-    ASSERT_EQ(prism, convex) << what;
-  } else {
-    ASSERT_TRUE(is_simple_polygon(prism.outline())) << what;
-  }
 }
 
 TEST(ConcavePrism, EnclosesEveryPointOfManyCloudsInExactArithmetic) {
@@ -256,29 +165,6 @@ TEST(ConcavePrism, MovesWithItsPoints) {
     const Prism after = *fit_prism(cloud_of<double>(moved).view(), {Vector3d::UnitZ(), 1});
     ASSERT_FALSE(before.is_convex());
     EXPECT_NEAR(before.footprint_area(), after.footprint_area(), 0.05 * before.footprint_area()) << kind;
-  }
-}
-
-TEST(ConcavePrism, OfPointsExactlyOnTwoWallsKeepsItsHull) {
-  std::vector<Vector3d> points;
-  for (int i = 0; i <= 40; ++i) {
-    points.emplace_back(0.25 * i, 0, 1);
-    points.emplace_back(0, 0.25 * i, 2);
-  }
-  const Prism prism = *fit_prism(cloud_of<double>(points).view(), {Vector3d::UnitZ(), 1});
-  EXPECT_EQ(prism.outline(), (std::vector<Vector2d>{{0, 0}, {10, 0}, {0, 10}}));
-}
-
-TEST(ConcavePrism, RefusesALengthThatIsNotAboveZero) {
-  const TestCloud<float> cloud = test::gaussian<float>(30, 4);
-  for (const double length : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    try {
-      fit_prism(cloud.view(), {Vector3d::UnitZ(), length});
-      ADD_FAILURE() << length;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("concave_length"), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("above 0"), std::string::npos) << error.what();
-    }
   }
 }
 

@@ -136,7 +136,7 @@ TEST(ConcavePrism, IsTheUnionOfThePrismsOverItsTriangles) {
   }
 }
 
-TEST(ConcavePrism, IsHitByRaysThatLeaveAndEnterAgainFromFirstToLast) {
+TEST(ConcavePrism, RayIntervalSpansFirstEntryToLastExit) {
   const Prism prism(kAxes, testing::comb(), 0, 1);
   const auto hit = prism.intersect({-1, 4, 0.5}, {1, 0, 0});
   ASSERT_TRUE(hit);
@@ -207,7 +207,7 @@ TEST(ConcavePrism, MovedManyTimesStaysConcave) {
   EXPECT_NEAR(prism.footprint_area(), 7, 1e-9);
 }
 
-TEST(ConcavePrism, WhoseBayIsNarrowerThanRoundingMovesAsItsConvexHull) {
+TEST(ConcavePrism, ABayNarrowerThanRoundingBecomesConvexWhenTransformed) {
   const double step = 0x1p-51;
   const Prism prism(kAxes, {{0, 0}, {4, 0}, {4, 4}, {2 + step, 4}, {2, 1}, {2 - step, 4}, {0, 4}}, 0, 1);
   testing::Random random(10);
@@ -216,7 +216,23 @@ TEST(ConcavePrism, WhoseBayIsNarrowerThanRoundingMovesAsItsConvexHull) {
   EXPECT_NEAR(moved.footprint_area(), 16, 1e-9);
 }
 
-TEST(ConcavePrism, InPairsIsBoundedByItsConvexHull) {
+TEST(ConcavePrism, IsConvexIfRoundingRemovesItsOnlyBay) {
+  testing::Random random(11);
+  int convex = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double depth = (1 + i % 8) * 0x1p-51;
+    const Prism prism(kAxes, {{0, 0}, {4, 0}, {4, 4}, {2, 4 - depth}, {0, 4}}, 0, 1);
+    ASSERT_FALSE(prism.is_convex());
+    const Prism moved = prism.transformed(random.isometry(10));
+    const Prism read(moved.axes(), moved.outline(), moved.low(), moved.high());
+    ASSERT_EQ(moved.is_convex(), read.is_convex()) << i;
+    ASSERT_EQ(moved.mesh().faces, read.mesh().faces) << i;
+    convex += moved.is_convex() ? 1 : 0;
+  }
+  EXPECT_GT(convex, 0);
+}
+
+TEST(ConcavePrism, PairQueriesUseTheConvexHull) {
   const AnyVolume bay = Sphere({1.5, 1.5, 2}, 0.25), outside = Sphere({3.5, 3.5, 2}, 0.25);
   EXPECT_TRUE(overlaps(l_prism(), bay)) << "conservative: the sphere is in the bay";
   EXPECT_FALSE(overlaps(l_prism(), outside));

@@ -73,7 +73,7 @@ TEST(Prism, OfASegmentOrAPointIsFlat) {
   EXPECT_EQ(pole.aabb(), Aabb({1, 2, 0}, {1, 2, 2}));
 }
 
-TEST(Prism, RefusesWhatIsNoOutline) {
+TEST(Prism, RefusesInvalidOutlines) {
   using Outline = std::vector<Vector2d>;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Outline& wrong :

@@ -41,6 +41,14 @@ TEST(SimplePolygon, RefusesCrossedTouchingStraightAndClockwiseOnes) {
     EXPECT_FALSE(is_simple_polygon(wrong)) << wrong.size() << " corners";
 }
 
+TEST(SimplePolygon, IsStrictlyConvexFromAnyFirstCorner) {
+  EXPECT_TRUE(is_strictly_convex({{1, 1}, {0, 0}, {1, 0}}));
+  EXPECT_TRUE(is_strictly_convex({{1, 1}, {0, 0}}));
+  EXPECT_FALSE(is_strictly_convex({{1, 1}, {1, 0}, {0, 0}})) << "clockwise";
+  EXPECT_FALSE(is_strictly_convex({{0, 0}, {1, 0}, {2, 0}, {1, 1}})) << "a straight corner";
+  EXPECT_FALSE(is_strictly_convex(testing::l_shape()));
+}
+
 TEST(SimplePolygon, AGapOfOneRoundingStepIsAGap) {
   const double step = 0x1p-50;
   EXPECT_TRUE(is_simple_polygon({{0, 0}, {4, 0}, {4, 4}, {2, step}, {0, 4}}));
@@ -83,7 +91,7 @@ TEST(SimplePolygon, WithoutStraightCornersIsTheSameSet) {
 }
 
 // Whether the polygon contains all sums of a point of `inner` and a point of the square. It does if it
-// contains the corners' squares, and no edge of it meets the inside of an edge's wide strip. Sampled here.
+// contains the corners' squares, and no edge of it meets the interior of an edge's strip. Sampled here.
 TEST(PolygonAround, ContainsTheSquaresAroundAllPointsOfThePolygon) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -108,10 +116,16 @@ TEST(PolygonAround, ContainsTheSquaresAroundAllPointsOfThePolygon) {
   }
 }
 
-TEST(PolygonAround, IsNoneWhereABayIsNarrowerThanTheDistance) {
+TEST(PolygonAround, ReturnsNothingIfABayIsNarrowerThanTheDistance) {
   const Polygon bay = {{0, 0}, {4, 0}, {4, 4}, {2.125, 4}, {2, 1}, {1.875, 4}, {0, 4}};
   EXPECT_TRUE(polygon_around(bay, 0x1p-10));
   EXPECT_FALSE(polygon_around(bay, 0.25));
+}
+
+TEST(PolygonAround, ReturnsNothingIfAnAngleIsBelowATenthOfADegree) {
+  const Polygon wedge = {{0, 0}, {1000, 0}, {1000, 1}}, thin = {{0, 0}, {1000, 0}, {1000, 5}};
+  EXPECT_FALSE(polygon_around(wedge, 0x1p-40));
+  EXPECT_TRUE(polygon_around(thin, 0x1p-40));
 }
 
 TEST(PolygonAround, OfNoDistanceIsThePolygon) {

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Claims of fit_prism() with a concave outline, for points and lengths at the limits.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "concave_clouds.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/volumes/simple_polygon.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::cloud_of;
+using test::expect_sound;
+using test::TestCloud;
+
+TEST(ConcavePrism, IsTheConvexOneIfRoundingRemovesItsOnlyBay) {
+  for (int i = 0; i < 600; ++i) {
+    const double depth = (1 + i % 8) * 0x1p-51, angle = 0.01 * i;
+    const std::vector<Vector2d> corners = {{0, 0}, {4, 0}, {4, 4}, {2, 4 - depth}, {0, 4}};
+    std::vector<Vector3d> points;
+    for (const Vector2d& corner : corners) {
+      const Vector2d p = Eigen::Rotation2Dd(angle) * corner;
+      points.emplace_back(p.x(), p.y(), 0.1 * corner.x());
+    }
+    const TestCloud<double> cloud = cloud_of<double>(points);
+    const Vector3d up(0.1, -0.2, 1);
+    const Prism prism = *fit_prism(cloud.view(), {up, 1});
+    ASSERT_EQ(prism.is_convex(), is_strictly_convex(prism.outline())) << i;
+    expect_sound(cloud, up, 1, "turn " + std::to_string(i));
+  }
+}
+
+TEST(ConcavePrism, OfPointsNearlyOnALineIsEnclosed) {
+  std::vector<Vector3d> points = {{30, 10, 0}, {0, 30, 0}};
+  for (int i = 0; i <= 3000; ++i) {
+    const double x = 0.01 * i;
+    points.emplace_back(x, x / 3 + 0x1p-50 * (i % 7), 0);
+  }
+  expect_sound(cloud_of<double>(points), Vector3d::UnitZ(), 5, "a line");
+}
+
+TEST(ConcavePrism, OfPointsExactlyOnTwoWallsKeepsItsHull) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 40; ++i) {
+    points.emplace_back(0.25 * i, 0, 1);
+    points.emplace_back(0, 0.25 * i, 2);
+  }
+  const Prism prism = *fit_prism(cloud_of<double>(points).view(), {Vector3d::UnitZ(), 1});
+  EXPECT_EQ(prism.outline(), (std::vector<Vector2d>{{0, 0}, {10, 0}, {0, 10}}));
+}
+
+TEST(ConcavePrism, OfCoordinatesNearTheSmallestDoublesIsEnclosed) {
+  std::mt19937_64 random(10);
+  for (const int exponent : {-540, -530, -515, -500}) {
+    std::vector<Vector3d> points = test::hedge(random, 200);
+    for (Vector3d& p : points)
+      p *= std::ldexp(1.0, exponent);
+    const double size = std::ldexp(1.0, exponent);
+    const TestCloud<double> cloud = cloud_of<double>(points);
+    const Prism prism = *fit_prism(cloud.view(), {Vector3d::UnitZ(), size});
+    EXPECT_EQ(verify(prism, cloud.view()).outside, 0U) << exponent;
+    const TestCloud<double> far = cloud_of<double>({Vector3d(20, 9, 1) * size});
+    const double distance = verify(prism, far.view()).max_violation;
+    EXPECT_TRUE(distance >= 0 && distance <= 30 * size) << exponent << ", " << distance;
+  }
+}
+
+TEST(ConcavePrism, RefusesALengthThatIsNotAboveZero) {
+  const TestCloud<float> cloud = test::gaussian<float>(30, 4);
+  for (const double length : {0.0, -1e-9, std::numeric_limits<double>::quiet_NaN()}) {
+    try {
+      fit_prism(cloud.view(), {Vector3d::UnitZ(), length});
+      ADD_FAILURE() << length;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("concave_length"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("above 0"), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("-0.0"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv::detail
