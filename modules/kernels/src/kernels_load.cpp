@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 
 #include "axis_extents.cpp"
+#include "deskew.cpp"
 #include "half_spaces.cpp"
 #include "region_states.cpp"
 #include "region_subset_states.cpp"

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "distance_squared.h"
 #include "region_tests.h"
 #include "run_extremes.h"
+#include "screw_motion.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -46,6 +48,29 @@ bool is_inside(const T (&p)[3], const HalfSpaces& inside) {
     if (!(projection < static_cast<T>(h.limit))) return false;
   }
   return inside.count > 0;
+}
+
+template <typename T>
+T screw_series(std::size_t k, T s) {
+  const auto& c = kScrewSeries[k];
+  T sum = static_cast<T>(c[3]);
+  for (std::size_t i = 3; i-- > 0;)
+    sum = static_cast<T>(c[i]) + s * sum;
+  return sum;
+}
+
+template <typename T>
+void move_point(const ScrewMotion<T>& motion, T t, T (&p)[3]) {
+  if (p[0] == 0 && p[1] == 0 && p[2] == 0) return;
+  const T tt = t * t, s = motion.ww * tt;
+  const T a = t * screw_series(0, s), b = tt * screw_series(1, s), c = (tt * t) * screw_series(2, s);
+  const auto cross = [&](const T(&q)[3], std::size_t i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    return motion.w[j] * q[k] - motion.w[k] * q[j];
+  };
+  const T once[3] = {cross(p, 0), cross(p, 1), cross(p, 2)};
+  for (std::size_t i = 0; i < 3; ++i)
+    p[i] += a * once[i] + (b * (cross(once, i) + motion.wv[i]) + (t * motion.v[i] + c * motion.wwv[i]));
 }
 
 void sum_block(const PointView& block, Moments& out) {
@@ -150,6 +175,19 @@ void compete(const Coordinates& p, OctantScan& scan) {
 }
 
 }  // namespace
+
+void deskew_reference(const PointView& points, const float* seconds, const SensorMotion& motion,
+                      std::byte* xyz) {
+  for_scalar(points, [&]<typename T>() {
+    const ScrewMotion<T> screw(motion);
+    for (std::size_t i = 0; i < points.count; ++i) {
+      T p[3];
+      load_point(points, i, p);
+      move_point(screw, static_cast<T>(seconds[i]), p);
+      std::memcpy(xyz + i * sizeof p, p, sizeof p);
+    }
+  });
+}
 
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
                                    std::uint32_t* positions) {

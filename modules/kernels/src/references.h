@@ -7,6 +7,7 @@
 #include "nearest_set.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/distances.h"
+#include "pcl_bv/kernels/deskew.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/region_states.h"
@@ -28,6 +29,8 @@ void region_states_reference(const PointView& points, const RegionTests::Prepare
                              std::uint8_t* states);
 void chosen_states_reference(const PointView& points, const RegionTests::Prepared& regions,
                              const ChosenRegions& chosen, std::uint8_t* states);
+void deskew_reference(const PointView& points, const float* seconds, const SensorMotion& motion,
+                      std::byte* xyz);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
 /// Writes the points as groups. Point number `pad` fills the rest of an incomplete last group.
