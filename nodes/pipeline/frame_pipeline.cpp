@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "class_table.h"
+#include "deskew/deskewer.h"
 #include "extent_limits.h"
 #include "filter.h"
 #include "ground.h"
@@ -79,6 +80,8 @@ struct FramePipeline::State {
   }
 
   PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
+  const Frame& deskew(const Prepared& now, const Frame& frame, FrameResult& result);
+  void remember_pose(const Prepared& now, const Frame& frame, bool tracked);
   void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
@@ -90,6 +93,8 @@ struct FramePipeline::State {
   mutable std::mutex mutex;
   std::shared_ptr<const Prepared> prepared;
 
+  Deskewer deskewer;
+  Frame moved;  // the frame with the points that were moved
   PointParts<FilterPart> parts;
   GroundZones zones;
   EuclideanClusterer clusterer;
@@ -116,6 +121,29 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
     now.filter->select(cloud, now.execution.parallel, result.passed_filter, parts, result.counts);
   }
   return result.points_after_filter(cloud);
+}
+
+// Returns the frame with which later stages work. The filter comes before: points on the vehicle itself move
+// with the sensor, so they must not be moved.
+const Frame& FramePipeline::State::deskew(const Prepared& now, const Frame& frame, FrameResult& result) {
+  result.deskew = {};
+  if (now.config.deskew == Deskew::off || !now.segments) return frame;
+  deskewer.apply(frame, now.execution, result.deskew);
+  if (!result.deskew.moved()) return frame;
+  moved.header = frame.header;
+  moved.points = result.deskew.points;
+  moved.classes = frame.classes;
+  moved.pose = frame.pose;
+  moved.sensor = frame.sensor;
+  moved.recorded_ns = frame.recorded_ns;
+  return moved;
+}
+
+// Tells the deskewer the pose of the frame: its own one or, if it was tracked, the tracker's.
+void FramePipeline::State::remember_pose(const Prepared& now, const Frame& frame, bool tracked) {
+  if (now.config.deskew == Deskew::off || (!frame.pose && !tracked)) return deskewer.reset();
+  deskewer.remember(frame.pose ? *frame.pose : tracks.sensor(), frame.header.stamp_ns,
+                    frame.pose.has_value());
 }
 
 // Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
@@ -297,24 +325,28 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
     throw std::invalid_argument(
         "a cloud that is not in memory can be filtered, but ground removal and clustering need it in memory");
   PointView points = state_->filter(*now, frame, result);
+  const Frame& used = state_->deskew(*now, frame, result);
+  if (result.deskew.moved()) points = result.points_after_filter(used.points);
   result.ms.filter = watch.lap();
-  state_->find_sensor(*now, frame, result);
+  state_->find_sensor(*now, used, result);
   points = state_->remove_ground(*now, points, result);
   result.ms.ground = watch.lap();
-  state_->find_clusters(*now, frame, points, result);
+  state_->find_clusters(*now, used, points, result);
   result.ms.cluster = watch.lap();
-  state_->fit(*now, frame.points, result);
+  state_->fit(*now, used.points, result);
   result.ms.fit = watch.lap();
   result.tracks.clear();
   result.track_time = TrackTime::stamps;
   // An empty cluster has no position to track.
   const bool nothing = result.clusters.size() == 1 && result.clusters.list_size(0) == 0;
   if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
-  if (now->config.track.enabled && !nothing) {
-    state_->tracks.update(now->config.track, state_->views, frame, result);
+  const bool tracked = now->config.track.enabled && !nothing;
+  if (tracked) {
+    state_->tracks.update(now->config.track, state_->views, used, result);
   } else {
     state_->tracks.reset();
   }
+  state_->remember_pose(*now, used, tracked);
   result.ms.track = watch.lap();
   result.ms.total = whole.lap();
 }
@@ -324,6 +356,7 @@ void FramePipeline::reserve(std::size_t points, FrameResult& result) {
   for (int pass = 0; pass < 2; ++pass)  // the first pass creates tracks, the second one updates them
     process(frame, result);
   state_->tracks = TrackedVolumes();
+  state_->deskewer.reset();
 }
 
 }  // namespace pcl_bv

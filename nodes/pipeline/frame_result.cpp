@@ -4,6 +4,7 @@
 #include "pcl_bv/nodes/frame_result.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "filter.h"
@@ -95,6 +96,40 @@ std::string track_warning(const FrameResult& result) {
   }
 }
 
+std::string deskew_warning(const FrameResult& result) {
+  const DeskewTimes& times = result.deskew.times;
+  const bool required = result.config->deskew == Deskew::on;
+  switch (result.deskew.outcome) {
+    case DeskewOutcome::no_times:
+      return required ? "points cannot be moved to the stamp: they have no times" : "";
+    case DeskewOutcome::no_motion:
+      return required && result.header.number > 2
+                 ? "points cannot be moved to the stamp: the motion of the sensor is unknown (give poses, or "
+                   "turn tracking on)"
+                 : "";
+    case DeskewOutcome::bad_times:
+      return times.problem == DeskewTimes::Problem::no_time
+                 ? "points cannot be moved to the stamp: no point has a time"
+                 : "points cannot be moved to the stamp: in no unit do their times span 1 ms to 1 s";
+    case DeskewOutcome::too_fast:
+      return "points cannot be moved to the stamp: the sensor turns by more than 28 degrees within a sweep";
+    default:
+      break;
+  }
+  char text[160] = "";
+  if (times.origin == DeskewTimes::Origin::first_point) {
+    std::snprintf(
+        text, sizeof text,
+        "the times of the points differ from the stamp by %.6g s: the first point is assumed to have "
+        "the time of the stamp",
+        times.clock_difference);
+  } else if (times.outside > 0) {
+    std::snprintf(text, sizeof text, "%zu points have no time of the sweep: they are not moved to the stamp",
+                  times.outside);
+  }
+  return text;
+}
+
 namespace {
 
 void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) {
@@ -153,6 +188,8 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
   report.error.reset();
   report.points = result.points;
   report.counts = result.counts;
+  if (result.deskew.moved())
+    report.deskew = result.deskew.outcome == DeskewOutcome::by_poses ? "poses" : "tracks";
   const StageTimes& ms = result.ms;
   report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},
                {"fit", ms.fit},       {"track", ms.track},   {"total", ms.total}};
@@ -166,8 +203,8 @@ Picture picture_of(const Frame& frame, const FrameResult& result, const std::vec
   picture.up = result.config->ground.up;
   for (const Method* method : result.methods)
     picture.methods.emplace_back(method->name);
-  picture.points =
-      ground ? select_points(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
+  const PointView& cloud = result.cloud_of(frame);
+  picture.points = ground ? select_points(cloud, result.ground.rest) : result.points_after_filter(cloud);
   if (clusters) picture.labels = labels.data();
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {
     std::string label = clusters ? std::to_string(id) : "";  // shown at the first volume that is not empty

@@ -40,7 +40,8 @@ struct Found {
   }
   std::optional<OtherUp> other_up() const {
     const double share = result.counts.ground > 0 ? ground_share() : 0;
-    return find_other_up(frame.points, plane_settings(config().ground), result.sensor.position, share);
+    return find_other_up(result.cloud_of(frame), plane_settings(config().ground), result.sensor.position,
+                         share);
   }
 };
 
@@ -114,9 +115,13 @@ std::string stamps_do_not_advance(const Found& f) {
   return track_warning(f.result);
 }
 
+std::string points_not_moved(const Found& f) {
+  return deskew_warning(f.result);
+}
+
 constexpr std::string (*kKinds[])(const Found&) = {
-    no_ground,  little_ground, sensor_elsewhere,     origin_elsewhere,
-    far_points, level_ground,  stamps_do_not_advance};
+    no_ground,  little_ground, sensor_elsewhere,      origin_elsewhere,
+    far_points, level_ground,  stamps_do_not_advance, points_not_moved};
 
 }  // namespace
 

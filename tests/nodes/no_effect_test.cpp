@@ -64,6 +64,12 @@ TEST(WithoutEffect, IsARefinementOfTheWholeCloud) {
   EXPECT_THAT(ineffective_settings("cluster: {refine: neck}"), IsEmpty());
 }
 
+TEST(WithoutEffect, IsDeskewOfPointsThatAreNotSegmented) {
+  EXPECT_THAT(ineffective_settings("{deskew: on, ground: {method: none}, cluster: {tolerance: 0}}"),
+              ElementsAre("deskew: has no effect without ground.method or cluster.tolerance"));
+  EXPECT_THAT(ineffective_settings("deskew: on"), IsEmpty());
+}
+
 TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
   EXPECT_THAT(
       ineffective_settings("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),

@@ -29,23 +29,49 @@ PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t p
   return count > 0 ? view_at(xyz, data, count, point_step) : PointView();
 }
 
-float FieldView::at(std::size_t record) const {
-  const std::byte* const from = data + record * stride;
-  return with_element_type({{}, type, size}, [from](auto value) {
+namespace {
+
+template <typename Number>
+Number number_in(const FieldView& view, std::size_t record) {
+  const std::byte* const from = view.data + record * view.stride;
+  return with_element_type({{}, view.type, view.size}, [from](auto value) {
     std::memcpy(&value, from, sizeof value);
-    return static_cast<float>(value);
+    return static_cast<Number>(value);
   });
 }
 
-std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
-                                      std::size_t point_step) {
-  for (const char* name : {"intensity", "Intensity", "INTENSITY", "intensities", "reflectivity", "i"}) {
+std::optional<FieldView> first_of(std::initializer_list<const char*> names,
+                                  const std::vector<PointField>& fields, const std::byte* records,
+                                  std::size_t point_step) {
+  for (const char* const name : names) {
     const PointField* const field = find_field(fields, name);
     const bool known = field != nullptr && field->count == 1 && (field->type != 'F' || field->size >= 4);
     if (known && field->offset + field->bytes() <= point_step)
       return FieldView{records + field->offset, point_step, field->type, field->size};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+float FieldView::at(std::size_t record) const {
+  return number_in<float>(*this, record);
+}
+
+double FieldView::number(std::size_t record) const {
+  return number_in<double>(*this, record);
+}
+
+std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
+                                      std::size_t point_step) {
+  return first_of({"intensity", "Intensity", "INTENSITY", "intensities", "reflectivity", "i"}, fields,
+                  records, point_step);
+}
+
+std::optional<FieldView> times_of(const std::vector<PointField>& fields, const std::byte* records,
+                                  std::size_t point_step) {
+  return first_of({"t", "time", "timestamp", "time_stamp", "offset_time", "time_ns"}, fields, records,
+                  point_step);
 }
 
 PointView RawCloud::xyz() const {

@@ -244,7 +244,11 @@ std::string skipped_fields_note(const msg::PointCloud2& cloud) {
   return select_fields(cloud, coordinates_of(cloud)).note;
 }
 
-std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud) {
+namespace {
+
+// Returns find(fields, records, point_step) for the fields of the message.
+template <typename Find>
+std::optional<FieldView> view_field(const msg::PointCloud2& cloud, const Find& find) {
   if (!view_points(cloud) || cloud.is_bigendian) return std::nullopt;
   std::vector<PointField> fields;
   for (const msg::PointField& field : cloud.fields) {
@@ -252,7 +256,17 @@ std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud) {
     const auto [type, size] = kDatatypes[field.datatype - 1];
     fields.push_back({field.name, type, size, std::max(field.count, 1U), field.offset});
   }
-  return intensity_of(fields, cloud.data.data, cloud.point_step);
+  return find(fields, cloud.data.data, cloud.point_step);
+}
+
+}  // namespace
+
+std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud) {
+  return view_field(cloud, intensity_of);
+}
+
+std::optional<FieldView> view_times(const msg::PointCloud2& cloud) {
+  return view_field(cloud, times_of);
 }
 
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud) {

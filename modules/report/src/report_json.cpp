@@ -189,6 +189,7 @@ std::string frame_json(const FrameReport& report, const ClusterSource& clusters)
   }
   json.add("points", report.points);
   add_counts(report.counts, json);
+  if (!report.deskew.empty()) json.add("deskew", report.deskew);
   json.key("clusters").begin('[');
   for (std::size_t i = 0; i < clusters.count; ++i) {
     const ClusterEntry& cluster = clusters.at(i);

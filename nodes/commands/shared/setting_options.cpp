@@ -20,11 +20,11 @@ std::string shown_default(const Setting& setting, const std::string& value) {
   return value.empty() || value == "null" ? std::string(setting.unset) : value;
 }
 
-// Returns whether the setting has an option. Settings of tracks and of the runner have options only in
-// commands for streams.
+// Returns whether the setting has an option. Settings that need several frames, and those of the runner, have
+// options only in commands for streams.
 bool has_option(const Setting& setting, bool stream) {
   const std::string_view stage = setting.key.substr(0, setting.key.find('.'));
-  return !setting.option.empty() && (stream || (stage != "track" && stage != "runner"));
+  return !setting.option.empty() && (stream || (stage != "track" && stage != "runner" && stage != "deskew"));
 }
 
 // Removes repeated methods. The command line may repeat a method, but a configuration file may not.

@@ -48,6 +48,8 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
   check("cluster.oversized", cluster.oversized != Oversized::drop, limited, name("cluster.max_size"));
   check("cluster.refine", cluster.refine == Refine::neck || cluster.refine == Refine::tracks,
         cluster.tolerance > 0, name("cluster.tolerance"));
+  check("deskew", deskew == Deskew::on, ground.method != GroundMethod::none || cluster.tolerance > 0,
+        name("ground.method") + " or " + name("cluster.tolerance"));
   const bool grounded = ground.method != GroundMethod::none;
   const std::string method = name("ground.method");
   check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones, method + " zones");

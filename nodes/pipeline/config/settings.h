@@ -157,6 +157,9 @@ template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
   using S = Setting;
   visit_filter(c.filter, visit);
+  visit(S{"deskew", "off, on, auto",
+          "Move points by their own times to the stamp of the sweep; auto: if possible",
+          {}, {}, "--deskew", "HOW"}, c.deskew);
   visit_ground(c.ground, visit);
   visit_cluster(c.cluster, visit);
   visit(S{"volumes", "methods", "Methods with commas, or all",
@@ -197,6 +200,7 @@ std::string to_text(const std::vector<ClassConfig>& classes);
 std::string to_text(GroundMethod method);
 std::string to_text(Oversized rule);
 std::string to_text(Refine refine);
+std::string to_text(Deskew deskew);
 std::string to_text(const FieldName& field);
 std::string to_text(const UprightSize& size);  ///< An infinite side is "unlimited".
 std::string to_text(SphereGrowth growth);
@@ -221,6 +225,7 @@ void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///<
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, Refine& refine);
+void read_text(std::string_view text, Deskew& deskew);
 void read_text(std::string_view text, FieldName& field);
 void read_text(std::string_view text, UprightSize& size);
 void read_text(std::string_view text, SphereGrowth& growth);

@@ -16,6 +16,7 @@ constexpr Names<GroundMethod, 3> kGroundMethods{
     {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
 constexpr Names<Oversized, 3> kOversized{
     {{"drop", Oversized::drop}, {"keep", Oversized::keep}, {"split", Oversized::split}}};
+constexpr Names<Deskew, 3> kDeskew{{{"off", Deskew::off}, {"on", Deskew::on}, {"auto", Deskew::automatic}}};
 constexpr Names<Refine, 4> kRefine{
     {{"auto", Refine::automatic}, {"off", Refine::off}, {"neck", Refine::neck}, {"tracks", Refine::tracks}}};
 constexpr Names<SphereGrowth, 3> kGrowths{{{"sequential", SphereGrowth::sequential},
@@ -156,6 +157,10 @@ std::string to_text(Oversized rule) {
 std::string to_text(Refine refine) {
   return find_name(kRefine, refine);
 }
+
+std::string to_text(Deskew deskew) {
+  return find_name(kDeskew, deskew);
+}
 std::string to_text(SphereGrowth growth) {
   return find_name(kGrowths, growth);
 }
@@ -227,6 +232,10 @@ void read_text(std::string_view text, Oversized& rule) {
 
 void read_text(std::string_view text, Refine& refine) {
   refine = read_name(kRefine, text);
+}
+
+void read_text(std::string_view text, Deskew& deskew) {
+  deskew = read_name(kDeskew, text);
 }
 void read_text(std::string_view text, SphereGrowth& growth) {
   growth = read_name(kGrowths, text);

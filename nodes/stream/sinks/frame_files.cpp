@@ -54,7 +54,7 @@ void write_image(const fs::path& file, const Frame& frame, const FrameResult& re
 
 // Writes x, y and z in the scalar type of the points, and the label as a fourth field.
 void write_labels(const fs::path& file, const Frame& frame, const FrameResult& result) {
-  const PointView& points = frame.points;
+  const PointView& points = result.cloud_of(frame);
   const std::vector<std::uint32_t> labels = labels_of(frame, result);
   const auto size = static_cast<std::uint32_t>(size_of(points.scalar));
   RawCloud cloud;
@@ -86,7 +86,7 @@ class VtpSink : public FrameSink {
     const bool tracked = result.config->track.enabled;
     std::string entries = add("frame", frame, volumes_vtp(cluster_entries(result), tracked), 0);
     if (description_.points)
-      entries += add("points", frame, points_vtp(frame.points, labels_of(frame, result)), 1);
+      entries += add("points", frame, points_vtp(result.cloud_of(frame), labels_of(frame, result)), 1);
     append(entries);
   }
   void close() override {

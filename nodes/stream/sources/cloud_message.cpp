@@ -35,6 +35,7 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
   if (in_place) {
     frame.points = *in_place;
     frame.intensity = view_intensity(cloud);
+    frame.times = view_times(cloud);
     frame.owner = owner;
     frame.note = skipped_fields_note(cloud);
   }
@@ -50,6 +51,7 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
   if (!in_place) {
     frame.points = copy->xyz();
     frame.intensity = intensity_of(copy->fields, copy->data.data(), copy->point_step);
+    frame.times = times_of(copy->fields, copy->data.data(), copy->point_step);
     frame.note = copy->note;
     frame.owner = copy;
   }

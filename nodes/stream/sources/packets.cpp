@@ -43,6 +43,8 @@ class Packets final : public FrameSource {
       frame.points = PointView::of(&first.x, sizeof(VelodynePoint), sweep->points.size());
       frame.intensity =
           FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(VelodynePoint)};
+      frame.times =
+          FieldView{reinterpret_cast<const std::byte*>(&first.time_ns), sizeof(VelodynePoint), 'U', 4};
     }
     frame.owner = sweep;
     frame.decode_ms =

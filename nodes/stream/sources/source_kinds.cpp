@@ -65,6 +65,7 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
         const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, {fields}));
         frame.points = cloud->xyz();
         frame.intensity = intensity_of(cloud->fields, cloud->data.data(), cloud->point_step);
+        frame.times = times_of(cloud->fields, cloud->data.data(), cloud->point_step);
         if (!classes.empty())
           frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*cloud, classes));
         frame.note = cloud->note;

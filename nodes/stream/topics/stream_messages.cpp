@@ -28,8 +28,9 @@ std::int64_t MarkerLifetime::next(std::int64_t stamp_ns) {
 void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to) {
   const std::vector<std::uint32_t> labels = labels_of(frame, result);
   const std::size_t step = frame.intensity ? 20 : 16;
-  for (std::size_t chunk = 0; chunk < chunk_count(frame.points.count); ++chunk) {
-    const LoadedPoints loaded = load_chunk(frame.points, chunk);
+  const PointView& points = result.cloud_of(frame);
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
     const PointView& part = loaded.view();
     for (std::size_t i = 0; i < part.count; ++i, to += step) {
       const Coordinates p = load_point(part, i);

@@ -48,6 +48,9 @@ struct Frame {
   /// Intensity of each point, by point number, to be displayed. `owner` keeps the memory of the intensities
   /// alive. Not set if the source has no intensities.
   std::optional<FieldView> intensity{};
+  /// Time at which each point was measured, by point number, in any unit (PipelineConfig::deskew). `owner`
+  /// keeps the memory of the times alive. Not set if the source has no times.
+  std::optional<FieldView> times{};
   std::optional<Pose> pose;  ///< Pose of the sensor in a fixed frame, if known.
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.

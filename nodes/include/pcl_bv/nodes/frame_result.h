@@ -65,6 +65,55 @@ enum class TrackTime : std::uint8_t {
   none  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.
 };
 
+/// The unit of the times of points.
+struct TimeUnit {
+  const char* name;
+  double seconds;
+};
+
+/// What was found in Frame::times.
+struct DeskewTimes {
+  enum class Problem : std::uint8_t {
+    none,
+    no_time,  ///< No point with a return has a finite time.
+    no_sweep  ///< In no unit (s, ms, us, ns) do the times span 1 ms to 1 s.
+  };
+  /// What the times are relative to.
+  enum class Origin : std::uint8_t {
+    stamp,       ///< To the stamp of the frame.
+    absolute,    ///< To the origin of the stamps, such as 1970.
+    first_point  ///< To something else. The first point is assumed to have the time of the stamp.
+  };
+  Problem problem = Problem::none;
+  Origin origin = Origin::stamp;
+  const TimeUnit* unit = nullptr;
+  double first = 0, last = 0;   ///< Times of the first and the last point, seconds after the stamp.
+  double clock_difference = 0;  ///< Times minus stamp, seconds, if `origin` is first_point.
+  std::size_t outside = 0;      ///< Points with a return but without a time of the sweep. They are not moved.
+};
+
+/// What became of PipelineConfig::deskew.
+enum class DeskewOutcome : std::uint8_t {
+  off,        ///< Not requested, or neither ground nor clusters are.
+  no_times,   ///< Frame::times is not set, or Frame::points has an index list.
+  bad_times,  ///< See DeskewTimes::problem.
+  no_motion,  ///< The motion of the sensor is unknown.
+  too_fast,   ///< The sensor turned by more than half a radian within the sweep.
+  by_poses,   ///< The points were moved. The motion comes from Frame::pose of this frame and the one before.
+  by_tracks   ///< The points were moved. The motion is that of the tracker between the two frames before.
+};
+
+/// The points of a frame, moved to where the sensor would have measured them at the stamp.
+struct DeskewResult {
+  DeskewOutcome outcome = DeskewOutcome::off;
+  DeskewTimes times;
+  PointView points;  ///< All points of the frame, until the pipeline's next process(). Empty unless moved.
+
+  bool moved() const {
+    return outcome == DeskewOutcome::by_poses || outcome == DeskewOutcome::by_tracks;
+  }
+};
+
 /// Everything found in one frame. A reused object keeps its capacity. Indices are those of the frame's cloud.
 struct FrameResult {
   FrameHeader header;
@@ -86,6 +135,8 @@ struct FrameResult {
   /// are measured. Always true if neither setting is used and the ground method is not zones. Also always
   /// true for points that are not in memory.
   bool around_origin = true;
+  /// The points that all later stages used, if they were moved to the stamp. The filter comes before.
+  DeskewResult deskew;
   /// The clusters, largest first. Without clustering, all remaining points are one cluster, which may have no
   /// index list. Therefore read the points of clusters by points_of().
   Clusters clusters;
@@ -117,8 +168,12 @@ struct FrameResult {
     return requested.empty() || requested[cluster * methods.size() + method] != 0;
   }
 
+  /// Returns all points of the frame as the volumes enclose them: moved to the stamp or as measured.
+  const PointView& cloud_of(const Frame& frame) const {
+    return deskew.moved() ? deskew.points : frame.points;
+  }
   /// Return the points that passed the filter, and the points of a cluster. Both views may contain invalid
-  /// points. `cloud` must be Frame::points of the frame. The views refer to `cloud` and to the lists of this
+  /// points. `cloud` must be cloud_of() of the frame. The views refer to `cloud` and to the lists of this
   /// object.
   PointView points_after_filter(const PointView& cloud) const;
   PointView points_of(std::size_t cluster, const PointView& cloud) const;
@@ -143,6 +198,10 @@ std::string range_warning(const FrameResult& result, const std::string& from);
 /// Returns a warning if the frame is tracked and its stamp does not advance. Otherwise returns an empty text.
 /// The warning tells how tracking then determines the time.
 std::string track_warning(const FrameResult& result);
+
+/// Returns a line about PipelineConfig::deskew if it was not possible although required, if points have no
+/// time of the sweep, or if the clocks of the points and of the stamps differ. Otherwise returns an empty text.
+std::string deskew_warning(const FrameResult& result);
 
 /// Returns the report entries of all clusters.
 std::vector<ClusterEntry> cluster_entries(const FrameResult& result);
@@ -170,7 +229,8 @@ detail::Picture picture_of(const Frame& frame, const FrameResult& result,
 /// - a cloud that does not surround its sensor or is upside down;
 /// - many points far away;
 /// - a sensor height that fits no plane;
-/// - stamps of tracked frames that do not advance.
+/// - stamps of tracked frames that do not advance;
+/// - points that could not be moved to the stamp (deskew_warning()).
 class FrameWarnings {
  public:
   /// The warnings name settings by `name`.

@@ -149,9 +149,21 @@ inline std::string key_of_setting(std::string_view key) {
   return std::string(key);
 }
 
+/// Whether the points of a sweep are moved to where the sensor would have measured them at the frame's stamp.
+/// A sensor that drives at 15 m/s moves by 1.5 m within a sweep.
+enum class Deskew : std::uint8_t {
+  off,        ///< The points are used as measured.
+  on,         ///< Moves them, and warns if this is not possible.
+  automatic,  ///< Moves them if they have times and the motion of the sensor is known.
+};
+
 /// The complete configuration of a FramePipeline.
 struct PipelineConfig {
   FilterConfig filter;
+  /// Moves points by their own times (Frame::times), after the filter. Needs ground removal or clustering, and
+  /// points in the frame of the sensor. The motion comes from poses, otherwise from the tracker. Volumes
+  /// enclose the moved points (FrameResult::cloud_of()).
+  Deskew deskew = Deskew::off;
   GroundConfig ground;
   ClusterConfig cluster;
   /// Names of methods (fitting/methods.h). If empty: obb-lshape, or aabb, sphere and obb if cluster.tolerance

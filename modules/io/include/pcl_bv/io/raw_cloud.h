@@ -152,7 +152,8 @@ struct FieldView {
   char type = 'F';                  ///< As PointField::type.
   std::uint32_t size = 4;           ///< As PointField::size.
 
-  float at(std::size_t record) const;  ///< Returns the record's number, rounded to the nearest float32.
+  float at(std::size_t record) const;       ///< Returns the record's number, rounded to the nearest float32.
+  double number(std::size_t record) const;  ///< Returns the record's number, rounded to the nearest float64.
 };
 
 /// Returns a view of the intensity of each point, in the sensor's own unit. Field names of the intensity are,
@@ -161,6 +162,11 @@ struct FieldView {
 /// as the records.
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step);
+
+/// Returns a view of the time of each point, in the driver's own unit. Field names of the time are, in order of
+/// preference, t, time, timestamp, time_stamp, offset_time and time_ns. Otherwise like intensity_of().
+std::optional<FieldView> times_of(const std::vector<PointField>& fields, const std::byte* records,
+                                  std::size_t point_step);
 
 /// Returns the first field of this name, or null.
 const PointField* find_field(const RawCloud& cloud, std::string_view name);

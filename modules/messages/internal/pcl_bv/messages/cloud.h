@@ -30,6 +30,9 @@ std::optional<PointView> view_points(const msg::PointCloud2& cloud);
 /// intensity, or if view_points() returns nullopt. Throws as view_points().
 std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud);
 
+/// Returns a view of the times of the points (see times_of()). Otherwise like view_intensity().
+std::optional<FieldView> view_times(const msg::PointCloud2& cloud);
+
 /// Returns a line for the user that names at most three of the fields that raw_cloud_of() leaves out, with
 /// the reasons. Returns an empty text if no field is left out. Throws as view_points().
 std::string skipped_fields_note(const msg::PointCloud2& cloud);

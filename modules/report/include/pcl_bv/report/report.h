@@ -138,6 +138,8 @@ struct FrameReport {
   std::string file;           ///< Path of the cloud's file; left out of the JSON if empty.
   std::size_t points = 0;     ///< Number of all points, valid or not.
   Counts counts;              ///< Numbers of dropped points by reason.
+  /// "poses" or "tracks" if the points were moved to the stamp by this motion; left out of the JSON if empty.
+  std::string deskew{};
   std::vector<ClusterEntry> clusters;
   std::vector<std::pair<std::string, double>> ms;  ///< Milliseconds of each stage, in the stages' order.
   std::optional<std::string> error;                ///< Reason of the failure, if any.

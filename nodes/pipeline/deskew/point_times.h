@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The time at which each point of a sweep was measured.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/points/point_view.h"
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+/// Reads the times of points. Drivers write them in seconds, milliseconds, microseconds or nanoseconds, since
+/// the stamp, since the start of the sensor, or since 1970.
+///
+/// - **Unit.** A sweep takes 1 ms to 1 s. So the span of the times tells the unit. Of the points with a
+///   return, the tenth that is earliest and latest does not count.
+/// - **Origin.** Times within one second of 0 are relative to the stamp. Times within one second of the stamp
+///   are absolute. Otherwise the clocks differ, and the first point gets the time of the stamp.
+/// - **Outliers.** Points that are more than one second from the median, or have no finite time, get the time
+///   of the stamp.
+class PointTimes {
+ public:
+  /// Replaces `seconds` by the times relative to the stamp, one for each point. `points` are the points of
+  /// the field's records. Returns what was found. `seconds` is undefined unless DeskewTimes::problem is
+  /// `none`. O(points); allocates only if it needs more memory than before.
+  DeskewTimes read(const FieldView& field, const PointView& points, std::int64_t stamp_ns,
+                   std::vector<float>& seconds);
+
+ private:
+  void sample(const FieldView& field, const PointView& points);
+
+  std::vector<double> sample_;
+};
+
+}  // namespace detail
+}  // namespace pcl_bv
