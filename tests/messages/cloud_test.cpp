@@ -320,6 +320,21 @@ TEST(IntensityInPlace, IsTheFieldOfThatNameWhereItLies) {
   EXPECT_EQ(view_intensity(made.cloud)->at(0), 0);  // the last byte of 100.F is not the first
 }
 
+TEST(TimesInPlace, AreTheFieldOfThatNameWithFullPrecision) {
+  Made made = cloud_of(5, 2);
+  EXPECT_FALSE(view_times(made.cloud).has_value());
+  for (const char* name : {"t", "time", "timestamp", "time_stamp", "offset_time", "time_ns"}) {
+    made.cloud.fields[3] = {name, 12, PointField::UINT32, 1};
+    put(made, 12, std::uint32_t{4'000'000'003});
+    const auto times = view_times(made.cloud);
+    ASSERT_TRUE(times.has_value()) << name;
+    EXPECT_EQ(times->number(0), 4'000'000'003.0) << name;
+    EXPECT_NE(times->at(0), 4'000'000'003.0) << name;  // a float32 has 24 bits
+  }
+  made.cloud.fields[3].name = "t0";
+  EXPECT_FALSE(view_times(made.cloud).has_value());
+}
+
 TEST(IntensityInPlace, IsNoneWhereItCannotBeReadThere) {
   const auto without = [](auto change) {
     Made made = cloud_of(5, 2);

@@ -55,6 +55,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.pipeline.cluster.max_extent = {12, std::numeric_limits<double>::infinity(), 4};
   config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.concave_length = 1.0 / 3;
+  config.pipeline.deskew = Deskew::on;
   config.pipeline.filter.regions = {{"robot arm.json", false, 0.1}, {"hall.json", true, 0}};
   config.pipeline.volumes = {"dop26", "sphere-exact"};
   config.pipeline.track = {true, 1.25, 2, 9, true, true};
@@ -81,6 +82,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.cluster.max_extent->across, std::numeric_limits<double>::infinity());
   EXPECT_EQ(read.pipeline.growth, SphereGrowth::stationary);
   EXPECT_EQ(read.pipeline.concave_length, 1.0 / 3);
+  EXPECT_EQ(read.pipeline.deskew, Deskew::on);
   EXPECT_EQ(read.pipeline.method_options().concave_length, 1.0 / 3);
   ASSERT_EQ(read.pipeline.filter.regions.size(), 2U);
   EXPECT_EQ(read.pipeline.filter.regions[0].file, "robot arm.json");
