@@ -173,7 +173,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
   const py::tuple header = tuple_of_state(state["header"], 4), ground = tuple_of_state(state["ground"], 5),
                   clusters = tuple_of_state(state["clusters"], 4);
-  r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
+  r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), text(header[2], "frame_id"),
               header[3].cast<std::uint64_t>()};
   if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("the settings are not a dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));

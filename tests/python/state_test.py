@@ -122,6 +122,14 @@ class States(unittest.TestCase):
                 for other in shortened(state, path):
                     self.offer(kind, other)
 
+    def test_a_frame_id_that_is_no_text_is_refused(self):
+        result = samples()[-1]
+        state = result.__getstate__()
+        header = list(state["header"])
+        for value in (b"\xff", 3, None):
+            header[2] = value
+            self.assertFalse(self.offer(type(result), {**state, "header": tuple(header)}))
+
     def test_a_status_or_rank_that_does_not_exist_is_refused(self):
         for kind in ("aabb", "hull", "sphere"):
             volume = pcl_bv.fit(POINTS, kind)
