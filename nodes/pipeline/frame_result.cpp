@@ -96,36 +96,53 @@ std::string track_warning(const FrameResult& result) {
   }
 }
 
-std::string deskew_warning(const FrameResult& result) {
-  const DeskewTimes& times = result.deskew.times;
-  const bool required = result.config->deskew == Deskew::on;
+namespace {
+
+// Returns why the points were not moved to the stamp; an empty text if they were, or should not be.
+std::string reason_not_moved(const FrameResult& result) {
   switch (result.deskew.outcome) {
     case DeskewOutcome::no_times:
-      return required ? "points cannot be moved to the stamp: they have no times" : "";
+      return "they have no times, or an index list";
     case DeskewOutcome::no_motion:
-      return required && result.header.number > 2
-                 ? "points cannot be moved to the stamp: the motion of the sensor is unknown (give poses, or "
-                   "turn tracking on)"
+      // The first frames of a stream have no motion.
+      return result.header.number > 2
+                 ? "the motion of the sensor is unknown: it needs poses or tracks of the "
+                   "frames before, and stamps that advance by at most 1 s"
                  : "";
     case DeskewOutcome::bad_times:
-      return times.problem == DeskewTimes::Problem::no_time
-                 ? "points cannot be moved to the stamp: no point has a time"
-                 : "points cannot be moved to the stamp: in no unit do their times span 1 ms to 1 s";
+      return result.deskew.times.problem == DeskewTimes::Problem::no_time
+                 ? "no point has a time"
+                 : "their times do not span 1 ms to 1 s in s, ms, us or ns";
     case DeskewOutcome::too_fast:
-      return "points cannot be moved to the stamp: the sensor turns by more than 28 degrees within a sweep";
+      return "the sensor rotates by more than 28 degrees within a sweep";
     default:
-      break;
+      return "";
   }
-  char text[160] = "";
+}
+
+}  // namespace
+
+std::string deskew_warning(const FrameResult& result) {
+  const DeskewTimes& times = result.deskew.times;
+  if (!result.deskew.moved()) {
+    const std::string reason = result.config->deskew == Deskew::on ? reason_not_moved(result) : "";
+    return reason.empty() ? "" : "points cannot be moved to the stamp: " + reason;
+  }
+  std::string text;
+  char line[160];
   if (times.origin == DeskewTimes::Origin::first_point) {
     std::snprintf(
-        text, sizeof text,
+        line, sizeof line,
         "the times of the points differ from the stamp by %.6g s: the first point is assumed to have "
         "the time of the stamp",
         times.clock_difference);
-  } else if (times.outside > 0) {
-    std::snprintf(text, sizeof text, "%zu points have no time of the sweep: they are not moved to the stamp",
-                  times.outside);
+    text = line;
+  }
+  if (times.outside > 0) {
+    std::snprintf(line, sizeof line,
+                  "%s%zu points have no time of the sweep, or a time far from its median: they are not moved",
+                  text.empty() ? "" : "; ", times.outside);
+    text += line;
   }
   return text;
 }

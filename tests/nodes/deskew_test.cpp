@@ -78,6 +78,29 @@ TEST(PointTimes, AreNoneWithoutASweep) {
   EXPECT_EQ(times.read(nan.field(), nan.view(), 0, seconds).problem, DeskewTimes::Problem::no_time);
 }
 
+// A sweep in columns of 32 beams, of which only beam 5 has returns.
+TEST(PointTimes, AreFoundIfOnlyOneBeamHasReturns) {
+  TimedPoints<std::uint32_t> points(131'072, 0, 700);
+  for (std::size_t i = 0; i < points.times.size(); ++i)
+    if (i % 32 != 5) std::fill_n(&points.xyz[3 * i], 3, 0.F);
+  std::vector<float> seconds;
+  const DeskewTimes times = PointTimes().read(points.field(), points.view(), 0, seconds);
+  EXPECT_EQ(times.problem, DeskewTimes::Problem::none);
+  EXPECT_NEAR(times.last, 0.0917, 1e-3);
+}
+
+// Another clock, and one point far before the others.
+TEST(PointTimes, AnOutlierIsNotTheFirstPoint) {
+  TimedPoints<double> points(1000, 1.6e9, 1e-4);
+  points.times[500] = 1.6e9 - 0.9;
+  std::vector<float> seconds;
+  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds);
+  EXPECT_EQ(times.origin, DeskewTimes::Origin::first_point);
+  EXPECT_EQ(times.outside, 1U);
+  EXPECT_NEAR(seconds[0], 0, 1e-6);
+  EXPECT_NEAR(seconds[999], 0.0999, 1e-6);
+}
+
 TEST(PointTimes, OfPointsOutsideTheSweepAreCountedAndZero) {
   TimedPoints<double> points(1000, 1.7e9, 1e-4);
   points.times[3] = 0;
@@ -95,7 +118,7 @@ TEST(PointTimes, OfPointsOutsideTheSweepAreCountedAndZero) {
 }
 
 Pose pose_after(const SensorMotion& motion, double seconds) {
-  const Eigen::Vector3d w = Eigen::Map<const Eigen::Vector3d>(motion.rotation.data()) * seconds,
+  const Eigen::Vector3d w = Eigen::Map<const Eigen::Vector3d>(motion.angular_velocity.data()) * seconds,
                         v = Eigen::Map<const Eigen::Vector3d>(motion.velocity.data()) * seconds;
   Pose pose = Pose::Identity();
   const double angle = w.norm();
@@ -118,7 +141,7 @@ TEST(SensorMotion, BetweenTwoPosesLeadsFromOneToTheOther) {
     const SensorMotion found = motion_between(start, start * pose_after(motion, 0.1), 0.1);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(found.velocity[i], motion.velocity[i], 1e-6);
-      EXPECT_NEAR(found.rotation[i], motion.rotation[i], 1e-8);
+      EXPECT_NEAR(found.angular_velocity[i], motion.angular_velocity[i], 1e-8);
     }
   }
 }
@@ -179,7 +202,8 @@ class TurningDrive {
 
   // In closed form, for a motion in the plane.
   Pose pose_of(double seconds) const {
-    const double angle = motion.rotation[2] * seconds, radius = motion.velocity[0] / motion.rotation[2];
+    const double angle = motion.angular_velocity[2] * seconds,
+                 radius = motion.velocity[0] / motion.angular_velocity[2];
     Pose pose = Pose::Identity();
     pose.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     pose.translation() << radius * std::sin(angle), radius * (1 - std::cos(angle)), 0;
@@ -279,6 +303,16 @@ TEST(Deskew, SaysWhyPointsAreNotMoved) {
   pipeline.process(frame, result);
   EXPECT_EQ(result.deskew.outcome, DeskewOutcome::too_fast);
   EXPECT_NE(deskew_warning(result), "");
+  pipeline.process(drive.sweep(7, true), result);
+  frame = drive.sweep(8, true);
+  frame.pose->translation().x() += 300;  // the poses of another place
+  pipeline.process(frame, result);
+  EXPECT_EQ(result.deskew.outcome, DeskewOutcome::no_motion);
+  frame.pose->translation().x() = 1e308;
+  pipeline.process(drive.sweep(9, true), result);
+  frame.header.stamp_ns = kStamp + 10 * kStep;
+  pipeline.process(frame, result);
+  EXPECT_FALSE(result.deskew.moved());
 }
 
 }  // namespace

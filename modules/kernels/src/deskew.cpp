@@ -3,6 +3,8 @@
 
 #include "pcl_bv/kernels/deskew.h"
 
+#include <cstring>
+
 #include "preconditions.h"
 #include "references.h"
 #include "screw_motion.h"
@@ -56,12 +58,16 @@ HWY_INLINE void move_packet(D d, const ScrewMotion<T>& motion, V<D> t, V<D> (&p)
   const V<D> once[3] = {cross(p, 0), cross(p, 1), cross(p, 2)};
   const auto zero = hn::Zero(d);
   const auto no_return = hn::And(hn::And(hn::Eq(p[0], zero), hn::Eq(p[1], zero)), hn::Eq(p[2], zero));
+  V<D> moved[3];
   for (std::size_t i = 0; i < 3; ++i) {
     const auto twice = hn::Add(cross(once, i), constant(motion.wv[i]));
     const auto along = hn::Add(hn::Mul(t, constant(motion.v[i])), hn::Mul(c, constant(motion.wwv[i])));
     const auto step = hn::Add(hn::Mul(a, once[i]), hn::Add(hn::Mul(b, twice), along));
-    p[i] = hn::IfThenElse(no_return, p[i], hn::Add(p[i], step));
+    moved[i] = hn::Add(p[i], step);
   }
+  const auto moves = hn::AndNot(no_return, valid_lanes(d, moved[0], moved[1], moved[2]));
+  for (std::size_t i = 0; i < 3; ++i)
+    p[i] = hn::IfThenElse(moves, moved[i], p[i]);
 }
 
 template <Layout layout, typename T>

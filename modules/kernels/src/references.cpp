@@ -69,8 +69,11 @@ void move_point(const ScrewMotion<T>& motion, T t, T (&p)[3]) {
     return motion.w[j] * q[k] - motion.w[k] * q[j];
   };
   const T once[3] = {cross(p, 0), cross(p, 1), cross(p, 2)};
+  T moved[3];
   for (std::size_t i = 0; i < 3; ++i)
-    p[i] += a * once[i] + (b * (cross(once, i) + motion.wv[i]) + (t * motion.v[i] + c * motion.wwv[i]));
+    moved[i] =
+        p[i] + (a * once[i] + (b * (cross(once, i) + motion.wv[i]) + (t * motion.v[i] + c * motion.wwv[i])));
+  if (is_valid(Coordinates{moved[0], moved[1], moved[2]})) std::copy_n(moved, 3, p);
 }
 
 void sum_block(const PointView& block, Moments& out) {

@@ -23,15 +23,15 @@ struct ScrewMotion {
     const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
       return std::array{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
-    const std::array<double, 3> once = cross(motion.rotation, motion.velocity),
-                                twice = cross(motion.rotation, once);
+    const std::array<double, 3> once = cross(motion.angular_velocity, motion.velocity),
+                                twice = cross(motion.angular_velocity, once);
     double squares = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       v[i] = static_cast<T>(motion.velocity[i]);
-      w[i] = static_cast<T>(motion.rotation[i]);
+      w[i] = static_cast<T>(motion.angular_velocity[i]);
       wv[i] = static_cast<T>(once[i]);
       wwv[i] = static_cast<T>(twice[i]);
-      squares += motion.rotation[i] * motion.rotation[i];
+      squares += motion.angular_velocity[i] * motion.angular_velocity[i];
     }
     ww = static_cast<T>(squares);
   }

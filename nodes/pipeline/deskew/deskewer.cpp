@@ -4,6 +4,7 @@
 #include "deskewer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
@@ -14,6 +15,7 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double kLongestStep = 1;  // seconds between two poses
+constexpr double kMaxSpeed = 100;   // m/s; faster motions are jumps of the poses
 
 // Returns the seconds from one stamp to the next, or nullopt if the second frame does not follow the first.
 std::optional<double> seconds_between(std::int64_t before_ns, std::int64_t after_ns) {
@@ -21,21 +23,23 @@ std::optional<double> seconds_between(std::int64_t before_ns, std::int64_t after
   return seconds > 0 && seconds <= kLongestStep ? std::optional(seconds) : std::nullopt;
 }
 
-// Returns the largest rotation about any axis within the sweep, radians.
-double largest_turn(const SensorMotion& motion, const DeskewTimes& times) {
-  const auto& w = motion.rotation;
-  return std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) *
-         std::max(std::abs(times.first), std::abs(times.last));
+double norm(const std::array<double, 3>& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+// Returns an upper bound of the rotation between a point's time and the stamp, radians.
+double max_rotation_angle(const SensorMotion& motion, const DeskewTimes& times) {
+  return norm(motion.angular_velocity) * std::max(std::abs(times.first), std::abs(times.last));
 }
 
 }  // namespace
 
 std::optional<SensorMotion> Deskewer::motion_of(const Frame& frame) const {
-  if (!last_ || last_->given != frame.pose.has_value()) return std::nullopt;
+  if (!last_ || last_->from_source != frame.pose.has_value()) return std::nullopt;
   const std::optional<double> step = seconds_between(last_->stamp_ns, frame.header.stamp_ns);
   if (!step) return std::nullopt;
   if (frame.pose) return motion_between(last_->pose, *frame.pose, *step);
-  if (!before_last_ || before_last_->given) return std::nullopt;
+  if (!before_last_ || before_last_->from_source) return std::nullopt;
   const std::optional<double> step_before = seconds_between(before_last_->stamp_ns, last_->stamp_ns);
   if (!step_before) return std::nullopt;
   return motion_between(before_last_->pose, last_->pose, *step_before);
@@ -48,14 +52,14 @@ void Deskewer::apply(const Frame& frame, const Execution& execution, DeskewResul
     return;
   }
   const std::optional<SensorMotion> motion = motion_of(frame);
-  if (!motion) {
+  if (!motion || !(norm(motion->velocity) <= kMaxSpeed)) {
     result.outcome = DeskewOutcome::no_motion;
     return;
   }
   result.times = point_times_.read(*frame.times, frame.points, frame.header.stamp_ns, seconds_);
   if (result.times.problem != DeskewTimes::Problem::none) {
     result.outcome = DeskewOutcome::bad_times;
-  } else if (largest_turn(*motion, result.times) > kMaxDeskewAngle) {
+  } else if (!(max_rotation_angle(*motion, result.times) <= kMaxDeskewAngle)) {
     result.outcome = DeskewOutcome::too_fast;
   } else {
     result.outcome = frame.pose ? DeskewOutcome::by_poses : DeskewOutcome::by_tracks;
@@ -77,9 +81,9 @@ void Deskewer::move(const Frame& frame, const SensorMotion& motion, const Execut
   result.points = packed_points(xyz, points.scalar, points.count);
 }
 
-void Deskewer::remember(const Pose& pose, std::int64_t stamp_ns, bool given) {
+void Deskewer::remember(const Pose& pose, std::int64_t stamp_ns, bool from_source) {
   before_last_ = last_;
-  last_ = Known{pose, stamp_ns, given};
+  last_ = Known{pose, stamp_ns, from_source};
 }
 
 }  // namespace pcl_bv::detail

@@ -23,9 +23,9 @@ class Deskewer {
   /// refers to memory of this object. O(points). A reused object allocates only if it needs more memory.
   void apply(const Frame& frame, const Execution& execution, DeskewResult& result);
 
-  /// Tells the pose of the sensor in the last frame: the frame's own one, or that of the tracker. Call it
-  /// after each frame whose pose is known.
-  void remember(const Pose& pose, std::int64_t stamp_ns, bool given);
+  /// Stores the pose of the sensor in the last frame: Frame::pose if `from_source`, otherwise the tracker's.
+  /// Call reset() after a frame without a pose.
+  void remember(const Pose& pose, std::int64_t stamp_ns, bool from_source);
 
   /// Forgets all poses.
   void reset() { last_ = before_last_ = std::nullopt; }
@@ -34,7 +34,7 @@ class Deskewer {
   struct Known {
     Pose pose;
     std::int64_t stamp_ns = 0;
-    bool given = false;
+    bool from_source = false;
   };
 
   std::optional<SensorMotion> motion_of(const Frame& frame) const;

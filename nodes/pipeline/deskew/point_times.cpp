@@ -19,6 +19,14 @@ bool has_return(const Coordinates& point) {
   return is_valid(point) && (point.x != 0 || point.y != 0 || point.z != 0);
 }
 
+// Returns numbers below `count` that are spread evenly for i = 0, 1, ... (multiples of the golden ratio,
+// modulo 1). With a constant step, all points of a sample could be those of one beam.
+std::size_t spread(std::size_t i, std::size_t count) {
+  const std::uint64_t part = static_cast<std::uint64_t>(i) * 11400714819323198485U;
+  return static_cast<std::size_t>(std::ldexp(static_cast<double>(part), -64) * static_cast<double>(count)) %
+         count;
+}
+
 // Returns the unit of a span, or null if no unit gives a sweep. Units differ by a factor of 1000, and so do
 // the limits of a sweep, so that at most one unit does.
 const TimeUnit* unit_of(double span) {
@@ -44,28 +52,28 @@ void visit_numbers(const FieldView& field, std::size_t count, const Visit& visit
     visit(i, field.number(i));
 }
 
-// Returns the earliest of the times that are at most `limit` from the median, relative to the median.
-double earliest(const FieldView& field, std::size_t count, double median, double limit) {
+// Returns the earliest of the times that are at most `max_offset` from the median, relative to the median.
+double earliest(const FieldView& field, std::size_t count, double median, double max_offset) {
   double first = 0;
   visit_numbers(field, count, [&](std::size_t /*point*/, double number) {
-    if (std::abs(number - median) <= limit) first = std::min(first, number - median);
+    if (std::abs(number - median) <= max_offset) first = std::min(first, number - median);
   });
   return first;
 }
 
 // How numbers become seconds after the stamp.
 struct Conversion {
-  double median, unit, zero;
+  double median, unit_seconds, stamp_offset;
+  double max_offset;  // of points of the sweep, from the median
 };
 
 // Returns the number of points outside the sweep. They get the time 0.
 std::size_t write_seconds(const FieldView& field, const Conversion& to, std::vector<float>& seconds) {
-  const double limit = 1 / to.unit;
   std::size_t outside = 0;
   visit_numbers(field, seconds.size(), [&](std::size_t i, double number) {
     const double offset = number - to.median;
-    const auto time = static_cast<float>(offset * to.unit - to.zero);
-    const bool inside = std::abs(offset) <= limit;
+    const auto time = static_cast<float>(offset * to.unit_seconds - to.stamp_offset);
+    const bool inside = std::abs(offset) <= to.max_offset;
     seconds[i] = inside ? time : 0.F;
     outside += !inside;
   });
@@ -83,11 +91,12 @@ void find_limits(const std::vector<float>& seconds, DeskewTimes& times) {
   times.last = last;
 }
 
-// Returns the number of points with a return that are more than `limit` from the median, or have no time.
-std::size_t count_outside(const FieldView& field, const PointView& points, double median, double limit) {
+// Returns the number of points with a return that are more than `max_offset` from the median, or have no
+// time.
+std::size_t count_outside(const FieldView& field, const PointView& points, double median, double max_offset) {
   std::size_t outside = 0;
   visit_numbers(field, points.count, [&](std::size_t i, double number) {
-    if (!(std::abs(number - median) <= limit)) outside += has_return(load_point(points, i));
+    if (!(std::abs(number - median) <= max_offset)) outside += has_return(load_point(points, i));
   });
   return outside;
 }
@@ -97,10 +106,11 @@ std::size_t count_outside(const FieldView& field, const PointView& points, doubl
 void PointTimes::sample(const FieldView& field, const PointView& points) {
   sample_.clear();
   sample_.reserve(kSampleSize + 1);
-  const std::size_t step = points.count / kSampleSize + 1;
-  for (std::size_t i = 0; i < points.count; i += step) {
-    const double time = field.number(i);
-    if (std::isfinite(time) && has_return(load_point(points, i))) sample_.push_back(time);
+  const std::size_t size = std::min(points.count, kSampleSize);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t point = points.count <= kSampleSize ? i : spread(i, points.count);
+    const double time = field.number(point);
+    if (std::isfinite(time) && has_return(load_point(points, point))) sample_.push_back(time);
   }
   std::sort(sample_.begin(), sample_.end());
 }
@@ -115,33 +125,33 @@ DeskewTimes PointTimes::read(const FieldView& field, const PointView& points, st
   }
   const std::size_t tenth = sample_.size() / 10;
   const double median = sample_[sample_.size() / 2],
-               span = sample_[sample_.size() - 1 - tenth] - sample_[tenth];
-  const TimeUnit* const unit = unit_of(span);
+               length = (sample_[sample_.size() - 1 - tenth] - sample_[tenth]) / 0.8;
+  const TimeUnit* const unit = unit_of(length);
   if (unit == nullptr) {
     times.problem = DeskewTimes::Problem::no_sweep;
     return times;
   }
   times.unit = unit;
-  const double second = unit->seconds, stamp = static_cast<double>(stamp_ns) * 1e-9,
-               since_stamp = median * second - stamp;
-  // Times are computed relative to the median, where doubles are finer. `zero` is the time of the stamp after
-  // the median, seconds.
-  double zero = 0;
-  if (std::abs(median * second) <= kLongestSweep) {
+  const double max_offset = std::min(4 * length, kLongestSweep / unit->seconds);
+  const double unit_seconds = unit->seconds, stamp = static_cast<double>(stamp_ns) * 1e-9,
+               since_stamp = median * unit_seconds - stamp;
+  // Times are computed relative to the median, where doubles are finer.
+  double stamp_offset = 0;  // stamp minus median, seconds
+  if (std::abs(median * unit_seconds) <= kLongestSweep) {
     times.origin = DeskewTimes::Origin::stamp;
-    zero = -median * second;
+    stamp_offset = -median * unit_seconds;
   } else if (std::abs(since_stamp) <= kLongestSweep) {
     times.origin = DeskewTimes::Origin::absolute;
-    zero = -since_stamp;
+    stamp_offset = -since_stamp;
   } else {
     times.origin = DeskewTimes::Origin::first_point;
     times.clock_difference = since_stamp;
-    zero = earliest(field, points.count, median, 1 / second) * second;
+    stamp_offset = earliest(field, points.count, median, max_offset) * unit_seconds;
   }
   seconds.resize(points.count);
-  const std::size_t outside = write_seconds(field, {median, second, zero}, seconds);
+  const std::size_t outside = write_seconds(field, {median, unit_seconds, stamp_offset, max_offset}, seconds);
   find_limits(seconds, times);
-  if (outside > 0) times.outside = count_outside(field, points, median, 1 / second);
+  if (outside > 0) times.outside = count_outside(field, points, median, max_offset);
   return times;
 }
 

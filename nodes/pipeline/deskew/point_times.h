@@ -19,12 +19,12 @@ namespace [[gnu::visibility("default")]] detail {
 /// Reads the times of points. Drivers write them in seconds, milliseconds, microseconds or nanoseconds, since
 /// the stamp, since the start of the sensor, or since 1970.
 ///
-/// - **Unit.** A sweep takes 1 ms to 1 s. So the span of the times tells the unit. Of the points with a
-///   return, the tenth that is earliest and latest does not count.
+/// - **Unit.** A sweep takes 1 ms to 1 s. The unit is derived from the span of the times. The earliest 10 %
+///   and the latest 10 % of the points with a return are ignored.
 /// - **Origin.** Times within one second of 0 are relative to the stamp. Times within one second of the stamp
 ///   are absolute. Otherwise the clocks differ, and the first point gets the time of the stamp.
-/// - **Outliers.** Points that are more than one second from the median, or have no finite time, get the time
-///   of the stamp.
+/// - **Outliers.** Points that are more than one second or four sweeps from the median, or have no finite
+///   time, get the time of the stamp.
 class PointTimes {
  public:
   /// Replaces `seconds` by the times relative to the stamp, one for each point. `points` are the points of

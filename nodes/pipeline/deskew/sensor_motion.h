@@ -26,7 +26,7 @@ inline SensorMotion motion_between(const Pose& before, const Pose& after, double
   SensorMotion motion;
   for (int i = 0; i < 3; ++i) {
     motion.velocity[static_cast<std::size_t>(i)] = velocity[i];
-    motion.rotation[static_cast<std::size_t>(i)] = rotation[i] / seconds;
+    motion.angular_velocity[static_cast<std::size_t>(i)] = rotation[i] / seconds;
   }
   return motion;
 }

@@ -87,17 +87,17 @@ struct DeskewTimes {
   Problem problem = Problem::none;
   Origin origin = Origin::stamp;
   const TimeUnit* unit = nullptr;
-  double first = 0, last = 0;   ///< Times of the first and the last point, seconds after the stamp.
+  double first = 0, last = 0;   ///< Smallest and largest time, seconds after the stamp.
   double clock_difference = 0;  ///< Times minus stamp, seconds, if `origin` is first_point.
   std::size_t outside = 0;      ///< Points with a return but without a time of the sweep. They are not moved.
 };
 
-/// What became of PipelineConfig::deskew.
+/// Result of deskewing (PipelineConfig::deskew).
 enum class DeskewOutcome : std::uint8_t {
-  off,        ///< Not requested, or neither ground nor clusters are.
+  off,        ///< Not requested, or ground removal and clustering are both off.
   no_times,   ///< Frame::times is not set, or Frame::points has an index list.
   bad_times,  ///< See DeskewTimes::problem.
-  no_motion,  ///< The motion of the sensor is unknown.
+  no_motion,  ///< The motion of the sensor is unknown, or faster than 100 m/s.
   too_fast,   ///< The sensor turned by more than half a radian within the sweep.
   by_poses,   ///< The points were moved. The motion comes from Frame::pose of this frame and the one before.
   by_tracks   ///< The points were moved. The motion is that of the tracker between the two frames before.
@@ -200,7 +200,8 @@ std::string range_warning(const FrameResult& result, const std::string& from);
 std::string track_warning(const FrameResult& result);
 
 /// Returns a line about PipelineConfig::deskew if it was not possible although required, if points have no
-/// time of the sweep, or if the clocks of the points and of the stamps differ. Otherwise returns an empty text.
+/// time of the sweep, or if the clocks of the points and of the stamps differ. Otherwise returns an empty
+/// text.
 std::string deskew_warning(const FrameResult& result);
 
 /// Returns the report entries of all clusters.
