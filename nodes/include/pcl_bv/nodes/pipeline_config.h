@@ -160,8 +160,8 @@ enum class Deskew : std::uint8_t {
 /// The complete configuration of a FramePipeline.
 struct PipelineConfig {
   FilterConfig filter;
-  /// Moves points by their own times (Frame::times), after the filter. Needs ground removal or clustering, and
-  /// points in the frame of the sensor. The motion comes from poses, otherwise from the tracker. Volumes
+  /// Moves points by their own times (Frame::times), after the filter. Needs ground removal or clustering,
+  /// and points in the frame of the sensor. The motion comes from poses, otherwise from the tracker. Volumes
   /// enclose the moved points (FrameResult::cloud_of()).
   Deskew deskew = Deskew::off;
   GroundConfig ground;
