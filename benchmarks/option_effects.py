@@ -114,6 +114,8 @@ def rows(stream):
         ("ground.sensor: [3, 0, 0]", BASE, BASE + stream.settings("ground", sensor="[3, 0, 0]")),
         ("--cluster 0.3", BASE, BASE + ["--cluster", "0.3"]),
         ("--cluster 0.5:0.01", BASE, BASE + ["--cluster", "0.5:0.01"]),
+        ("--deskew on", BASE, BASE + ["--deskew", "on"]),
+        ("--concave 1, prism", ["--track", "--volume", "prism"], ["--track", "--volume", "prism", "--concave", "1"]),
         ("--refine off", BASE, BASE + ["--refine", "off"]),
         ("--refine neck", BASE, BASE + ["--refine", "neck"]),
         ("--min-size 50", BASE, BASE + ["--min-size", "50"]),

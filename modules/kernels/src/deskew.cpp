@@ -43,31 +43,45 @@ HWY_INLINE V<D> series(D d, std::size_t k, V<D> s) {
   return sum;
 }
 
+// Returns a p - b q.
 template <class D, typename T>
-HWY_INLINE void move_packet(D d, const ScrewMotion<T>& motion, V<D> t, V<D> (&p)[3]) {
-  const auto constant = [d](T value) { return hn::Set(d, value); };
+HWY_INLINE V<D> difference(D d, T a, V<D> p, T b, V<D> q) {
+  return hn::Sub(hn::Mul(hn::Set(d, a), p), hn::Mul(hn::Set(d, b), q));
+}
+
+// Returns a coordinate of the moved points. `once` and `twice` are that coordinate of w x p and w x (w x p);
+// a, b and c are the factors of ScrewMotion at the time t.
+template <class D, typename T>
+HWY_INLINE V<D> moved_coordinate(D d, const ScrewMotion<T>& motion, std::size_t axis, V<D> p, V<D> once,
+                                 V<D> twice, V<D> t, V<D> a, V<D> b, V<D> c) {
+  const auto along =
+      hn::Add(hn::Mul(t, hn::Set(d, motion.v[axis])), hn::Mul(c, hn::Set(d, motion.wwv[axis])));
+  const auto across = hn::Mul(b, hn::Add(twice, hn::Set(d, motion.wv[axis])));
+  return hn::Add(p, hn::Add(hn::Mul(a, once), hn::Add(across, along)));
+}
+
+// Vectors of scalable instruction sets cannot be elements of arrays, so each coordinate has a variable.
+template <class D, typename T>
+HWY_INLINE void move_packet(D d, const ScrewMotion<T>& motion, V<D> t, V<D>& x, V<D>& y, V<D>& z) {
   const auto tt = hn::Mul(t, t);
-  const auto s = hn::Mul(constant(motion.ww), tt);
+  const auto s = hn::Mul(hn::Set(d, motion.ww), tt);
   const auto a = hn::Mul(t, series(d, 0, s)), b = hn::Mul(tt, series(d, 1, s)),
              c = hn::Mul(hn::Mul(tt, t), series(d, 2, s));
   const auto& w = motion.w;
-  const auto cross = [&](const V<D>(&q)[3], std::size_t i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    return hn::Sub(hn::Mul(constant(w[j]), q[k]), hn::Mul(constant(w[k]), q[j]));
-  };
-  const V<D> once[3] = {cross(p, 0), cross(p, 1), cross(p, 2)};
+  const auto once_x = difference(d, w[1], z, w[2], y), once_y = difference(d, w[2], x, w[0], z),
+             once_z = difference(d, w[0], y, w[1], x);
+  const auto twice_x = difference(d, w[1], once_z, w[2], once_y),
+             twice_y = difference(d, w[2], once_x, w[0], once_z),
+             twice_z = difference(d, w[0], once_y, w[1], once_x);
+  const auto moved_x = moved_coordinate(d, motion, 0, x, once_x, twice_x, t, a, b, c),
+             moved_y = moved_coordinate(d, motion, 1, y, once_y, twice_y, t, a, b, c),
+             moved_z = moved_coordinate(d, motion, 2, z, once_z, twice_z, t, a, b, c);
   const auto zero = hn::Zero(d);
-  const auto no_return = hn::And(hn::And(hn::Eq(p[0], zero), hn::Eq(p[1], zero)), hn::Eq(p[2], zero));
-  V<D> moved[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto twice = hn::Add(cross(once, i), constant(motion.wv[i]));
-    const auto along = hn::Add(hn::Mul(t, constant(motion.v[i])), hn::Mul(c, constant(motion.wwv[i])));
-    const auto step = hn::Add(hn::Mul(a, once[i]), hn::Add(hn::Mul(b, twice), along));
-    moved[i] = hn::Add(p[i], step);
-  }
-  const auto moves = hn::AndNot(no_return, valid_lanes(d, moved[0], moved[1], moved[2]));
-  for (std::size_t i = 0; i < 3; ++i)
-    p[i] = hn::IfThenElse(moves, moved[i], p[i]);
+  const auto no_return = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Eq(z, zero));
+  const auto moves = hn::AndNot(no_return, valid_lanes(d, moved_x, moved_y, moved_z));
+  x = hn::IfThenElse(moves, moved_x, x);
+  y = hn::IfThenElse(moves, moved_y, y);
+  z = hn::IfThenElse(moves, moved_z, z);
 }
 
 template <Layout layout, typename T>
@@ -78,12 +92,12 @@ void deskew_of(const PointView& points, const float* seconds, const SensorMotion
   const std::size_t lanes = hn::Lanes(d);
   const ScrewMotion<T> motion(sensor);
   T* const out = reinterpret_cast<T*>(xyz);
+  V<decltype(d)> x, y, z;
   std::size_t i = 0;
   for (; i + lanes <= points.count; i += lanes) {
-    V<decltype(d)> p[3];
-    load_packet<in_order>(d, points, i, p[0], p[1], p[2]);
-    move_packet(d, motion, load_seconds(d, seconds + i), p);
-    hn::StoreInterleaved3(p[0], p[1], p[2], d, out + 3 * i);
+    load_packet<in_order>(d, points, i, x, y, z);
+    move_packet(d, motion, load_seconds(d, seconds + i), x, y, z);
+    hn::StoreInterleaved3(x, y, z, d, out + 3 * i);
   }
   const std::size_t rest = points.count - i;
   if (rest == 0) return;
@@ -92,10 +106,9 @@ void deskew_of(const PointView& points, const float* seconds, const SensorMotion
   HWY_ALIGN float times[kMaxLanes] = {};
   HWY_ALIGN T moved[3 * kMaxLanes];
   std::memcpy(times, seconds + i, rest * sizeof(float));
-  V<decltype(d)> p[3];
-  load_padded(d, points, i, rest, pad, p[0], p[1], p[2]);
-  move_packet(d, motion, load_seconds(d, times), p);
-  hn::StoreInterleaved3(p[0], p[1], p[2], d, moved);
+  load_padded(d, points, i, rest, pad, x, y, z);
+  move_packet(d, motion, load_seconds(d, times), x, y, z);
+  hn::StoreInterleaved3(x, y, z, d, moved);
   std::memcpy(out + 3 * i, moved, 3 * rest * sizeof(T));
 }
 

@@ -6,8 +6,8 @@
 
 #include "nearest_set.h"
 #include "pcl_bv/kernels/axis_extents.h"
-#include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/deskew.h"
+#include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/region_states.h"

@@ -163,8 +163,8 @@ struct FieldView {
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step);
 
-/// Returns a view of the time of each point, in the driver's own unit. Field names of the time are, in order of
-/// preference, t, time, timestamp, time_stamp, offset_time and time_ns. Otherwise like intensity_of().
+/// Returns a view of the time of each point, in the driver's own unit. Field names of the time are, in order
+/// of preference, t, time, timestamp, time_stamp, offset_time and time_ns. Otherwise like intensity_of().
 std::optional<FieldView> times_of(const std::vector<PointField>& fields, const std::byte* records,
                                   std::size_t point_step);
 

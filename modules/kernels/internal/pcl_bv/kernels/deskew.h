@@ -15,7 +15,7 @@ namespace [[gnu::visibility("default")]] detail {
 
 /// Velocity of the sensor along and about its own axes, constant during a sweep.
 struct SensorMotion {
-  std::array<double, 3> velocity{};  ///< m/s
+  std::array<double, 3> velocity{};          ///< m/s
   std::array<double, 3> angular_velocity{};  ///< rad/s, right-handed
 };
 
@@ -26,8 +26,8 @@ inline constexpr double kMaxDeskewAngle = 0.5;
 /// Writes for each point p, measured at the time t, the position that the sensor would have measured at time
 /// 0: exp(t * motion) p, the screw motion that begins with the velocity v + w x p (Murray et al. 1994). `t`
 /// is in `seconds`, one number for each point. `xyz` gets x, y and z of all points without gaps, in the
-/// scalar type of the points. Points at (0, 0, 0) have no return and stay there. A point that is not valid, or
-/// would not be valid afterwards, stays as it is.
+/// scalar type of the points. Points at (0, 0, 0) have no return and stay there. A point that is not valid,
+/// or would not be valid afterwards, stays as it is.
 ///
 /// The bits are the same for every `isa`: each operation is rounded to the scalar type. The rotation must be
 /// at most kMaxDeskewAngle for every t. The caller must hold a FloatEnvironment. O(points). Throws
