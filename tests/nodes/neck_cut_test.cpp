@@ -158,6 +158,18 @@ TEST(NeckCut, SeparatesAGroupFromTheKerbThatLeadsAwayFromIt) {
   EXPECT_GT(share_of_right_points(cloud, parts), 0.98);
 }
 
+// The bush is too low for a person, and its centre is 1.8 m from the nearest one.
+TEST(NeckCut, SeparatesAGroupFromABushNearby) {
+  std::mt19937_64 random(8);
+  std::vector<std::uint32_t> parts;
+  Cloud cloud;
+  add_person(cloud, 1, 10, 0, 400, random);
+  add_person(cloud, 2, 10.7, 0, 400, random);
+  add_box(cloud, 0, {12.25, -0.25, 0}, {12.75, 0.25, 0.7}, 100, random);
+  ASSERT_EQ(cut(cloud, parts), 3U);
+  EXPECT_GT(share_of_right_points(cloud, parts), 0.98);
+}
+
 TEST(NeckCut, DependsNeitherOnTheOrderOfThePointsNorOnTheDirectionOfUp) {
   std::mt19937_64 random(4);
   Cloud cloud;

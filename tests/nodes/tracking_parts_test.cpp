@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -229,6 +230,25 @@ TEST(Track, ACarThatComesIntoViewHasTheVelocityOfItsFront) {
   }
   EXPECT_NEAR(track.motion.velocity().x(), -10, 1);
   EXPECT_TRUE(track.moving);
+}
+
+// A far car comes nearer at 10 m/s. Its visible length changes from frame to frame, so it is not yet known
+// whether it moves.
+TEST(Track, ACarInPartsHasAVelocityBeforeItIsKnownToMove) {
+  const std::array<Eigen::Vector2d, 6> faces{
+      {{30.75, 31.45}, {29.85, 32.15}, {29.0, 32.6}, {27.95, 30.85}, {26.95, 31.05}, {25.95, 29.25}}};
+  Track track;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Aabb seen({5, faces[i].x(), 0}, {7, faces[i].y(), 1.2});
+    if (i == 0) {
+      track.start(seen, Pose::Identity());
+      continue;
+    }
+    track.predict(0.1);
+    track.expect(Pose::Identity());
+    track.correct(seen, Pose::Identity(), 0.1);
+  }
+  EXPECT_NEAR(track.motion.velocity().y(), -10, 1);
 }
 
 // Another object hides the near half of a parked car for three frames.

@@ -58,6 +58,20 @@ TEST(MotionClassifier, PartsThatTakeTurnsDoNotMove) {
   }
 }
 
+// Other faces of a car come into view, which displace its box by 0.5 m within 0.2 s.
+TEST(MotionClassifier, AShortShiftOfALongObjectIsNoMotion) {
+  const Eigen::Vector3d car(2, 0.9, 0.75), bush(0.5, 0.5, 0.5);
+  const auto at_speed = [](double speed, const Eigen::Vector3d& half) {
+    return [=](int i) { return std::array<Eigen::Vector3d, 2>{{{speed * kFrame * i, 3, 0}, half}}; };
+  };
+  EXPECT_FALSE(moves(3, at_speed(2.5, car)));
+  EXPECT_TRUE(moves(3, at_speed(2.5, kPerson)));
+  EXPECT_TRUE(moves(6, at_speed(2.5, car)));
+  // An object of 1 m moves above 0.9 m/s.
+  EXPECT_FALSE(moves(20, at_speed(0.8, bush)));
+  EXPECT_TRUE(moves(20, at_speed(1.1, bush)));
+}
+
 TEST(MotionClassifier, WhatHasStoppedStandsWithinASecond) {
   const auto stop = [](int i) {
     return std::array<Eigen::Vector3d, 2>{{{5 * kFrame * std::min(i, 10), 3, 0}, kPerson}};
