@@ -16,6 +16,7 @@
 #include "region_states.cpp"
 #include "region_subset_states.cpp"
 #include "run_boxes.cpp"
+#include "transform_points.cpp"
 
 // Each source included above redefines HWY_TARGET_INCLUDE, but Highway must include this file again for the
 // next instruction set.

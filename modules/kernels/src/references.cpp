@@ -192,6 +192,25 @@ void deskew_reference(const PointView& points, const float* seconds, const Senso
   });
 }
 
+void transform_points_reference(const PointView& points, const RigidTransform& transform, std::byte* xyz) {
+  for_scalar(points, [&]<typename T>() {
+    for (std::size_t i = 0; i < points.count; ++i) {
+      T p[3], moved[3];
+      load_point(points, i, p);
+      for (std::size_t row = 0; row < 3; ++row) {
+        const std::array<double, 4>& m = transform[row];
+        moved[row] = ((static_cast<T>(m[0]) * p[0] + static_cast<T>(m[1]) * p[1]) +
+                      static_cast<T>(m[2]) * p[2]) +
+                     static_cast<T>(m[3]);
+      }
+      const bool no_return = p[0] == 0 && p[1] == 0 && p[2] == 0;
+      if (no_return || !is_valid({p[0], p[1], p[2]}) || !is_valid({moved[0], moved[1], moved[2]}))
+        std::fill_n(moved, 3, std::numeric_limits<T>::quiet_NaN());
+      std::memcpy(xyz + i * sizeof moved, moved, sizeof moved);
+    }
+  });
+}
+
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
                                    std::uint32_t* positions) {
   return for_scalar(points, [&]<typename T>() {

@@ -13,6 +13,7 @@
 #include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/kernels/run_boxes.h"
 #include "pcl_bv/kernels/slab_extents.h"
+#include "pcl_bv/kernels/transform_points.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/swept_ball.h"
 
@@ -31,6 +32,7 @@ void chosen_states_reference(const PointView& points, const RegionTests::Prepare
                              const ChosenRegions& chosen, std::uint8_t* states);
 void deskew_reference(const PointView& points, const float* seconds, const SensorMotion& motion,
                       std::byte* xyz);
+void transform_points_reference(const PointView& points, const RigidTransform& transform, std::byte* xyz);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
 /// Writes the points as groups. Point number `pad` fills the rest of an incomplete last group.
