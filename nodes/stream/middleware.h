@@ -78,6 +78,13 @@ class MessageReceiver {
   virtual std::vector<std::string> take_warnings() { return {}; }
 };
 
+/// Which messages of a topic a receiver gets.
+enum class Delivery : std::uint8_t {
+  newest,  ///< Those that arrive; a slow receiver loses old ones. Suits clouds.
+  all,     ///< Lost ones are sent again, and up to 1000 wait for the receiver. Suits transforms.
+  latched  ///< As `all`, and the last message from before the subscription. Suits fixed transforms.
+};
+
 /// A kind of transport. It is implemented by a module that middleware() loads.
 class Middleware {
  public:
@@ -86,7 +93,8 @@ class Middleware {
   /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). Throws
   /// IoError if the network cannot be used. Throws std::invalid_argument for an invalid topic name or an
   /// invalid value of an environment variable.
-  virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) = 0;
+  virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type,
+                                                    Delivery delivery = Delivery::newest) = 0;
 
   /// Creates a sender. `address` is for modules that need an address ("localhost:8765"). Throws as
   /// receiver().

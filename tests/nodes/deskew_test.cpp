@@ -42,8 +42,8 @@ struct TimedPoints {
 template <typename T>
 void expect_times(double first, double step, const char* unit, DeskewTimes::Origin origin, double expected) {
   const TimedPoints<T> points(1000, first, step);
-  std::vector<float> seconds;
-  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds);
+  std::vector<float> seconds(points.times.size());
+  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds.data());
   ASSERT_EQ(times.problem, DeskewTimes::Problem::none);
   EXPECT_STREQ(times.unit->name, unit);
   EXPECT_EQ(times.origin, origin);
@@ -68,14 +68,14 @@ TEST(PointTimes, KnowTheirUnitAndOriginAsDriversWriteThem) {
 }
 
 TEST(PointTimes, AreNoneWithoutASweep) {
-  std::vector<float> seconds;
+  std::vector<float> seconds(100);
   PointTimes times;
   const TimedPoints<double> equal(100, 5, 0), slow(100, 0, 1e9), none(0, 0, 0);
-  EXPECT_EQ(times.read(equal.field(), equal.view(), 0, seconds).problem, DeskewTimes::Problem::no_sweep);
-  EXPECT_EQ(times.read(slow.field(), slow.view(), 0, seconds).problem, DeskewTimes::Problem::no_sweep);
-  EXPECT_EQ(times.read(none.field(), none.view(), 0, seconds).problem, DeskewTimes::Problem::no_time);
+  EXPECT_EQ(times.read(equal.field(), equal.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_sweep);
+  EXPECT_EQ(times.read(slow.field(), slow.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_sweep);
+  EXPECT_EQ(times.read(none.field(), none.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_time);
   TimedPoints<double> nan(100, std::numeric_limits<double>::quiet_NaN(), 1);
-  EXPECT_EQ(times.read(nan.field(), nan.view(), 0, seconds).problem, DeskewTimes::Problem::no_time);
+  EXPECT_EQ(times.read(nan.field(), nan.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_time);
 }
 
 // A sweep in columns of 32 beams, of which only beam 5 has returns.
@@ -83,8 +83,8 @@ TEST(PointTimes, AreFoundIfOnlyOneBeamHasReturns) {
   TimedPoints<std::uint32_t> points(131'072, 0, 700);
   for (std::size_t i = 0; i < points.times.size(); ++i)
     if (i % 32 != 5) std::fill_n(&points.xyz[3 * i], 3, 0.F);
-  std::vector<float> seconds;
-  const DeskewTimes times = PointTimes().read(points.field(), points.view(), 0, seconds);
+  std::vector<float> seconds(points.times.size());
+  const DeskewTimes times = PointTimes().read(points.field(), points.view(), 0, seconds.data());
   EXPECT_EQ(times.problem, DeskewTimes::Problem::none);
   EXPECT_NEAR(times.last, 0.0917, 1e-3);
 }
@@ -93,8 +93,8 @@ TEST(PointTimes, AreFoundIfOnlyOneBeamHasReturns) {
 TEST(PointTimes, AnOutlierIsNotTheFirstPoint) {
   TimedPoints<double> points(1000, 1.6e9, 1e-4);
   points.times[500] = 1.6e9 - 0.9;
-  std::vector<float> seconds;
-  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds);
+  std::vector<float> seconds(points.times.size());
+  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds.data());
   EXPECT_EQ(times.origin, DeskewTimes::Origin::first_point);
   EXPECT_EQ(times.outside, 1U);
   EXPECT_NEAR(seconds[0], 0, 1e-6);
@@ -108,8 +108,8 @@ TEST(PointTimes, OfPointsOutsideTheSweepAreCountedAndZero) {
   points.times[5] = 1.8e9;
   points.times[6] = 0;  // without a return, which is usual
   points.xyz[18] = points.xyz[19] = points.xyz[20] = 0;
-  std::vector<float> seconds;
-  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds);
+  std::vector<float> seconds(points.times.size());
+  const DeskewTimes times = PointTimes().read(points.field(), points.view(), kStamp, seconds.data());
   EXPECT_EQ(times.problem, DeskewTimes::Problem::none);
   EXPECT_EQ(times.outside, 3U);
   for (const std::size_t i : {3, 4, 5, 6})

@@ -22,11 +22,16 @@ struct Unref {
   void operator()(ddsi_serdata* sample) const { ddsi_serdata_unref(sample); }
 };
 
-// Returns a QoS that matches the writers of all drivers. A best-effort reader also matches reliable writers.
-Qos reader_qos() {
+// Returns the QoS of a reader. For clouds, it matches the writers of all drivers: a best-effort reader also
+// matches reliable writers. For transforms, it is that of ROS's tf2 listener.
+Qos reader_qos(Delivery delivery) {
   Qos qos = make_qos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 2);
+  const bool newest = delivery == Delivery::newest;
+  constexpr int waiting_transforms = 1000;
+  dds_qset_reliability(qos.get(), newest ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+                       DDS_MSECS(100));
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, newest ? 2 : waiting_transforms);
+  if (delivery == Delivery::latched) dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
 }
@@ -44,12 +49,12 @@ std::string receive_buffer_warning() {
 
 class Receiver final : public MessageReceiver {
  public:
-  Receiver(const std::string& topic, const std::string& type)
+  Receiver(const std::string& topic, const std::string& type, Delivery delivery)
       : type_(dds_type(type)),
         name_(dds_topic(topic)),
         participant_(Participant::shared()),
         topic_(create_cdr_topic(participant_->get(), name_, type_), topic),
-        reader_(dds_create_reader(participant_->get(), topic_.get(), reader_qos().get(), nullptr), topic),
+        reader_(dds_create_reader(participant_->get(), topic_.get(), reader_qos(delivery).get(), nullptr), topic),
         read_condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), topic),
         publications_(
             dds_create_reader(participant_->get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
@@ -131,8 +136,9 @@ class Receiver final : public MessageReceiver {
 
 }  // namespace
 
-std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type) {
-  return std::make_unique<Receiver>(topic, type);
+std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type,
+                                               Delivery delivery) {
+  return std::make_unique<Receiver>(topic, type, delivery);
 }
 
 }  // namespace pcl_bv::dds

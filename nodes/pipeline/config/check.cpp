@@ -12,6 +12,7 @@
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "rows.h"
+#include "stream/rig/mounting_pose.h"
 #include "settings.h"
 
 namespace pcl_bv {
@@ -157,9 +158,10 @@ std::string detail::problem_of(const Setting& /*setting*/, const Eigen::Vector3d
   return to_text(direction) + " is no direction: three finite numbers, not all 0";
 }
 
-std::string detail::problem_of(const Setting& /*setting*/, const std::string& instruction_set) {
+std::string detail::problem_of(const Setting& setting, const std::string& text) {
+  if (setting.key != "isa") return {};
   try {
-    static_cast<void>(UsableIsa(parse_isa(instruction_set)));
+    static_cast<void>(UsableIsa(parse_isa(text)));
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -200,6 +202,18 @@ std::string detail::problem_of(const Setting& /*setting*/, const std::vector<Cla
   return {};
 }
 
+std::string detail::problem_of(const Setting& /*setting*/, const std::vector<RigSensor>& sensors) {
+  std::set<std::string> topics;
+  for (const RigSensor& sensor : sensors) {
+    if (sensor.topic.empty()) return "a sensor has no topic";
+    if (!topics.insert(sensor.topic).second) return "topic " + sensor.topic + " is given twice";
+    if (sensor.pose.empty() || mounting_pose(sensor.pose)) continue;
+    return "the pose of " + sensor.topic +
+           " is not x, y, z, roll, pitch, yaw, nor x, y, z and a quaternion x, y, z, w of length 1";
+  }
+  return {};
+}
+
 std::string detail::problem_of(const Setting& /*setting*/, const FieldName& field) {
   return field.name.empty() ? "the name of the field is empty" : "";
 }
@@ -226,9 +240,24 @@ std::vector<ConfigProblem> detail::problems_of(const RunnerConfig& config) {
   return problems;
 }
 
+std::vector<ConfigProblem> detail::problems_of(const RigConfig& rig, const SettingName& name) {
+  std::vector<ConfigProblem> problems;
+  visit_rig(rig, checker(problems));
+  const auto need = [&](const char* key, bool set, bool given, const char* needed) {
+    if (set && !given) problems.push_back({key, "needs " + name(needed)});
+  };
+  const bool merges = !rig.frame.empty();
+  need("rig.fixed_frame", !rig.fixed_frame.empty(), merges, "rig.frame");
+  need("rig.urdf", !rig.urdf.empty(), merges, "rig.frame");
+  need("rig.sensors", !rig.sensors.empty(), merges, "rig.frame");
+  need("rig.self_filter", rig.self_filter.has_value(), !rig.urdf.empty(), "rig.urdf");
+  return problems;
+}
+
 std::vector<ConfigProblem> detail::problems_of(const StreamConfig& config, const SettingName& name) {
   std::vector<ConfigProblem> problems = problems_of(config.pipeline, name);
   std::ranges::move(problems_of(config.runner), std::back_inserter(problems));
+  std::ranges::move(problems_of(config.rig, name), std::back_inserter(problems));
   return problems;
 }
 
@@ -240,6 +269,10 @@ void detail::throw_if_any(const std::vector<ConfigProblem>& problems) {
 }
 
 std::vector<std::string> PipelineConfig::validate() const {
+  return lines(problems_of(*this));
+}
+
+std::vector<std::string> RigConfig::validate() const {
   return lines(problems_of(*this));
 }
 

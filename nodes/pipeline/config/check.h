@@ -29,6 +29,7 @@ struct ConfigProblem {
 std::vector<ConfigProblem> problems_of(const PipelineConfig& config,
                                        const SettingName& name = key_of_setting);
 std::vector<ConfigProblem> problems_of(const RunnerConfig& config);
+std::vector<ConfigProblem> problems_of(const RigConfig& rig, const SettingName& name = key_of_setting);
 std::vector<ConfigProblem> problems_of(const StreamConfig& config, const SettingName& name = key_of_setting);
 
 /// Throws std::invalid_argument with all problems, unless there are none.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The fields of rows. A row is an element of a list in the configuration, namely a region or a class.
+// The fields of rows. A row is an element of a list in the configuration, namely a region, a
+// class or a sensor.
 #pragma once
 
 #include <concepts>
@@ -13,7 +14,8 @@ namespace pcl_bv::detail {
 
 /// Element types of the lists in the configuration.
 template <typename T>
-concept ConfigRow = std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig>;
+concept ConfigRow = std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig> ||
+                    std::same_as<T, RigSensor>;
 
 /// How messages name a row.
 struct RowNames {
@@ -23,6 +25,8 @@ template <ConfigRow Row>
 constexpr RowNames row_names() {
   if constexpr (std::is_same_v<Row, RegionConfig>)
     return {"a region", "regions", "{file: F.json, keep: false, padding: 0}"};
+  if constexpr (std::is_same_v<Row, RigSensor>)
+    return {"a sensor", "sensors", "{topic: /points, frame: lidar}"};
   return {"a class", "classes", "{value: 4, tolerance: 0.5}"};
 }
 
@@ -34,6 +38,10 @@ void visit_row(Row& row, Visit&& visit) {
     visit(S{"file", "", ""}, row.file);
     visit(S{"keep", "", ""}, row.keep);
     visit(S{"padding", "m", "", {0, 1e100}}, row.padding);
+  } else if constexpr (std::is_same_v<std::remove_const_t<Row>, RigSensor>) {
+    visit(S{"topic", "", ""}, row.topic);
+    visit(S{"frame", "", ""}, row.frame);
+    visit(S{"pose", "m, radians", ""}, row.pose);
   } else {
     visit(S{"value", "", ""}, row.value);
     visit(S{"drop", "", ""}, row.drop);

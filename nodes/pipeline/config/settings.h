@@ -148,6 +148,23 @@ void visit_runner(Runner& c, Visit&& visit) {
   visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.watchdog_s);
 }
 
+template <typename Rig, typename Visit>
+void visit_rig(Rig& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"rig.frame", "frame id", "Merge the clouds of all sensors in this frame",
+          {}, "one sensor, in its own frame", "--target-frame", "NAME"}, c.frame);
+  visit(S{"rig.fixed_frame", "frame id", "Frame that does not move, such as odom: /tf has the poses of the robot",
+          {}, "no poses from /tf", "--fixed-frame", "NAME"}, c.fixed_frame);
+  visit(S{"rig.sync_ms", "ms", "Clouds of one frame differ by less than this",
+          {0, 1000, false}, {}, "--sync", "MS"}, c.sync_ms);
+  visit(S{"rig.urdf", "file", "URDF of the robot: its fixed joints are transforms",
+          {}, "none", "--urdf", "FILE"}, c.urdf);
+  visit(S{"rig.self_filter", "m", "Drop points inside the collision shapes of the URDF, inflated by this",
+          {}, "off", "--self-filter", "M"}, c.self_filter);
+  visit(S{"rig.sensors", "[{topic: /points, frame: lidar, pose: [x, y, z, roll, pitch, yaw]}]",
+          "Sensors; pose in m and radians, or from transforms"}, c.sensors);
+}
+
 /// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the field of `c`, const if
 /// `c` is const. The type of `value` is one of:
 /// - bool, double, std::size_t, std::string (the instruction set), Eigen::Vector3d (a direction) or an enum;
@@ -176,11 +193,13 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
 }
 // clang-format on
 
-/// Same as visit_pipeline(), for all settings of a stream, which are those of its pipeline and of its runner.
+/// Same as visit_pipeline(), for all settings of a stream: those of its pipeline, its runner and its rig, where
+/// `value` may also be a std::string of any text or a std::vector of a RigSensor.
 template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   visit_pipeline(c.pipeline, visit);
   visit_runner(c.runner, visit);
+  visit_rig(c.rig, visit);
 }
 
 /// Returns the range of the setting of a pipeline with this key. Throws std::logic_error if there is none.
@@ -193,10 +212,13 @@ std::string to_text(double value);
 std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
+/// Returns a text of any characters as YAML quotes it.
+std::string in_quotes(const std::string& name);
 std::string to_text(const std::vector<std::string>& names);  ///< Joined by ", ".
 /// Return rows in the syntax of the setting's unit, without [] and without unset fields.
 std::string to_text(const std::vector<RegionConfig>& regions);
 std::string to_text(const std::vector<ClassConfig>& classes);
+std::string to_text(const std::vector<RigSensor>& sensors);
 std::string to_text(GroundMethod method);
 std::string to_text(Oversized rule);
 std::string to_text(Refine refine);
@@ -222,6 +244,7 @@ void read_text(std::string_view text,
                std::vector<std::string>& names);                            ///< `all` means methods_of_all().
 void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One region with this file.
 void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One class with this value.
+void read_text(std::string_view text, std::vector<RigSensor>& sensors);     ///< One sensor with this topic.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, Refine& refine);
@@ -241,13 +264,15 @@ void read_text(std::string_view text, std::optional<T>& value) {
 std::string problem_of(const Setting& setting, double value);
 std::string problem_of(const Setting& setting, std::size_t value);
 std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction);
-std::string problem_of(const Setting& setting, const std::string& instruction_set);
+/// Texts other than instruction sets are any text.
+std::string problem_of(const Setting& setting, const std::string& text);
 std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
 std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
 std::string problem_of(const Setting& setting, const FieldName& field);
 std::string problem_of(const Setting& setting, const UprightSize& size);
 std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
 std::string problem_of(const Setting& setting, const std::vector<ClassConfig>& classes);
+std::string problem_of(const Setting& setting, const std::vector<RigSensor>& sensors);
 template <typename Choice>
 std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {
   return {};

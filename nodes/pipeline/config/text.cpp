@@ -60,20 +60,6 @@ std::array<std::string_view, 3> three_parts_of(std::string_view text) {
   return {parts[0], parts[1], parts[2]};
 }
 
-// Quotes a name as YAML does. The name may contain any characters.
-std::string in_quotes(const std::string& name) {
-  constexpr char digits[] = "0123456789abcdef";
-  std::string text = "\"";
-  for (const char c : name) {
-    if (static_cast<unsigned char>(c) < ' ') {
-      text.append("\\x").append({digits[c / 16], digits[c % 16]});
-    } else {
-      text.append(c == '"' || c == '\\' ? "\\" : "").append(1, c);
-    }
-  }
-  return text + '"';
-}
-
 // Returns the text of a field of a row, which is empty if the field is unset.
 template <typename T>
 std::string text_of_field(const T& value) {
@@ -85,6 +71,15 @@ std::string text_of_field(const std::optional<T>& value) {
 }
 std::string text_of_field(const std::filesystem::path& file) {
   return in_quotes(file.string());
+}
+std::string text_of_field(const std::string& text) {
+  return text.empty() ? "" : in_quotes(text);
+}
+std::string text_of_field(const std::vector<double>& numbers) {
+  std::string list;
+  for (const double number : numbers)
+    list += (list.empty() ? "[" : ", ") + (number == kNoLimit ? ".inf" : to_text(number));
+  return list.empty() ? "" : list + ']';
 }
 std::string text_of_field(std::int64_t value) {
   return std::to_string(value);
@@ -126,6 +121,18 @@ std::string to_text(const Eigen::Vector3d& direction) {
 std::string to_text(const std::string& name) {
   return name;
 }
+std::string in_quotes(const std::string& name) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text = "\"";
+  for (const char c : name) {
+    if (static_cast<unsigned char>(c) < ' ') {
+      text.append("\\x").append({digits[c / 16], digits[c % 16]});
+    } else {
+      text.append(c == '"' || c == '\\' ? "\\" : "").append(1, c);
+    }
+  }
+  return text + '"';
+}
 std::string to_text(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names)
@@ -137,6 +144,9 @@ std::string to_text(const std::vector<RegionConfig>& regions) {
 }
 std::string to_text(const std::vector<ClassConfig>& classes) {
   return text_of_rows(classes);
+}
+std::string to_text(const std::vector<RigSensor>& sensors) {
+  return text_of_rows(sensors);
 }
 std::string to_text(GroundMethod method) {
   return find_name(kGroundMethods, method);
@@ -210,6 +220,9 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
 void read_text(std::string_view text, std::vector<ClassConfig>& classes) {
   classes.assign(1, {});
   if (!read_whole_text(text, classes[0].value)) reject(text, "a whole number");
+}
+void read_text(std::string_view text, std::vector<RigSensor>& sensors) {
+  sensors = {{std::string(text)}};
 }
 void read_text(std::string_view text, GroundMethod& method) {
   method = read_name(kGroundMethods, text);

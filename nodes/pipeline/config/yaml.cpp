@@ -170,6 +170,15 @@ class Reader {
   static void read(const Setting& /*any*/, const YAML::Node& node, Eigen::Vector3d& value) {
     read_text(node.IsSequence() ? elements(node, "") : scalar(node), value);
   }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::string& text) {
+    text = node.IsNull() ? "" : scalar(node);
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::vector<double>& numbers) {
+    if (!node.IsSequence()) reject(node, "a list of numbers");
+    numbers.clear();
+    for (const YAML::Node& element : node)
+      if (!YAML::convert<double>::decode(element, numbers.emplace_back())) reject(element, "a number");
+  }
   static void read(const Setting& /*any*/, const YAML::Node& node, std::filesystem::path& file) {
     file = scalar(node);
   }
@@ -245,8 +254,11 @@ class Writer {
     constexpr bool list =
         std::is_same_v<T, std::vector<std::string>> || std::is_same_v<T, std::optional<Eigen::Vector3d>> ||
         std::is_same_v<T, std::optional<UprightSize>> || std::is_same_v<T, std::vector<RegionConfig>> ||
-        std::is_same_v<T, std::vector<ClassConfig>>;
+        std::is_same_v<T, std::vector<ClassConfig>> || std::is_same_v<T, std::vector<RigSensor>>;
     std::string text = to_text(value);
+    // Frame ids and file names may have any characters; names of instruction sets need no quotes.
+    if constexpr (std::is_same_v<T, std::string>)
+      if (setting.key != "isa") text = value.empty() ? "null" : in_quotes(value);
     if (text == "inf") text = ".inf";
     std::string comment(setting.unit);
     if (!setting.unset.empty()) comment.append(text.empty() ? "; []: " : "; null: ").append(setting.unset);

@@ -45,9 +45,23 @@ std::optional<SensorMotion> Deskewer::motion_of(const Frame& frame) const {
   return motion_between(before_last_->pose, last_->pose, *step_before);
 }
 
+// Returns the seconds of each point after the stamp. They are undefined if the times have a problem.
+const float* Deskewer::read_times(const Frame& frame, DeskewTimes& times) {
+  static constexpr TimeUnit kSeconds{"s", 1};
+  if (frame.seconds == nullptr) {
+    seconds_.resize(frame.points.count);
+    times = point_times_.read(*frame.times, frame.points, frame.header.stamp_ns, seconds_.data());
+    return seconds_.data();
+  }
+  times.unit = &kSeconds;
+  if (!frame.points.empty()) find_time_limits(frame.seconds, frame.points.count, times);
+  return frame.seconds;
+}
+
 void Deskewer::apply(const Frame& frame, const Execution& execution, DeskewResult& result) {
   result = {};
-  if (!frame.times || frame.points.indices != nullptr || frame.points.source != nullptr) {
+  const bool has_times = frame.times || frame.seconds != nullptr;
+  if (!has_times || frame.points.indices != nullptr || frame.points.source != nullptr) {
     result.outcome = DeskewOutcome::no_times;
     return;
   }
@@ -56,19 +70,19 @@ void Deskewer::apply(const Frame& frame, const Execution& execution, DeskewResul
     result.outcome = DeskewOutcome::no_motion;
     return;
   }
-  result.times = point_times_.read(*frame.times, frame.points, frame.header.stamp_ns, seconds_);
+  const float* const seconds = read_times(frame, result.times);
   if (result.times.problem != DeskewTimes::Problem::none) {
     result.outcome = DeskewOutcome::bad_times;
   } else if (!(max_rotation_angle(*motion, result.times) <= kMaxDeskewAngle)) {
     result.outcome = DeskewOutcome::too_fast;
   } else {
     result.outcome = frame.pose ? DeskewOutcome::by_poses : DeskewOutcome::by_tracks;
-    move(frame, *motion, execution, result);
+    move(frame, seconds, *motion, execution, result);
   }
 }
 
-void Deskewer::move(const Frame& frame, const SensorMotion& motion, const Execution& execution,
-                    DeskewResult& result) {
+void Deskewer::move(const Frame& frame, const float* seconds, const SensorMotion& motion,
+                    const Execution& execution, DeskewResult& result) {
   const PointView& points = frame.points;
   const std::size_t step = 3 * size_of(points.scalar);
   xyz_.resize((points.count * step + sizeof(double) - 1) / sizeof(double));
@@ -76,7 +90,7 @@ void Deskewer::move(const Frame& frame, const SensorMotion& motion, const Execut
   for_each_chunk(execution.parallel, chunk_count(points.count), [&](std::size_t chunk) {
     const LoadedPoints loaded = load_chunk(points, chunk);
     const std::size_t begin = chunk * kChunkPoints;
-    deskew(execution.isa, loaded.view(), seconds_.data() + begin, motion, xyz + begin * step);
+    deskew(execution.isa, loaded.view(), seconds + begin, motion, xyz + begin * step);
   });
   result.points = packed_points(xyz, points.scalar, points.count);
 }

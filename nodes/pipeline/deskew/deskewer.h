@@ -38,7 +38,9 @@ class Deskewer {
   };
 
   std::optional<SensorMotion> motion_of(const Frame& frame) const;
-  void move(const Frame& frame, const SensorMotion& motion, const Execution& execution, DeskewResult& result);
+  const float* read_times(const Frame& frame, DeskewTimes& times);
+  void move(const Frame& frame, const float* seconds, const SensorMotion& motion, const Execution& execution,
+            DeskewResult& result);
 
   PointTimes point_times_;
   std::vector<float> seconds_;

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+
+#include "visit_numbers.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -35,23 +36,6 @@ const TimeUnit* unit_of(double span) {
   return nullptr;
 }
 
-// Calls visit(i, number) for each record of the field. Drivers write three types; a loop for each of them is
-// five times as fast as FieldView::number().
-template <typename Visit>
-void visit_numbers(const FieldView& field, std::size_t count, const Visit& visit) {
-  const auto loop = [&](auto zero) {
-    for (std::size_t i = 0; i < count; ++i) {
-      std::memcpy(&zero, field.data + i * field.stride, sizeof zero);
-      visit(i, static_cast<double>(zero));
-    }
-  };
-  if (field.type == 'F' && field.size == 4) return loop(0.F);
-  if (field.type == 'F' && field.size == 8) return loop(0.0);
-  if (field.type == 'U' && field.size == 4) return loop(std::uint32_t{0});
-  for (std::size_t i = 0; i < count; ++i)
-    visit(i, field.number(i));
-}
-
 // Returns the earliest of the times that are at most `max_offset` from the median, relative to the median.
 double earliest(const FieldView& field, std::size_t count, double median, double max_offset) {
   double first = 0;
@@ -68,9 +52,9 @@ struct Conversion {
 };
 
 // Returns the number of points outside the sweep. They get the time 0.
-std::size_t write_seconds(const FieldView& field, const Conversion& to, std::vector<float>& seconds) {
+std::size_t write_seconds(const FieldView& field, const Conversion& to, std::size_t count, float* seconds) {
   std::size_t outside = 0;
-  visit_numbers(field, seconds.size(), [&](std::size_t i, double number) {
+  visit_numbers(field, count, [&](std::size_t i, double number) {
     const double offset = number - to.median;
     const auto time = static_cast<float>(offset * to.unit_seconds - to.stamp_offset);
     const bool inside = std::abs(offset) <= to.max_offset;
@@ -78,17 +62,6 @@ std::size_t write_seconds(const FieldView& field, const Conversion& to, std::vec
     outside += !inside;
   });
   return outside;
-}
-
-// Sets the times of the first and last point. Points outside the sweep have the time 0, and are included.
-void find_limits(const std::vector<float>& seconds, DeskewTimes& times) {
-  float first = seconds.front(), last = first;
-  for (const float time : seconds) {
-    first = std::min(first, time);
-    last = std::max(last, time);
-  }
-  times.first = first;
-  times.last = last;
 }
 
 // Returns the number of points with a return that are more than `max_offset` from the median, or have no
@@ -112,20 +85,35 @@ void PointTimes::sample(const FieldView& field, const PointView& points) {
     const double time = field.number(point);
     if (std::isfinite(time) && has_return(load_point(points, point))) sample_.push_back(time);
   }
-  std::sort(sample_.begin(), sample_.end());
+}
+
+// Returns the time at this position of the sorted sample.
+double PointTimes::ranked(std::size_t rank) {
+  const auto at = sample_.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(sample_.begin(), at, sample_.end());
+  return *at;
+}
+
+void find_time_limits(const float* seconds, std::size_t count, DeskewTimes& times) {
+  float first = seconds[0], last = first;
+  for (std::size_t i = 0; i < count; ++i) {
+    first = std::min(first, seconds[i]);
+    last = std::max(last, seconds[i]);
+  }
+  times.first = first;
+  times.last = last;
 }
 
 DeskewTimes PointTimes::read(const FieldView& field, const PointView& points, std::int64_t stamp_ns,
-                             std::vector<float>& seconds) {
+                             float* seconds) {
   DeskewTimes times;
   sample(field, points);
   if (sample_.empty()) {
     times.problem = DeskewTimes::Problem::no_time;
     return times;
   }
-  const std::size_t tenth = sample_.size() / 10;
-  const double median = sample_[sample_.size() / 2],
-               length = (sample_[sample_.size() - 1 - tenth] - sample_[tenth]) / 0.8;
+  const std::size_t size = sample_.size(), tenth = size / 10;
+  const double median = ranked(size / 2), length = (ranked(size - 1 - tenth) - ranked(tenth)) / 0.8;
   const TimeUnit* const unit = unit_of(length);
   if (unit == nullptr) {
     times.problem = DeskewTimes::Problem::no_sweep;
@@ -148,9 +136,9 @@ DeskewTimes PointTimes::read(const FieldView& field, const PointView& points, st
     times.clock_difference = since_stamp;
     stamp_offset = earliest(field, points.count, median, max_offset) * unit_seconds;
   }
-  seconds.resize(points.count);
-  const std::size_t outside = write_seconds(field, {median, unit_seconds, stamp_offset, max_offset}, seconds);
-  find_limits(seconds, times);
+  const std::size_t outside =
+      write_seconds(field, {median, unit_seconds, stamp_offset, max_offset}, points.count, seconds);
+  find_time_limits(seconds, points.count, times);
   if (outside > 0) times.outside = count_outside(field, points, median, max_offset);
   return times;
 }

@@ -26,17 +26,21 @@ namespace [[gnu::visibility("default")]] detail {
 ///   time, get the time of the stamp.
 class PointTimes {
  public:
-  /// Replaces `seconds` by the times relative to the stamp, one for each point. `points` are the points of
-  /// the field's records. Returns what was found. `seconds` is undefined unless DeskewTimes::problem is
-  /// `none`. O(points); allocates only if it needs more memory than before.
+  /// Writes the times relative to the stamp to `seconds`, one for each point. `points` are the points of the
+  /// field's records. Returns what was found. `seconds` is undefined unless DeskewTimes::problem is `none`.
+  /// O(points); allocates only if it needs more memory than before.
   DeskewTimes read(const FieldView& field, const PointView& points, std::int64_t stamp_ns,
-                   std::vector<float>& seconds);
+                   float* seconds);
 
  private:
   void sample(const FieldView& field, const PointView& points);
+  double ranked(std::size_t rank);
 
   std::vector<double> sample_;
 };
+
+/// Sets the smallest and largest of at least one time.
+void find_time_limits(const float* seconds, std::size_t count, DeskewTimes& times);
 
 }  // namespace detail
 }  // namespace pcl_bv

@@ -6,6 +6,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 #include "sources.h"
+#include "stream/rig/transform_feed.h"
 #include "stream/sinks/sinks.h"
 
 namespace pcl_bv::detail {
@@ -16,6 +17,14 @@ std::vector<SourceKind> recording_kinds() {
 
 std::vector<SinkKind> recording_sinks() {
   return {};
+}
+
+std::vector<std::string> recorded_cloud_topics(const std::string&) {
+  return {};
+}
+
+std::unique_ptr<TransformFeed> recorded_transforms(const std::string&) {
+  return nullptr;
 }
 
 void check_recording_content(const std::filesystem::path& file) {

@@ -15,8 +15,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::int64_t kMaxGap = 500'000'000;  // nanoseconds
-
 // The numbers of a line. long double represents today's times in seconds with an error below a nanosecond.
 using Numbers = std::vector<long double>;
 
@@ -122,18 +120,7 @@ std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (!by_stamp_) {  // no pose if the recording has more clouds than its index tells
     return number < poses_.size() ? std::optional(poses_[number].second) : std::nullopt;
   }
-  const auto after =
-      std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
-                       [](const auto& pose, std::int64_t stamp) { return pose.first < stamp; });
-  if (after != poses_.end() && after->first == stamp_ns) return after->second;
-  if (after == poses_.begin() || after == poses_.end()) return std::nullopt;
-  const auto before = after - 1;
-  if (after->first - before->first > kMaxGap) return std::nullopt;
-  const double part =
-      static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
-  const Eigen::Quaterniond from(before->second.linear()), to(after->second.linear());
-  return pose_of(from.slerp(part, to),
-                 (1 - part) * before->second.translation() + part * after->second.translation());
+  return pose_at(poses_, stamp_ns);
 }
 
 }  // namespace pcl_bv::detail

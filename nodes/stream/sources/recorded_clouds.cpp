@@ -77,6 +77,15 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
   return number(std::find_if(topics.begin(), topics.end(), has_clouds));
 }
 
+std::vector<std::string> recorded_cloud_topics(const std::string& recording) {
+  std::vector<std::string> names;
+  if (is_capture(recording)) return names;
+  const auto reader = open_recording(recording);
+  for (const RecordedTopic& topic : reader->topics())
+    if (has_clouds(topic)) names.push_back(topic.name);
+  return names;
+}
+
 std::vector<std::string> take_new(const std::vector<std::string>& warnings, std::size_t& taken) {
   std::vector<std::string> added(
       warnings.begin() + static_cast<std::ptrdiff_t>(std::min(taken, warnings.size())), warnings.end());

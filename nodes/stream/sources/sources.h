@@ -10,6 +10,7 @@
 
 #include "name_times.h"
 #include "pcl_bv/nodes/frame_source.h"
+#include "stream/rig/transforms.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -30,7 +31,7 @@ class Poses {
 
  private:
   bool by_stamp_ = false;
-  std::vector<std::pair<std::int64_t, Pose>> poses_;  // sorted by stamp
+  std::vector<StampedPose> poses_;  // sorted by stamp
 };
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
@@ -45,6 +46,9 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
 
 /// Returns the source kinds for packets and recordings, or none in a build without the component `recording`.
 std::vector<SourceKind> recording_kinds();
+
+/// Returns the topics with clouds of a recording, none for a capture of packets. Throws as open_recording().
+std::vector<std::string> recorded_cloud_topics(const std::string& recording);
 
 /// Returns whether the file has the extension of a recording or capture: .bag, .mcap, .db3, .pcap, .pcapng.
 bool has_recording_extension(const std::filesystem::path& file);

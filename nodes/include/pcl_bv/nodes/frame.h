@@ -31,6 +31,15 @@ struct FrameHeader {
 /// unaligned.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
+/// The part of a merged cloud that one sensor of a rig measured (open_rig()).
+struct SensorPart {
+  std::string name;           ///< Frame id of the sensor.
+  std::size_t first = 0;      ///< Index of its first point in the merged cloud.
+  std::size_t count = 0;      ///< Number of its points; 0 if the sensor sent no cloud for this frame.
+  std::int64_t stamp_ns = 0;  ///< Stamp of its cloud.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< Of the sensor in the frame of the points, metres.
+};
+
 /// A cloud of any point type with its header.
 struct Frame {
   FrameHeader header;
@@ -51,10 +60,15 @@ struct Frame {
   /// Time at which each point was measured, by point number, in any unit (PipelineConfig::deskew). `owner`
   /// keeps the memory of the times alive. Not set if the source has no times.
   std::optional<FieldView> times{};
+  /// Same as `times`, but in seconds after the stamp, one for each point. Used instead of `times` if not
+  /// null.
+  const float* seconds = nullptr;
   std::optional<Pose> pose;  ///< Pose of the sensor in a fixed frame, if known.
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
+  /// The sensors of a merged cloud, in the order of their points. Empty for the cloud of a single sensor.
+  std::vector<SensorPart> sensors{};
   /// Time of recording or sending, nanoseconds of the clock of the recording or sending machine. 0: unknown.
   /// Tracking uses this time if the stamps do not advance.
   std::int64_t recorded_ns = 0;

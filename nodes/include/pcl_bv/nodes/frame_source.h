@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -86,7 +87,8 @@ struct ReplayOptions {
   /// TUM files have lines `seconds x y z qx qy qz qw`. The pose of a frame is interpolated between the lines
   /// before and after its stamp if these two lines are at most 0.5 s apart. Otherwise the frame has no pose.
   std::filesystem::path poses{};
-  std::string topic{};  ///< Topic of a recording. If empty: its only topic with clouds.
+  std::string topic{};      ///< Topic of a recording. If empty: its only topic with clouds.
+  bool point_times = false;  ///< Whether open_rig() sets Frame::seconds, which deskewing needs.
 };
 
 /// Where a source can take the times of frames from, instead of ReplayOptions::rate_hz.
@@ -127,6 +129,51 @@ std::string source_syntax();
 ///
 /// Also throws as Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
+
+/// A sensor of a rig.
+struct RigSensor {
+  /// Topic of its clouds, or the name of its source if the source has no topics.
+  std::string topic{};
+  std::string frame{};  ///< Frame id of the sensor. If empty: the frame id of its clouds.
+  /// Pose of the sensor in RigConfig::frame: x, y, z in metres, then roll, pitch, yaw in radians (rotations
+  /// about the fixed axes x, y, z, in this order, as in URDF) or a quaternion x, y, z, w. If empty: from
+  /// transforms.
+  std::vector<double> pose{};
+};
+
+/// Several sensors whose clouds become one cloud.
+struct RigConfig {
+  /// Coordinate frame of the merged clouds, such as "base_link". If empty, there is no rig.
+  std::string frame{};
+  /// Frame that does not move, such as "odom". If given, the pose of `frame` in it comes from transforms.
+  std::string fixed_frame{};
+  /// Clouds whose stamps differ by less than this belong to one frame, milliseconds, above 0, at most 1000.
+  /// Live sources also wait for a late cloud for this time.
+  double sync_ms = 50;
+  std::string urdf{};  ///< URDF file of the robot, whose fixed joints are transforms. May be empty.
+  /// Drop points inside the collision geometry of the URDF, inflated by this, metres.
+  std::optional<double> self_filter{};
+  std::vector<RigSensor> sensors{};  ///< If empty: all sources and all their topics of clouds.
+
+  /// Returns a line for each value that is not allowed.
+  std::vector<std::string> validate() const;
+};
+
+/// Opens several sources as one, whose frames have the clouds of all sensors in the frame `rig.frame`.
+///
+/// Transforms between frames come from RigSensor::pose, from the URDF, and from the topics /tf and /tf_static
+/// of recordings and of ROS 2. Between two transforms of /tf, which are at most 0.5 s apart, poses are
+/// interpolated. A cloud without a transform to `rig.frame` gives a FrameError; it is never used without one.
+///
+/// Clouds belong to one frame if their stamps are less than `rig.sync_ms` after the first one, whose stamp
+/// the frame has. Frame::seconds has the time of each point, also of sensors without own times, so that
+/// deskewing compensates the different stamps. If a sensor sends nothing, the other sensors' frames go on,
+/// and take_warnings() tells which sensor is silent. Points without a return, at (0, 0, 0), become NaN.
+///
+/// Throws as open_source() for each source, std::invalid_argument if a sensor of `rig.sensors` has no source
+/// or the other way round, and IoError if the URDF cannot be read.
+std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
+                                      const ReplayOptions& options = {});
 
 /// Creates a source from a function that fills the next frame and returns false at the end.
 /// FrameSource::next() rethrows the exceptions of the function.

@@ -17,6 +17,7 @@
 
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -47,8 +48,9 @@ struct RunnerConfig {
 struct StreamConfig {
   PipelineConfig pipeline;
   RunnerConfig runner;
+  RigConfig rig{};
 
-  /// Same as PipelineConfig::validate(), for the settings of the pipeline and the runner.
+  /// Same as PipelineConfig::validate(), for all settings.
   std::vector<std::string> validate() const;
 };
 
@@ -60,8 +62,8 @@ class ConfigError : public std::runtime_error {
 };
 
 /// Reads a YAML file. The keys are the field names of PipelineConfig, nested by stage, such as `filter:
-/// {range_min: 0.5}`. The keys under `runner` are the field names of RunnerConfig. Missing keys keep the
-/// values of `defaults`. For optional values, null means "not given". Throws ConfigError if the file cannot
+/// {range_min: 0.5}`. The keys under `runner` and `rig` are the field names of RunnerConfig and RigConfig.
+/// Missing keys keep the values of `defaults`. For optional values, null means "not given". Throws ConfigError if the file cannot
 /// be read, is not YAML, or has an unknown key or a value that is not allowed.
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 

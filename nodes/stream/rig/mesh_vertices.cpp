@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The vertices of meshes in STL and OBJ. Edges are not needed, because a hull has only vertices.
+
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
+#include "urdf.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr std::size_t kMaxMeshBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxVertices = 10'000'000;
+constexpr std::size_t kStlHeader = 84, kStlTriangle = 50;
+
+using Vertices = std::vector<Eigen::Vector3d>;
+
+// A binary STL may begin with "solid", too, so its size decides: a header with the number of triangles, then
+// 50 bytes for each of them.
+bool is_binary_stl(const std::string& bytes) {
+  if (bytes.size() < kStlHeader) return false;
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, bytes.data() + kStlHeader - sizeof triangles, sizeof triangles);
+  return bytes.size() == kStlHeader + kStlTriangle * std::size_t{triangles};
+}
+
+Vertices binary_stl(const std::string& bytes) {
+  Vertices vertices;
+  for (std::size_t at = kStlHeader; at + kStlTriangle <= bytes.size(); at += kStlTriangle) {
+    float corners[12];  // the normal, then three corners
+    std::memcpy(corners, bytes.data() + at, sizeof corners);
+    for (std::size_t k = 3; k < 12; k += 3)
+      vertices.emplace_back(corners[k], corners[k + 1], corners[k + 2]);
+  }
+  return vertices;
+}
+
+// Returns the numbers of the lines that begin with `keyword`: "vertex" of STL, "v" of OBJ.
+Vertices text_vertices(const std::string& text, const std::string& keyword) {
+  Vertices vertices;
+  std::istringstream stream(text);
+  std::size_t line_number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++line_number;
+    std::istringstream words(line);
+    std::string first;
+    if (!(words >> first) || first != keyword) continue;
+    Eigen::Vector3d vertex;
+    if (!(words >> vertex.x() >> vertex.y() >> vertex.z()))
+      throw IoError("line " + std::to_string(line_number) + ": not three numbers");
+    vertices.push_back(vertex);
+  }
+  return vertices;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> read_mesh_vertices(const std::filesystem::path& file) {
+  const std::string extension = lower_case_extension(file);
+  if (extension != ".stl" && extension != ".obj")
+    throw IoError("meshes can be read as .stl or .obj, not as '" + extension + "'");
+  const std::string bytes = read_untrusted_text(file, kMaxMeshBytes);
+  Vertices vertices = extension == ".obj"     ? text_vertices(bytes, "v")
+                      : is_binary_stl(bytes) ? binary_stl(bytes)
+                                             : text_vertices(bytes, "vertex");
+  if (vertices.empty()) throw IoError("has no vertices");
+  if (vertices.size() > kMaxVertices) throw IoError("has more than 10000000 vertices");
+  return vertices;
+}
+
+}  // namespace pcl_bv::detail

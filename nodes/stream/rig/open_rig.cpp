@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Makes a rig from the names of its sources.
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "mounting_pose.h"
+#include "pcl_bv/io/untrusted_text.h"
+#include "pipeline/config/check.h"
+#include "rig_source.h"
+#include "urdf.h"
+
+namespace pcl_bv {
+using namespace detail;
+namespace {
+
+constexpr std::string_view kDdsPrefix = "dds:";
+
+// A source of clouds by the name of its file or topic, and the topic that rig.sensors names.
+struct NamedTopic {
+  std::string source, topic;
+};
+
+bool is_recorded(const std::string& source) {
+  return source_kind(source).times == FrameTimes::messages;
+}
+
+// Returns the topics of all sources. A recording has those of `rig.sensors`, else the given one, else all.
+std::vector<NamedTopic> topics_of(const std::vector<std::string>& sources, const RigConfig& rig,
+                                  const ReplayOptions& options) {
+  std::vector<NamedTopic> all;
+  for (const std::string& source : sources) {
+    if (source.starts_with(kDdsPrefix)) {
+      all.push_back({source, source.substr(kDdsPrefix.size())});
+    } else if (!is_recorded(source)) {
+      all.push_back({source, source});
+    } else if (rig.sensors.empty() && !options.topic.empty()) {
+      all.push_back({source, options.topic});
+    } else {
+      std::vector<std::string> recorded = recorded_cloud_topics(source);
+      if (recorded.empty()) all.push_back({source, source});  // packets of one sensor
+      for (std::string& topic : recorded) {
+        const bool wanted = rig.sensors.empty() ||
+                            std::any_of(rig.sensors.begin(), rig.sensors.end(),
+                                        [&](const RigSensor& sensor) { return sensor.topic == topic; });
+        if (wanted) all.push_back({source, std::move(topic)});
+      }
+    }
+  }
+  return all;
+}
+
+SensorInput open_sensor(const NamedTopic& named, const RigConfig& rig, ReplayOptions options) {
+  SensorInput input;
+  input.name = named.topic;
+  const auto sensor = std::find_if(rig.sensors.begin(), rig.sensors.end(),
+                                   [&](const RigSensor& one) { return one.topic == named.topic; });
+  if (sensor != rig.sensors.end()) {
+    input.frame = sensor->frame;
+    if (!sensor->pose.empty()) input.pose = mounting_pose(sensor->pose);
+  } else if (!rig.sensors.empty()) {
+    throw std::invalid_argument(named.topic + ": rig.sensors has no sensor with this topic");
+  }
+  options.topic = is_recorded(named.source) && named.topic != named.source ? named.topic : "";
+  options.poses.clear();
+  input.source = open_source(named.source, options);
+  return input;
+}
+
+void check_sensors_have_sources(const RigConfig& rig, const std::vector<NamedTopic>& topics) {
+  for (const RigSensor& sensor : rig.sensors) {
+    if (std::any_of(topics.begin(), topics.end(),
+                    [&](const NamedTopic& named) { return named.topic == sensor.topic; }))
+      continue;
+    std::string known;
+    for (const NamedTopic& named : topics)
+      known += (known.empty() ? "" : ", ") + named.topic;
+    throw std::invalid_argument(printable("rig.sensors: no source has the topic " + sensor.topic +
+                                          (known.empty() ? "" : "; there are " + known)));
+  }
+}
+
+// Adds the fixed joints of the URDF and the transforms of recordings and live topics.
+void add_transforms_of(const std::vector<std::string>& sources, const RigConfig& rig, RigInputs& inputs) {
+  if (!rig.urdf.empty()) read_urdf(rig.urdf).add_joints(inputs.transforms);
+  bool live = false;
+  for (const std::string& source : sources) {
+    if (source.starts_with(kDdsPrefix)) {
+      live = true;
+    } else if (is_recorded(source)) {
+      if (auto feed = recorded_transforms(source)) inputs.feeds.push_back(std::move(feed));
+    }
+  }
+  if (live) inputs.feeds.push_back(live_transforms());
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
+                                      const ReplayOptions& options) {
+  throw_if_any(problems_of(rig));
+  if (rig.frame.empty()) throw std::invalid_argument("open_rig: rig.frame is empty");
+  if (options.loops > 1) throw std::invalid_argument("the sources of a rig cannot be repeated");
+  const std::vector<NamedTopic> topics = topics_of(sources, rig, options);
+  check_sensors_have_sources(rig, topics);
+  if (topics.empty()) throw std::invalid_argument("open_rig: no source");
+  RigInputs inputs;
+  for (const NamedTopic& named : topics)
+    inputs.sensors.push_back(open_sensor(named, rig, options));
+  add_transforms_of(sources, rig, inputs);
+  return std::make_unique<RigSource>(std::move(inputs), rig, options);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <limits>
+
+#include "pcl_bv/io/untrusted_text.h"
+#include "pcl_bv/messages/odometry.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/recording/recording.h"
+#include "transform_feed.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr std::int64_t kReadAhead = 500'000'000;  // nanoseconds
+
+bool is_encoded(const RecordedTopic& topic) {
+  return topic.encoding == "cdr" || topic.encoding == "ros1";
+}
+bool has_odometry(const RecordedTopic& topic) {
+  return is_encoded(topic) && topic.type == msg::Odometry::ros_type;
+}
+// ROS 1's older type has the same layout.
+bool has_transforms(const RecordedTopic& topic) {
+  return is_encoded(topic) && (topic.type == msg::TFMessage::ros_type || topic.type == "tf/msg/tfMessage");
+}
+bool is_fixed(const RecordedTopic& topic) {
+  return has_transforms(topic) && topic.name.ends_with("tf_static");
+}
+bool is_changing(const RecordedTopic& topic) {
+  return has_transforms(topic) && !is_fixed(topic);
+}
+
+template <typename Is>
+std::vector<std::size_t> topics_that(const std::vector<RecordedTopic>& topics, const Is& is) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < topics.size(); ++i)
+    if (is(topics[i])) found.push_back(i);
+  return found;
+}
+
+class RecordedTransforms final : public TransformFeed {
+ public:
+  RecordedTransforms(std::unique_ptr<RecordingReader> reader, std::vector<std::size_t> fixed,
+                     std::vector<std::size_t> changing)
+      : reader_(std::move(reader)), fixed_(std::move(fixed)), changing_(std::move(changing)) {}
+
+  // Fixed transforms may be recorded late, for example if the recording was started late. They hold for the
+  // whole recording, so they are read first.
+  void read(std::int64_t recorded_ns, Transforms& to) override {
+    if (!std::exchange(begun_, true)) {
+      read_fixed(to);
+      reader_->select(changing_);
+    }
+    if (recorded_ns + kReadAhead < last_read_ns_ - kRestart) begin_again();
+    while (!at_end_ && last_read_ns_ <= recorded_ns + kReadAhead) {
+      RecordedMessage message;
+      at_end_ = !reader_->next(message);
+      if (at_end_) return;
+      last_read_ns_ = message.log_time_ns;
+      add(message, false, to);
+    }
+  }
+
+  std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
+
+ private:
+  static constexpr std::int64_t kRestart = 2 * kReadAhead;  // a cloud so much earlier begins a repetition
+
+  void begin_again() {
+    reader_->select(changing_);
+    at_end_ = false;
+    last_read_ns_ = std::numeric_limits<std::int64_t>::min();
+  }
+
+  void read_fixed(Transforms& to) {
+    if (fixed_.empty()) return;
+    std::uint64_t left = 0;
+    for (const std::size_t topic : fixed_) {
+      const std::uint64_t messages = reader_->topics()[topic].messages;
+      if (messages == 0) left = std::numeric_limits<std::uint64_t>::max();  // the number is not known
+      if (left < std::numeric_limits<std::uint64_t>::max()) left += messages;
+    }
+    reader_->select(fixed_);
+    // The file need not be read to its end after the last of these messages.
+    for (RecordedMessage message; left > 0 && reader_->next(message); --left)
+      add(message, true, to);
+  }
+
+  void add(const RecordedMessage& message, bool fixed, Transforms& to) {
+    const RecordedTopic& topic = reader_->topics()[message.topic];
+    std::string warning;
+    try {
+      warning = add_transforms(
+          {message.data, message.size, topic.encoding == "ros1", has_odometry(topic), fixed}, to);
+    } catch (const MessageError& error) {
+      warning = error.what();
+    }
+    if (!warning.empty() && !std::exchange(warned_, true))
+      warnings_.push_back(printable(topic.name + ": " + warning));
+  }
+
+  std::unique_ptr<RecordingReader> reader_;
+  std::vector<std::size_t> fixed_, changing_;
+  std::int64_t last_read_ns_ = std::numeric_limits<std::int64_t>::min();
+  bool begun_ = false, at_end_ = false, warned_ = false;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording) {
+  std::unique_ptr<RecordingReader> reader = open_recording(recording);
+  const std::vector<RecordedTopic>& topics = reader->topics();
+  std::vector<std::size_t> fixed = topics_that(topics, is_fixed), changing = topics_that(topics, is_changing);
+  if (changing.empty()) changing = topics_that(topics, has_odometry);
+  if (fixed.empty() && changing.empty()) return nullptr;
+  return std::make_unique<RecordedTransforms>(std::move(reader), std::move(fixed), std::move(changing));
+}
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A source of frames that have the clouds of several sensors.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "merged_cloud.h"
+#include "pcl_bv/nodes/frame_source.h"
+#include "stream/sources/sources.h"
+#include "transform_feed.h"
+#include "transforms.h"
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+/// A sensor of a rig and the source of its clouds.
+struct SensorInput {
+  std::unique_ptr<FrameSource> source;
+  std::string name;           ///< For messages: the topic.
+  std::string frame;          ///< Frame id of the sensor; if empty, that of its clouds.
+  std::optional<Pose> pose{};  ///< In the frame of the rig; if not set, from transforms.
+};
+
+/// The parts of a rig. open_rig() makes them from names.
+struct RigInputs {
+  std::vector<SensorInput> sensors;
+  std::vector<std::unique_ptr<TransformFeed>> feeds;
+  Transforms transforms;  ///< Those that are known from the beginning.
+};
+
+/// See open_rig().
+class RigSource final : public FrameSource {
+ public:
+  /// `times`: whether frames have Frame::seconds. Throws std::invalid_argument if `rig` is not valid, and
+  /// IoError if `options.poses` cannot be read.
+  RigSource(RigInputs inputs, const RigConfig& rig, const ReplayOptions& options);
+
+  Next next(Frame& frame, std::chrono::milliseconds timeout) override;
+  std::vector<std::string> take_warnings() override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Sensor {
+    SensorInput input;
+    std::optional<Frame> head;        // its next cloud
+    Clock::time_point arrival;        // of `head`
+    std::optional<std::int64_t> last;  // stamp of its previous cloud
+    bool ended = false, silent = false;
+    std::uint64_t clouds = 0, used = 0, late = 0;
+    std::uint64_t absent = 0;  // frames without it since its last cloud
+    std::string problem;       // of its last cloud that was not used
+  };
+
+  void read_head(Sensor& sensor, std::chrono::milliseconds timeout);
+  void read_heads(Clock::time_point until);
+  bool is_late(const Sensor& sensor, const Frame& cloud) const;
+  void drop_late(Sensor& sensor, const Frame& cloud);
+  void drop_stuck_heads();
+  bool all_ended() const;
+  bool is_complete() const;
+  std::int64_t first_stamp() const;
+  bool is_member(const Sensor& sensor, std::int64_t stamp_ns) const;
+  FoundTransform find_pose(const Sensor& sensor);
+  bool has_transforms();
+  void merge(Frame& frame);
+  std::optional<Pose> pose_of_rig(const Frame& frame);
+  void note_presence(Sensor& sensor, bool present, std::int64_t stamp_ns);
+  void compare_clocks();
+  void report_unused() const;
+
+  RigConfig rig_;
+  std::vector<Sensor> sensors_;
+  std::vector<std::unique_ptr<TransformFeed>> feeds_;
+  Transforms transforms_;
+  CloudMerger merger_;
+  Poses poses_;
+  bool own_stamps_;  // stamps are those of the sensors
+  std::int64_t sync_ns_;
+  std::optional<std::int64_t> last_stamp_;  // of the last frame
+  std::uint64_t seq_ = 0;
+  bool live_ = false;           // some source waits for its clouds
+  bool clocks_differ_ = false;  // has been reported
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace detail
+}  // namespace pcl_bv

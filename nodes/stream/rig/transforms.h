@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Transforms between the coordinate frames of a robot.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pcl_bv/nodes/frame.h"
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+/// A pose and its time, nanoseconds.
+using StampedPose = std::pair<std::int64_t, Pose>;
+
+/// Returns the pose at a time, interpolated between the poses before and after it. `poses` are sorted by
+/// time. Returns nullopt outside their times, and if the two poses are more than 0.5 s apart.
+std::optional<Pose> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns);
+
+/// Result of Transforms::find().
+struct FoundTransform {
+  std::optional<Pose> pose;
+  std::string problem;   ///< Why there is no pose.
+  bool pending = false;  ///< A transform that is added later may give the pose.
+};
+
+/// A tree of coordinate frames. Each frame has a pose in its parent, which is fixed or changes over time.
+/// Names are compared without a leading slash, which ROS 1 allowed.
+class Transforms {
+ public:
+  /// Sets the fixed pose of `child` in `parent`. Replaces an earlier pose. Transforms that would give a frame
+  /// a second parent or make a cycle, and names that are empty, are ignored with a warning.
+  void add_fixed(const std::string& parent, const std::string& child, const Pose& pose);
+
+  /// Adds the pose of `child` in `parent` at a time. Otherwise like add_fixed(). Poses more than 10 s older
+  /// than the newest one are forgotten. A pose that is itself so old begins anew, as a recording does that is
+  /// repeated.
+  void add(const std::string& parent, const std::string& child, std::int64_t stamp_ns, const Pose& pose);
+
+  /// Returns the pose of the frame `source` in the frame `target` at a time: a point p of `source` is at
+  /// pose * p in `target`. O(depth of the tree).
+  FoundTransform find(const std::string& target, const std::string& source, std::int64_t stamp_ns) const;
+
+  /// Returns the warnings since the last call, one line each. Each kind is returned once for a frame.
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
+
+ private:
+  struct Node {
+    std::string name;
+    std::optional<std::size_t> parent;
+    std::optional<Pose> fixed;
+    std::vector<StampedPose> timed;
+    bool warned = false;
+  };
+
+  Node* edge(const std::string& parent, const std::string& child);
+  std::optional<std::size_t> index_of(const std::string& name) const;
+  std::optional<std::size_t> make_node(const std::string& name);
+  void warn(Node& node, const std::string& what);
+  std::vector<std::size_t> ancestors(std::size_t node) const;
+  std::optional<Pose> pose_in(const std::vector<std::size_t>& chain, std::size_t ancestor,
+                              std::int64_t stamp_ns, FoundTransform& found) const;
+
+  std::vector<Node> nodes_;
+  std::map<std::string, std::size_t> numbers_;  // by name
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace detail
+}  // namespace pcl_bv

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "urdf.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "mounting_pose.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/io/untrusted_text.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr std::size_t kMaxUrdfBytes = std::size_t{16} << 20;
+
+std::string attribute(const XMLElement& element, const char* name) {
+  const char* const value = element.Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+[[noreturn]] void fail_at(const XMLElement& element, const std::string& what) {
+  throw IoError(printable("line " + std::to_string(element.GetLineNum()) + ": " + what));
+}
+
+// Returns the numbers of an attribute. A missing attribute gives `missing`.
+std::vector<double> numbers_of(const XMLElement& element, const char* name, std::vector<double> missing) {
+  if (element.Attribute(name) == nullptr) return missing;
+  std::istringstream text(attribute(element, name));
+  std::vector<double> numbers;
+  for (double number = 0; text >> number;)
+    numbers.push_back(number);
+  const bool valid = text.eof() && numbers.size() == missing.size() &&
+                     std::all_of(numbers.begin(), numbers.end(),
+                                 [](double number) { return std::abs(number) <= kMaxCoordinate; });
+  if (!valid)
+    fail_at(element, std::string(name) + " '" + attribute(element, name) + "' is not " +
+                         std::to_string(missing.size()) + " numbers");
+  return numbers;
+}
+
+Eigen::Vector3d vector_of(const XMLElement& element, const char* name, double missing) {
+  const std::vector<double> n = numbers_of(element, name, {missing, missing, missing});
+  return {n[0], n[1], n[2]};
+}
+
+double length_of(const XMLElement& element, const char* name) {
+  const double length = numbers_of(element, name, {-1.0})[0];
+  if (!(length > 0)) fail_at(element, std::string(name) + " is not above 0");
+  return length;
+}
+
+// Returns the pose of the element `origin`, which may be missing.
+Pose origin_of(const XMLElement& parent) {
+  const XMLElement* const origin = parent.FirstChildElement("origin");
+  if (origin == nullptr) return Pose::Identity();
+  return pose_of_angles(vector_of(*origin, "xyz", 0), vector_of(*origin, "rpy", 0));
+}
+
+std::vector<std::filesystem::path> folders_in(const char* variable, const std::string& below) {
+  std::vector<std::filesystem::path> folders;
+  const char* const value = std::getenv(variable);
+  std::istringstream list(value == nullptr ? "" : value);
+  for (std::string folder; std::getline(list, folder, ':');)
+    if (!folder.empty()) folders.push_back(std::filesystem::path(folder) / below);
+  return folders;
+}
+
+// Returns the file of a mesh's name, which may begin with package:// or file://.
+std::filesystem::path mesh_file(const std::string& name, const std::filesystem::path& urdf) {
+  constexpr std::string_view package = "package://", file = "file://";
+  if (name.starts_with(file)) return name.substr(file.size());
+  if (!name.starts_with(package)) return urdf.parent_path() / name;
+  const std::filesystem::path in_package = name.substr(package.size());
+  std::vector<std::filesystem::path> folders;
+  const std::filesystem::path start = std::filesystem::absolute(urdf).parent_path();
+  for (std::filesystem::path above = start; above != above.parent_path(); above = above.parent_path())
+    folders.push_back(above);
+  for (const auto& [variable, below] : {std::pair("ROS_PACKAGE_PATH", ""), {"AMENT_PREFIX_PATH", "share"}})
+    std::ranges::copy(folders_in(variable, below), std::back_inserter(folders));
+  std::error_code unknown;
+  for (const std::filesystem::path& folder : folders) {
+    if (std::filesystem::exists(folder / in_package, unknown)) return folder / in_package;
+    // The folder of the package itself may be above the URDF.
+    const std::filesystem::path inside = in_package.lexically_relative(*in_package.begin());
+    if (folder.filename() == *in_package.begin() && std::filesystem::exists(folder / inside, unknown))
+      return folder / inside;
+  }
+  throw IoError("not found in the folders above the URDF, in ROS_PACKAGE_PATH and in AMENT_PREFIX_PATH");
+}
+
+AnyVolume mesh_volume(const XMLElement& mesh, const Pose& pose, const std::filesystem::path& urdf) {
+  std::vector<Eigen::Vector3d> vertices = read_mesh_vertices(mesh_file(attribute(mesh, "filename"), urdf));
+  const Eigen::Vector3d scale = vector_of(mesh, "scale", 1);
+  for (Eigen::Vector3d& vertex : vertices)
+    vertex = pose * Eigen::Vector3d(scale.cwiseProduct(vertex));
+  const Fitted<Hull> hull = fit_hull(view(vertices));
+  if (hull.volume.empty()) throw IoError("has no valid vertex");
+  return hull.volume;
+}
+
+// Returns the volume of an element `geometry`.
+AnyVolume volume_of(const XMLElement& geometry, const Pose& pose, const std::filesystem::path& urdf) {
+  if (const XMLElement* const box = geometry.FirstChildElement("box")) {
+    const Eigen::Vector3d size = vector_of(*box, "size", -1);
+    if (!(size.minCoeff() > 0)) fail_at(*box, "size is not above 0");
+    return Obb(Eigen::Isometry3d(pose), size / 2);
+  }
+  if (const XMLElement* const sphere = geometry.FirstChildElement("sphere"))
+    return Sphere(pose.translation(), length_of(*sphere, "radius"));
+  if (const XMLElement* const cylinder = geometry.FirstChildElement("cylinder"))
+    return Cylinder(pose.translation(), pose.linear().col(2), length_of(*cylinder, "radius"),
+                    length_of(*cylinder, "length") / 2);
+  if (const XMLElement* const mesh = geometry.FirstChildElement("mesh")) {
+    try {
+      return mesh_volume(*mesh, pose, urdf);
+    } catch (const IoError& error) {
+      throw IoError(attribute(*mesh, "filename") + ": " + error.what());
+    }
+  }
+  fail_at(geometry, "the geometry is not a box, sphere, cylinder or mesh");
+}
+
+void read_shapes(const XMLElement& link, const std::filesystem::path& file, Urdf& urdf) {
+  const std::string name = attribute(link, "name");
+  for (const XMLElement* shape = link.FirstChildElement("collision"); shape != nullptr;
+       shape = shape->NextSiblingElement("collision")) {
+    const XMLElement* const geometry = shape->FirstChildElement("geometry");
+    if (geometry == nullptr) fail_at(*shape, "a collision has no geometry");
+    try {
+      urdf.shapes.push_back({name, volume_of(*geometry, origin_of(*shape), file)});
+    } catch (const IoError& error) {
+      if (geometry->FirstChildElement("mesh") == nullptr) throw;
+      urdf.warnings.push_back(printable("link " + name + ": " + error.what() + "; this shape is left out"));
+    }
+  }
+}
+
+UrdfJoint joint_of(const XMLElement& element) {
+  const XMLElement* const parent = element.FirstChildElement("parent");
+  const XMLElement* const child = element.FirstChildElement("child");
+  if (parent == nullptr || child == nullptr) fail_at(element, "a joint has no parent or no child");
+  UrdfJoint joint{attribute(element, "name"), attribute(*parent, "link"), attribute(*child, "link"),
+                  origin_of(element), attribute(element, "type") != "fixed"};
+  if (joint.parent.empty() || joint.child.empty()) fail_at(element, "a joint has a link without a name");
+  return joint;
+}
+
+}  // namespace
+
+Urdf read_urdf(const std::filesystem::path& file) {
+  try {
+    const std::string text = read_untrusted_text(file, kMaxUrdfBytes);
+    tinyxml2::XMLDocument document;  // limits the depth of elements
+    if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
+      throw IoError(std::string("not XML: ") + document.ErrorName() + " at line " +
+                    std::to_string(document.ErrorLineNum()));
+    const XMLElement* const robot = document.FirstChildElement("robot");
+    if (robot == nullptr) throw IoError("not a URDF: it has no element <robot>");
+    Urdf urdf;
+    for (const XMLElement* element = robot->FirstChildElement(); element != nullptr;
+         element = element->NextSiblingElement()) {
+      const std::string name = element->Name();
+      if (name == "joint") urdf.joints.push_back(joint_of(*element));
+      if (name == "link") read_shapes(*element, file, urdf);
+    }
+    return urdf;
+  } catch (const IoError& error) {
+    throw IoError(file.string() + ": " + error.what());
+  }
+}
+
+void Urdf::add_joints(Transforms& to) const {
+  for (const UrdfJoint& joint : joints)
+    if (!joint.moves) to.add_fixed(joint.parent, joint.child, joint.pose);
+}
+
+std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<std::string>& problems) const {
+  Transforms all;
+  for (const UrdfJoint& joint : joints)
+    all.add_fixed(joint.parent, joint.child, joint.pose);
+  const bool named = shapes.end() != std::find_if(shapes.begin(), shapes.end(),
+                                                  [&](const UrdfShape& shape) { return shape.link == frame; });
+  const bool joined = std::any_of(joints.begin(), joints.end(), [&](const UrdfJoint& joint) {
+    return joint.parent == frame || joint.child == frame;
+  });
+  if (!named && !joined) throw IoError("the URDF has no link " + frame);
+  std::vector<AnyVolume> volumes;
+  for (const UrdfShape& shape : shapes) {
+    const FoundTransform found = all.find(frame, shape.link, 0);
+    if (!found.pose) {
+      problems.push_back(printable("link " + shape.link + " is left out: " + found.problem));
+      continue;
+    }
+    const Eigen::Isometry3d pose(*found.pose);
+    volumes.push_back(std::visit(
+        [&](const auto& volume) -> AnyVolume {
+          using V = std::decay_t<decltype(volume)>;
+          if constexpr (std::is_same_v<V, Obb> || std::is_same_v<V, Sphere> || std::is_same_v<V, Cylinder> ||
+                        std::is_same_v<V, Hull>)
+            return volume.transformed(pose);
+          return volume;
+        },
+        shape.volume));
+  }
+  for (const UrdfJoint& joint : joints)
+    if (joint.moves)
+      problems.push_back(printable("joint " + joint.name + " moves: what hangs on it is taken at position 0"));
+  return volumes;
+}
+
+}  // namespace pcl_bv::detail
