@@ -64,14 +64,18 @@ bool PointFilter::keeps_all() const {
 
 // Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,
 // not on regions. The loop compares distances without a branch.
-template <typename T, typename Take>
-void PointFilter::each_distance(const PointView& points, const Take& take) const {
+template <typename T, bool from_origin, typename Take>
+void PointFilter::each_distance(const PointView& points, std::size_t begin, std::size_t end,
+                                const Eigen::Vector3d& from, const Take& take) const {
   const double min2 = min2_, max2 = max2_;  // copies, because members would be read again after each store
-  for (std::size_t i = 0; i < points.count; ++i) {
+  const double from_x = from.x(), from_y = from.y(), from_z = from.z();
+  for (std::size_t i = begin; i < end; ++i) {
     T p[3];
     load_point(points, i, p);
     const double x = p[0], y = p[1], z = p[2];
-    const double distance2 = (x * x + y * y) + z * z;
+    const double dx = from_origin ? x : x - from_x, dy = from_origin ? y : y - from_y,
+                 dz = from_origin ? z : z - from_z;
+    const double distance2 = (dx * dx + dy * dy) + dz * dz;
     // The squares of finite floats are finite in double, so one comparison replaces three.
     const bool valid =
         sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
@@ -86,9 +90,23 @@ void PointFilter::each_distance(const PointView& points, const Take& take) const
 }
 
 template <typename Take>
-void PointFilter::each_distance(const PointView& points, const Take& take) const {
-  points.scalar == ScalarType::float64 ? each_distance<double>(points, take)
-                                       : each_distance<float>(points, take);
+void PointFilter::each_distance(const PointView& points, const std::vector<SensorPart>& sensors,
+                                const Take& take) const {
+  const bool doubles = points.scalar == ScalarType::float64;
+  if (sensors.empty()) {
+    const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    return doubles ? each_distance<double, true>(points, 0, points.count, origin, take)
+                   : each_distance<float, true>(points, 0, points.count, origin, take);
+  }
+  // A merged cloud has no index list, so `points` are those from points.first on.
+  for (const SensorPart& sensor : sensors) {
+    const auto position = [&](std::size_t number) {
+      return std::clamp(number, points.first, points.first + points.count) - points.first;
+    };
+    const std::size_t begin = position(sensor.first), end = position(sensor.first + sensor.count);
+    doubles ? each_distance<double, false>(points, begin, end, sensor.position, take)
+            : each_distance<float, false>(points, begin, end, sensor.position, take);
+  }
 }
 
 void PointFilter::drop(const PointView& points, const RegionMask& mask, bool inside,
@@ -100,9 +118,10 @@ void PointFilter::drop(const PointView& points, const RegionMask& mask, bool ins
   }
 }
 
-void PointFilter::classify(const PointView& points, FilterScratch& scratch) const {
+void PointFilter::classify(const PointView& points, const std::vector<SensorPart>& sensors,
+                           FilterScratch& scratch) const {
   scratch.verdicts.resize(points.count);
-  each_distance(points, [&](std::size_t i, bool valid, bool kept) {
+  each_distance(points, sensors, [&](std::size_t i, bool valid, bool kept) {
     scratch.verdicts[i] = kept ? Verdict::kept : valid ? Verdict::range : Verdict::nonfinite;
   });
   if (dropped_) drop(points, *dropped_, true, scratch);
@@ -118,7 +137,8 @@ void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts) {
   counts.inside += of[static_cast<std::size_t>(Verdict::region)];
 }
 
-void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart& part) const {
+void PointFilter::select(const PointView& points, const std::vector<SensorPart>& sensors, std::int32_t* kept,
+                         FilterPart& part) const {
   std::size_t n = 0;
   const auto take = [&](std::size_t i, bool keep) {
     kept[n] = static_cast<std::int32_t>(points.index(i));
@@ -126,13 +146,13 @@ void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart
   };
   part.counts = {};
   if (dropped_ || cropped_) {
-    classify(points, part.scratch);
+    classify(points, sensors, part.scratch);
     count_verdicts(part.scratch.verdicts, part.counts);
     for (std::size_t i = 0; i < points.count; ++i)
       take(i, part.scratch.verdicts[i] == Verdict::kept);
   } else {
     std::size_t invalid = 0;
-    each_distance(points, [&](std::size_t i, bool valid, bool keep) {
+    each_distance(points, sensors, [&](std::size_t i, bool valid, bool keep) {
       invalid += !valid;
       take(i, keep);
     });
@@ -142,15 +162,15 @@ void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart
   part.kept = n;
 }
 
-void PointFilter::select(const PointView& points, const ParallelPolicy& policy,
-                         std::vector<std::int32_t>& kept, PointParts<FilterPart>& parts,
-                         Counts& counts) const {
+void PointFilter::select(const PointView& points, const std::vector<SensorPart>& sensors,
+                         const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
+                         PointParts<FilterPart>& parts, Counts& counts) const {
   if (points.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw std::length_error("more than 2147483647 points: too many to select from");
   kept.resize(points.count);
   parts.cut(points.count, policy);
   parts.for_each(policy, [&](FilterPart& part) {
-    select(points.slice(part.begin, part.end - part.begin), kept.data() + part.begin, part);
+    select(points.slice(part.begin, part.end - part.begin), sensors, kept.data() + part.begin, part);
   });
   std::int32_t* to = kept.data();
   for (const FilterPart& part : parts) {
@@ -164,7 +184,7 @@ void PointFilter::select(const PointView& points, const ParallelPolicy& policy,
 Counts FilteredPoints::count(const ParallelPolicy& policy) const {
   const auto count_chunk = [&](std::size_t chunk) {
     FilterScratch scratch;
-    filter_->classify(load_chunk(points_, chunk).view(), scratch);
+    filter_->classify(load_chunk(points_, chunk).view(), sensors_, scratch);
     Counts counts;
     count_verdicts(scratch.verdicts, counts);
     return counts;
@@ -178,7 +198,7 @@ PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector
   const std::size_t step = 3 * size_of(points_.scalar);
   if (buffer.size() < count * step) buffer.resize(count * step);
   FilterScratch scratch;
-  filter_->classify(part.view(), scratch);
+  filter_->classify(part.view(), sensors_, scratch);
   if (points_.scalar == ScalarType::float64) {
     copy_kept<double>(part.view(), scratch.verdicts, buffer.data());
   } else {

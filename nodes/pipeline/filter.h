@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/parallel/parts.h"
@@ -47,22 +48,25 @@ class PointFilter {
   /// Returns whether all finite points are kept.
   bool keeps_all() const;
 
-  /// Computes the verdict of each point. The points must be in memory. For float32, the relative error of a
-  /// distance is below 2e-16: the square of a float is exact in double, and only the two additions of the
-  /// three squares are rounded.
-  void classify(const PointView& points, FilterScratch& scratch) const;
+  /// Computes the verdict of each point. The points must be in memory. Distances are measured from the origin
+  /// or, in a merged cloud, from the sensor that measured the point. For float32 and the origin, the relative
+  /// error of a distance is below 2e-16: the square of a float is exact in double, and only the two additions
+  /// of the three squares are rounded.
+  void classify(const PointView& points, const std::vector<SensorPart>& sensors, FilterScratch& scratch) const;
 
   /// Replaces `kept` by the numbers of the points that are kept, in the order of the view. Counts the dropped
   /// points by reason in `counts`. Throws std::length_error for more than 2^31 - 1 points.
-  void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
-              PointParts<FilterPart>& parts, Counts& counts) const;
+  void select(const PointView& points, const std::vector<SensorPart>& sensors, const ParallelPolicy& policy,
+              std::vector<std::int32_t>& kept, PointParts<FilterPart>& parts, Counts& counts) const;
 
  private:
-  template <typename T, typename Take>
-  void each_distance(const PointView& points, const Take& take) const;
+  template <typename T, bool from_origin, typename Take>
+  void each_distance(const PointView& points, std::size_t begin, std::size_t end, const Eigen::Vector3d& from,
+                     const Take& take) const;
   template <typename Take>
-  void each_distance(const PointView& points, const Take& take) const;
-  void select(const PointView& points, std::int32_t* kept, FilterPart& part) const;
+  void each_distance(const PointView& points, const std::vector<SensorPart>& sensors, const Take& take) const;
+  void select(const PointView& points, const std::vector<SensorPart>& sensors, std::int32_t* kept,
+              FilterPart& part) const;
   void drop(const PointView& points, const RegionMask& mask, bool inside, FilterScratch& scratch) const;
 
   double min2_, max2_;
@@ -80,8 +84,8 @@ class FilteredPoints final : public PointSource {
  public:
   /// Stores the view, which must not have an index list, and the owner of its points.
   FilteredPoints(const PointView& points, std::shared_ptr<const void> owner,
-                 std::shared_ptr<const PointFilter> filter)
-      : points_(points), owner_(std::move(owner)), filter_(std::move(filter)) {}
+                 std::shared_ptr<const PointFilter> filter, std::vector<SensorPart> sensors = {})
+      : points_(points), owner_(std::move(owner)), filter_(std::move(filter)), sensors_(std::move(sensors)) {}
 
   /// Counts the dropped points by reason, in one pass over all points.
   Counts count(const ParallelPolicy& policy) const;
@@ -93,6 +97,7 @@ class FilteredPoints final : public PointSource {
   PointView points_;
   std::shared_ptr<const void> owner_;
   std::shared_ptr<const PointFilter> filter_;
+  std::vector<SensorPart> sensors_;
 };
 
 }  // namespace pcl_bv::detail

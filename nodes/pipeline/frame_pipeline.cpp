@@ -114,11 +114,12 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   if (!now.reads_points) return cloud;
   const bool listed = now.segments || cloud.indices != nullptr;
   if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
-    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter);
+    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter, frame.sensors);
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
-    now.filter->select(cloud, now.execution.parallel, result.passed_filter, parts, result.counts);
+    now.filter->select(cloud, frame.sensors, now.execution.parallel, result.passed_filter, parts,
+                       result.counts);
   }
   return result.points_after_filter(cloud);
 }
@@ -135,6 +136,7 @@ const Frame& FramePipeline::State::deskew(const Prepared& now, const Frame& fram
   moved.classes = frame.classes;
   moved.pose = frame.pose;
   moved.sensor = frame.sensor;
+  moved.sensors = frame.sensors;
   moved.recorded_ns = frame.recorded_ns;
   return moved;
 }
@@ -146,6 +148,7 @@ void FramePipeline::State::remember_pose(const Prepared& now, const Frame& frame
                     frame.pose.has_value());
 }
 
+// In a merged cloud, ranges are measured from each sensor, and the origin of the robot need not be one of them.
 // Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
 void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PipelineConfig& config = now.config;
@@ -159,7 +162,7 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
     return pcl_bv::find_sensor(frame.points, config.ground.up, position, result.ground.scratch);
   };
   result.sensor = find_around(Eigen::Vector3d::Zero());
-  result.around_origin = result.sensor.confirmed;
+  result.around_origin = result.sensor.confirmed || !frame.sensors.empty();
   if (config.ground.sensor) {
     result.sensor = find_around(*config.ground.sensor);
     result.sensor.position = *config.ground.sensor;

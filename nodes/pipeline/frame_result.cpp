@@ -205,6 +205,8 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
   report.error.reset();
   report.points = result.points;
   report.counts = result.counts;
+  for (const SensorPart& sensor : frame.sensors)
+    report.sensors.push_back({sensor.name, sensor.count, sensor.stamp_ns});
   if (result.deskew.moved())
     report.deskew = result.deskew.outcome == DeskewOutcome::by_poses ? "poses" : "tracks";
   const StageTimes& ms = result.ms;

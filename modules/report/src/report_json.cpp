@@ -119,6 +119,17 @@ void add_refinement(JsonText& json, Refinement refinement) {
   if (refinement == Refinement::joined) json.add("joined", true);
 }
 
+void add_sensors(const std::vector<SensorEntry>& sensors, JsonText& json) {
+  if (sensors.empty()) return;
+  json.key("sensors").begin('[');
+  for (const SensorEntry& sensor : sensors) {
+    json.begin('{').add("name", sensor.name).add("points", sensor.points);
+    if (sensor.points > 0) json.add("stamp_ns", sensor.stamp_ns);
+    json.end('}');
+  }
+  json.end(']');
+}
+
 void add_counts(const Counts& counts, JsonText& json) {
   json.key("counts").begin('{').add("nonfinite", counts.nonfinite).add("range", counts.range);
   json.add("ground", counts.ground).add("small", counts.small).add("large", counts.large);
@@ -190,6 +201,7 @@ std::string frame_json(const FrameReport& report, const ClusterSource& clusters)
   json.add("points", report.points);
   add_counts(report.counts, json);
   if (!report.deskew.empty()) json.add("deskew", report.deskew);
+  add_sensors(report.sensors, json);
   json.key("clusters").begin('[');
   for (std::size_t i = 0; i < clusters.count; ++i) {
     const ClusterEntry& cluster = clusters.at(i);

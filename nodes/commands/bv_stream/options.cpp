@@ -30,12 +30,13 @@ output not written; 2 wrong use or a bad configuration.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
-  std::string source, topic, rate, stamps, frame_id, poses, bin_fields, loop, stats, report;
-  std::vector<std::string> sinks;
+  std::string topic, rate, stamps, frame_id, poses, bin_fields, loop, stats, report;
+  std::vector<std::string> sources, sinks;
 };
 
 void declare_frames(CommandLine& line, Texts& t) {
-  line.option("--source", t.source, "SOURCE", source_syntax());
+  line.option("--source", t.sources, "SOURCE",
+              source_syntax() + "; repeatable with\n--target-frame, which merges the clouds of all sensors");
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option("--topic", t.topic, "NAME",
               "The topic of a recording, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
@@ -63,25 +64,30 @@ double number(const char* option, std::string_view text, double min, double max,
   reject_value(option, text, std::string("is not ") + allowed);
 }
 
+void claim_source(const std::string& source, OutputClaims& claims) {
+  claims.add_input(source);
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(source, unknown)) return;
+  try {
+    std::size_t subfolders = 0;
+    for (const std::filesystem::path& cloud : list_clouds(source, &subfolders))
+      claims.add_input(cloud);
+    warn_of_subfolders(source, subfolders);
+  } catch (const IoError& error) {
+    throw IoError(source + ": " + error.what());
+  }
+}
+
 // Throws UsageError if an output would overwrite an input or another output.
 void claim_outputs(const StreamOptions& options, const std::string& config) {
   OutputClaims claims;
-  claims.add_input(options.source);
+  for (const std::string& source : options.sources)
+    claim_source(source, claims);
+  if (!options.config.rig.urdf.empty()) claims.add_input(options.config.rig.urdf);
   if (!config.empty()) claims.add_input(config);
   for (const RegionConfig& region : options.config.pipeline.filter.regions)
     claims.add_input(region.file);
   if (!options.replay.poses.empty()) claims.add_input(options.replay.poses);
-  std::error_code unknown;
-  try {
-    if (std::filesystem::is_directory(options.source, unknown)) {
-      std::size_t subfolders = 0;
-      for (const std::filesystem::path& cloud : list_clouds(options.source, &subfolders))
-        claims.add_input(cloud);
-      warn_of_subfolders(options.source, subfolders);
-    }
-  } catch (const IoError& error) {
-    throw IoError(options.source + ": " + error.what());
-  }
   for (const SinkOptions& sink : options.sinks) {
     if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
@@ -91,9 +97,20 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   if (options.stats) claims.claim(*options.stats);
 }
 
+// Returns where all sources take the times of frames from. Sources with own times and sources without cannot
+// be merged, because their stamps have nothing in common.
+FrameTimes common_times(const std::vector<std::string>& sources) {
+  const FrameTimes times = source_kind(sources.front()).times;
+  for (const std::string& source : sources)
+    if (source_kind(source).times != times)
+      throw UsageError("--source: " + sources.front() + " and " + source +
+                       " are of different kinds and have no common stamps");
+  return times;
+}
+
 void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
   ReplayOptions& replay = options.replay;
-  const FrameTimes times = source_kind(t.source).times;
+  const FrameTimes times = common_times(options.sources);
   replay.frame_id = t.frame_id;
   replay.poses = t.poses;
   if (times == FrameTimes::live) {
@@ -124,7 +141,13 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
   StreamOptions options;
   options.config = std::move(config);
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
-  options.source = t.source;
+  options.sources = t.sources;
+  const bool merges = !options.config.rig.frame.empty();
+  if (t.sources.size() > 1 && !merges)
+    throw UsageError("--source: several sources need --target-frame, the frame of their merged clouds");
+  if (merges && line.given("--loop")) throw UsageError("--loop: not with --target-frame");
+  if (merges && line.given("--frame-id")) throw UsageError("--frame-id: not with --target-frame");
+  options.replay.point_times = options.config.pipeline.deskew != Deskew::off;
   read_replay(line, t, options);
   if (const auto& field = options.config.pipeline.cluster.class_field)
     options.replay.class_field = field->name;

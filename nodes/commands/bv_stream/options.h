@@ -26,7 +26,7 @@ enum class Rate : std::uint8_t {
 };
 
 struct StreamOptions {
-  std::string source;
+  std::vector<std::string> sources;  ///< Several only with config.rig.
   StreamConfig config;
   std::string range_from;  ///< Where the range was set, see SettingOptions::config().
   ReplayOptions replay;

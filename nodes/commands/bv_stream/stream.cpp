@@ -32,6 +32,29 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::chrono::milliseconds kPollInterval{50};  // longest time until a signal is noticed
 
+// Returns how messages name the source.
+std::string name_of(const StreamOptions& options) {
+  return options.config.rig.frame.empty() ? options.sources.front() : "rig";
+}
+
+std::unique_ptr<FrameSource> open(const StreamOptions& options) {
+  return parse_with("--source", options.sources.front(), [&](const std::string& name) {
+    return options.config.rig.frame.empty() ? open_source(name, options.replay)
+                                            : open_rig(options.sources, options.config.rig, options.replay);
+  });
+}
+
+// Returns the settings of the pipeline with the regions of the robot's own body.
+PipelineConfig pipeline_config(const StreamConfig& config) {
+  PipelineConfig pipeline = config.pipeline;
+  std::vector<std::string> warnings;
+  if (std::optional<RegionConfig> body = robot_body(config.rig, warnings))
+    pipeline.filter.regions.push_back(*std::move(body));
+  for (const std::string& warning : warnings)
+    report_problem(config.rig.urdf + ": " + warning);
+  return pipeline;
+}
+
 class Progress {
  public:
   void show(std::uint64_t frames, std::size_t objects, double milliseconds) {
@@ -93,7 +116,7 @@ class Reader {
  private:
   void print_warnings(FrameSource& source) const {
     for (const std::string& warning : source.take_warnings())
-      report_problem(options_.source + ": " + warning);
+      report_problem(name_of(options_) + ": " + warning);
   }
 
   // Returns whether to continue reading. Also prints the periodic reports, because wanted() is called
@@ -113,7 +136,8 @@ class Reader {
         std::this_thread::sleep_until(std::min(frame.taken, Clock::now() + kPollInterval));
     }
     if (!wanted()) return;
-    without_pose += !options_.replay.poses.empty() && !frame.pose;
+    const bool wants_pose = !options_.replay.poses.empty() || !options_.config.rig.fixed_frame.empty();
+    without_pose += wants_pose && !frame.pose;
     const Clock::time_point next = frame.taken + in_time(step_ - 2e-3 * frame.decode_ms);
     runner_.push(std::move(frame));
     if (paced()) leave_the_worker_alone(next);
@@ -210,9 +234,8 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
 }  // namespace
 
 int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
-  const std::unique_ptr<FrameSource> source = parse_with(
-      "--source", options.source, [&](const auto& name) { return open_source(name, options.replay); });
-  FramePipeline pipeline(options.config.pipeline);  // reads region files before outputs are opened
+  const std::unique_ptr<FrameSource> source = open(options);
+  FramePipeline pipeline(pipeline_config(options.config));  // reads region files before outputs are opened
   SinkGroup sinks(report_problem);
   for (const SinkOptions& sink : options.sinks)
     parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });

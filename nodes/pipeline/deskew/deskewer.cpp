@@ -14,13 +14,13 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kLongestStep = 1;  // seconds between two poses
+constexpr double kLongestPoseStep = 1;  // seconds between two poses
 constexpr double kMaxSpeed = 100;   // m/s; faster motions are jumps of the poses
 
 // Returns the seconds from one stamp to the next, or nullopt if the second frame does not follow the first.
 std::optional<double> seconds_between(std::int64_t before_ns, std::int64_t after_ns) {
   const double seconds = 1e-9 * (static_cast<double>(after_ns) - static_cast<double>(before_ns));
-  return seconds > 0 && seconds <= kLongestStep ? std::optional(seconds) : std::nullopt;
+  return seconds > 0 && seconds <= kLongestPoseStep ? std::optional(seconds) : std::nullopt;
 }
 
 double norm(const std::array<double, 3>& v) {

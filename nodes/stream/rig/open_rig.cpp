@@ -99,6 +99,22 @@ void add_transforms_of(const std::vector<std::string>& sources, const RigConfig&
 
 }  // namespace
 
+std::optional<RegionConfig> robot_body(const RigConfig& rig, std::vector<std::string>& warnings) {
+  if (!rig.self_filter) return std::nullopt;
+  throw_if_any(problems_of(rig));
+  const Urdf urdf = read_urdf(rig.urdf);
+  warnings.insert(warnings.end(), urdf.warnings.begin(), urdf.warnings.end());
+  RegionConfig body;
+  try {
+    body.volumes = urdf.volumes_in(rig.frame, warnings);
+    if (body.volumes.empty()) throw IoError("the robot has no collision shape that can be read");
+  } catch (const IoError& error) {
+    throw IoError(rig.urdf + ": " + error.what());
+  }
+  body.padding = *rig.self_filter;
+  return body;
+}
+
 std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
                                       const ReplayOptions& options) {
   throw_if_any(problems_of(rig));

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/nodes/pipeline_config.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -174,6 +175,12 @@ struct RigConfig {
 /// or the other way round, and IoError if the URDF cannot be read.
 std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
                                       const ReplayOptions& options = {});
+
+/// Returns the region of the collision shapes of `rig.urdf` in the frame `rig.frame`, inflated by
+/// `rig.self_filter`, for FilterConfig::regions. Returns nullopt if `rig.self_filter` is not set. Joints that
+/// move are at position 0. `warnings` gets a line for each such joint and for each shape that is left out.
+/// Throws IoError if the URDF cannot be read, or has no link `rig.frame` or no shape.
+std::optional<RegionConfig> robot_body(const RigConfig& rig, std::vector<std::string>& warnings);
 
 /// Creates a source from a function that fills the next frame and returns false at the end.
 /// FrameSource::next() rethrows the exceptions of the function.

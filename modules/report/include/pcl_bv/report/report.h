@@ -129,6 +129,13 @@ std::string report_text(const Report& report);
 /// report.clusters is ignored.
 void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
+/// The share of a sensor in a merged cloud.
+struct SensorEntry {
+  std::string name;
+  std::size_t points = 0;     ///< 0 if the sensor sent no cloud for this frame.
+  std::int64_t stamp_ns = 0;  ///< Stamp of its cloud, nanoseconds; left out of the JSON without points.
+};
+
 /// The result of one frame. If `error` is set, the frame was not processed, and only seq, stamp_ns, frame_id,
 /// file and error are valid.
 struct FrameReport {
@@ -140,6 +147,7 @@ struct FrameReport {
   Counts counts;              ///< Numbers of dropped points by reason.
   /// "poses" or "tracks" if the points were moved to the stamp by this motion; left out of the JSON if empty.
   std::string deskew{};
+  std::vector<SensorEntry> sensors{};  ///< Of a merged cloud; left out of the JSON if empty.
   std::vector<ClusterEntry> clusters;
   std::vector<std::pair<std::string, double>> ms;  ///< Milliseconds of each stage, in the stages' order.
   std::optional<std::string> error;                ///< Reason of the failure, if any.
