@@ -63,6 +63,7 @@ struct ReceivedMessage {
   std::size_t size = 0;
   std::shared_ptr<const void> owner;  ///< Keeps the bytes alive.
   std::int64_t sent_ns = 0;           ///< Time of sending, nanoseconds of the sender's system clock.
+  std::size_t type = 0;               ///< Index of the message's type in the types of the receiver.
 };
 
 /// Receives the messages of one topic. Called by one thread.
@@ -83,10 +84,13 @@ class Middleware {
  public:
   virtual ~Middleware() = default;
 
-  /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). Throws
-  /// IoError if the network cannot be used. Throws std::invalid_argument for an invalid topic name or an
+  /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). If there are
+  /// several types, the publishers of the topic decide: the receiver takes the first type until a publisher
+  /// of another one appears while there is none of the type that it takes. Throws IoError if the network
+  /// cannot be used. Throws std::invalid_argument if `types` is empty, for an invalid topic name or for an
   /// invalid value of an environment variable.
-  virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) = 0;
+  virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic,
+                                                    const std::vector<std::string>& types) = 0;
 
   /// Creates a sender. `address` is for modules that need an address ("localhost:8765"). Throws as
   /// receiver().
@@ -111,5 +115,5 @@ using MiddlewareInstance = Middleware* (*)();
 inline constexpr const char* kMiddlewareVersion = "pcl_bv_middleware_version";
 inline constexpr const char* kMiddlewareInstance = "pcl_bv_middleware";
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

@@ -97,7 +97,7 @@ TEST_F(Dds, AnswersACloudWithItsObjects) {
                 {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none",
                  "--queue", "100"});  // clouds come until one is answered: none is dropped on a busy machine
   Talk talk("");
-  const auto markers = middleware("dds").receiver("/bv/markers", "visualization_msgs/msg/MarkerArray");
+  const auto markers = middleware("dds").receiver("/bv/markers", {"visualization_msgs/msg/MarkerArray"});
   ASSERT_TRUE(talk.heard());
   ReceivedMessage message;
   ASSERT_TRUE(wait_for([&] {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "../recording/made_packets.h"
+#include "message_bytes.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/recording/mcap_writer.h"
@@ -145,6 +146,10 @@ void write_recordings(const fs::path& folder) {
   };
   write(folder / "cloud" / "cdr", text(bytes));
   write(folder / "cloud" / "ros1", text(ros1));
+  using test::Encoding;
+  write(folder / "cloud" / "livox_cdr", text(test::livox_message(Encoding::cdr, 3)));
+  write(folder / "cloud" / "livox_big", text(test::livox_message(Encoding::big_endian_cdr, 3)));
+  write(folder / "cloud" / "livox_ros1", text(test::livox_message(Encoding::ros1, 3)));
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
     McapWriter writer(folder / "mcap" / std::to_string(static_cast<int>(compression)), {compression, 200});
     writer.add_topic({"/points", msg::PointCloud2::ros_type, "uint8 x\n", {}});

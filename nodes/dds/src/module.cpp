@@ -10,8 +10,9 @@ namespace {
 
 class Dds final : public Middleware {
  public:
-  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) override {
-    return make_receiver(topic, type);
+  std::unique_ptr<MessageReceiver> receiver(const std::string& topic,
+                                            const std::vector<std::string>& types) override {
+    return make_receiver(topic, types);
   }
   std::unique_ptr<MessageSender> carrier(const std::string&) override { return make_sender(); }
 };

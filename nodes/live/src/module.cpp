@@ -10,7 +10,8 @@ namespace {
 
 class WebSockets final : public Middleware {
  public:
-  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string&) override {
+  std::unique_ptr<MessageReceiver> receiver(const std::string& topic,
+                                            const std::vector<std::string>&) override {
     throw std::invalid_argument(in_quotes(topic) + ": ws: cannot be used as a source");
   }
   std::unique_ptr<MessageSender> carrier(const std::string& address) override {
