@@ -91,4 +91,26 @@ inline std::vector<std::byte> livox_message(Encoding encoding, std::uint32_t poi
   return message.bytes();
 }
 
+/// The description of a compressed cloud. `format` is left out in ROS 1.
+struct CompressedCloud {
+  std::uint32_t height = 1, width = 0, point_step = 16, row_step = 0;
+  std::string format;
+};
+
+/// CompressedPointCloud2 with the float32 fields x, y, z and intensity.
+inline std::vector<std::byte> compressed_message(Encoding encoding, const CompressedCloud& cloud,
+                                                 const std::vector<std::byte>& compressed) {
+  MessageBytes message(encoding);
+  message.header(5, 6, "lidar").number(cloud.height).number(cloud.width).number(std::uint32_t{4});
+  std::uint32_t offset = 0;
+  for (const char* name : {"x", "y", "z", "intensity"}) {
+    message.text(name).number(offset).number(std::uint8_t{7}).number(std::uint32_t{1});
+    offset += 4;
+  }
+  message.number(std::uint8_t{0}).number(cloud.point_step).number(cloud.row_step).blob(compressed);
+  message.number(std::uint8_t{1});
+  if (encoding != Encoding::ros1) message.text(cloud.format);
+  return message.bytes();
+}
+
 }  // namespace pcl_bv::test

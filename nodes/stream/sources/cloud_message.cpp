@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "compressed_cloud.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/messages/livox.h"
@@ -18,6 +19,7 @@ constexpr std::pair<const char*, CloudType> kCloudTypes[]{
     {msg::PointCloud2::ros_type, CloudType::point_cloud2},
     {msg::CustomMsg::ros_type, CloudType::livox},
     {msg::CustomMsg::old_ros_type, CloudType::livox},
+    {msg::CompressedPointCloud2::ros_type, CloudType::compressed},
 };
 
 template <class Cloud>
@@ -29,6 +31,10 @@ Cloud parse(const CloudMessage& message) {
     read_cdr(message.data, message.size, cloud);
   }
   return cloud;
+}
+
+DecompressedCloud decompressed(const CloudMessage& message) {
+  return decompress(parse<msg::CompressedPointCloud2>(message));
 }
 
 // Turns a parsed cloud into a frame. `owner` keeps the data of the cloud alive.
@@ -84,7 +90,8 @@ const std::vector<std::string>& detail::cloud_type_names() {
 
 RawCloud detail::raw_cloud_in(const CloudMessage& message) {
   if (message.type == CloudType::livox) return raw_cloud_of(parse<msg::CustomMsg>(message));
-  return raw_cloud_of(cloud_in(message));
+  if (message.type == CloudType::point_cloud2) return raw_cloud_of(cloud_in(message));
+  return raw_cloud_of(decompressed(message).cloud);
 }
 
 msg::PointCloud2 cloud_in(const CloudMessage& message) {
@@ -94,7 +101,10 @@ msg::PointCloud2 cloud_in(const CloudMessage& message) {
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame) {
   if (message.type == CloudType::livox)
     return read_parsed(parse<msg::CustomMsg>(message), message.owner, class_field, frame);
-  read_cloud_message(cloud_in(message), message.owner, class_field, frame);
+  if (message.type == CloudType::point_cloud2)
+    return read_cloud_message(cloud_in(message), message.owner, class_field, frame);
+  const DecompressedCloud made = decompressed(message);
+  read_cloud_message(made.cloud, made.owner, class_field, frame);
 }
 
 void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<const void>& owner,

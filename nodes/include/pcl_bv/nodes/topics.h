@@ -27,7 +27,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Types of messages that are clouds.
 enum class CloudType : std::uint8_t {
   point_cloud2,  ///< sensor_msgs/msg/PointCloud2.
-  livox          ///< livox_ros_driver2/msg/CustomMsg or livox_ros_driver/msg/CustomMsg.
+  livox,         ///< livox_ros_driver2/msg/CustomMsg or livox_ros_driver/msg/CustomMsg.
+  compressed     ///< point_cloud_interfaces/msg/CompressedPointCloud2.
 };
 
 /// A serialised message and the owner of its bytes.

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "compressed_cloud.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/recording/decompress.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr std::uint64_t kMaxCloudBytes = std::uint64_t{512} << 20U;
+
+// Returns the number of bytes that the message announces. Some drivers write the height 0 or a wrong
+// row_step, which is no error if the data fits the points (view_points()), so that the larger number counts.
+std::size_t announced_bytes(const msg::CompressedPointCloud2& message) {
+  const std::uint64_t packed = std::uint64_t{message.width} * message.point_step;
+  const std::uint64_t row = std::max<std::uint64_t>(packed, message.row_step);
+  const std::uint64_t rows = std::max(message.height, 1U);
+  if (row > kMaxCloudBytes / rows)
+    throw MessageError("the compressed cloud announces " + std::to_string(message.height) + " rows of " +
+                       std::to_string(row) + " bytes; 512 MiB are allowed");
+  return static_cast<std::size_t>(row * rows);
+}
+
+std::vector<std::byte> decompress_data(const msg::CompressedPointCloud2& message) {
+  const std::size_t limit = announced_bytes(message);
+  const auto [data, size] = message.compressed_data;
+  if (message.format == "zlib") return decompress_zlib(data, size, limit);
+  if (message.format == "zstd") return decompress_zstd(data, size, limit);
+  throw MessageError("the cloud is compressed as " + in_quotes(message.format) + ", not as zlib or zstd");
+}
+
+}  // namespace
+
+DecompressedCloud decompress(const msg::CompressedPointCloud2& message) {
+  const auto bytes = std::make_shared<std::vector<std::byte>>();
+  try {
+    *bytes = decompress_data(message);
+  } catch (const IoError& error) {
+    throw MessageError(std::string("the compressed cloud: ") + error.what());
+  }
+  DecompressedCloud made;
+  made.owner = bytes;
+  made.cloud.header = message.header;
+  made.cloud.height = message.height;
+  made.cloud.width = message.width;
+  made.cloud.fields = message.fields;
+  made.cloud.is_bigendian = message.is_bigendian;
+  made.cloud.point_step = message.point_step;
+  made.cloud.row_step = message.row_step;
+  made.cloud.data = {bytes->data(), bytes->size()};
+  made.cloud.is_dense = message.is_dense;
+  return made;
+}
+
+}  // namespace pcl_bv::detail
