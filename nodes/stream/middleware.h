@@ -108,11 +108,15 @@ class Middleware {
 /// library. Throws IoError if the module is not installed or has another version.
 Middleware& middleware(const std::string& name);
 
-/// Functions that a module exports as `extern "C"`. They return the module's version, which must equal the
-/// version of the library, and its Middleware object.
-using MiddlewareVersion = const char* (*)();
+/// Returns a function that a module exports as `extern "C"`. Loads the module as middleware() does, and
+/// throws as it, also if the module does not have the function.
+void* module_function(const std::string& name, const char* function);
+
+/// Functions that a module exports as `extern "C"`: in every module one that returns the module's version,
+/// which must equal the version of the library, and in those of middleware() one that returns the object.
+using ModuleVersion = const char* (*)();
 using MiddlewareInstance = Middleware* (*)();
-inline constexpr const char* kMiddlewareVersion = "pcl_bv_middleware_version";
+inline constexpr const char* kModuleVersion = "pcl_bv_module_version";
 inline constexpr const char* kMiddlewareInstance = "pcl_bv_middleware";
 
 }  // namespace gnu::visibility("default")]]detail

@@ -188,6 +188,9 @@ TEST_F(CompressedClouds, ThatAnnounceMoreThanTheyHaveAreRefused) {
 TEST_F(CompressedClouds, OfAnotherFormatNameIt) {
   EXPECT_THAT(refusal(test::compressed_message(Encoding::cdr, described("cloudini"), {})),
               HasSubstr("compressed as 'cloudini'"));
+  // This test does not lie next to the folder of the modules.
+  EXPECT_THAT(refusal(test::compressed_message(Encoding::cdr, described("draco"), {})),
+              HasSubstr("pcl_bv_draco.so is not installed; it belongs to the component `draco`"));
 }
 
 TEST_F(CompressedClouds, CutAnywhereInTheMessageAreRefused) {

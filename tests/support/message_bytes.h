@@ -91,22 +91,28 @@ inline std::vector<std::byte> livox_message(Encoding encoding, std::uint32_t poi
   return message.bytes();
 }
 
+/// sensor_msgs/PointField with a count of 1.
+struct CloudField {
+  std::string name;
+  std::uint32_t offset;
+  std::uint8_t datatype;
+};
+
 /// The description of a compressed cloud. `format` is left out in ROS 1.
 struct CompressedCloud {
   std::uint32_t height = 1, width = 0, point_step = 16, row_step = 0;
   std::string format;
+  std::vector<CloudField> fields{{"x", 0, 7}, {"y", 4, 7}, {"z", 8, 7}, {"intensity", 12, 7}};
 };
 
-/// CompressedPointCloud2 with the float32 fields x, y, z and intensity.
+/// CompressedPointCloud2 with the stamp 5.000000006 s in the frame lidar.
 inline std::vector<std::byte> compressed_message(Encoding encoding, const CompressedCloud& cloud,
                                                  const std::vector<std::byte>& compressed) {
   MessageBytes message(encoding);
-  message.header(5, 6, "lidar").number(cloud.height).number(cloud.width).number(std::uint32_t{4});
-  std::uint32_t offset = 0;
-  for (const char* name : {"x", "y", "z", "intensity"}) {
-    message.text(name).number(offset).number(std::uint8_t{7}).number(std::uint32_t{1});
-    offset += 4;
-  }
+  message.header(5, 6, "lidar").number(cloud.height).number(cloud.width);
+  message.number(static_cast<std::uint32_t>(cloud.fields.size()));
+  for (const CloudField& field : cloud.fields)
+    message.text(field.name).number(field.offset).number(field.datatype).number(std::uint32_t{1});
   message.number(std::uint8_t{0}).number(cloud.point_step).number(cloud.row_step).blob(compressed);
   message.number(std::uint8_t{1});
   if (encoding != Encoding::ros1) message.text(cloud.format);

@@ -20,7 +20,7 @@ class Dds final : public Middleware {
 }  // namespace
 }  // namespace pcl_bv::dds
 
-extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version() {
+extern "C" [[gnu::visibility("default")]] const char* pcl_bv_module_version() {
   return PCL_BV_VERSION;
 }
 

@@ -22,7 +22,7 @@ class WebSockets final : public Middleware {
 }  // namespace
 }  // namespace pcl_bv::live
 
-extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version() {
+extern "C" [[gnu::visibility("default")]] const char* pcl_bv_module_version() {
   return PCL_BV_VERSION;
 }
 

@@ -20,6 +20,7 @@ constexpr std::pair<const char*, CloudType> kCloudTypes[]{
     {msg::CustomMsg::ros_type, CloudType::livox},
     {msg::CustomMsg::old_ros_type, CloudType::livox},
     {msg::CompressedPointCloud2::ros_type, CloudType::compressed},
+    {msg::DracoPointCloud2::ros_type, CloudType::compressed_draco},
 };
 
 template <class Cloud>
@@ -34,6 +35,7 @@ Cloud parse(const CloudMessage& message) {
 }
 
 DecompressedCloud decompressed(const CloudMessage& message) {
+  if (message.type == CloudType::compressed_draco) return decompress(parse<msg::DracoPointCloud2>(message));
   return decompress(parse<msg::CompressedPointCloud2>(message));
 }
 

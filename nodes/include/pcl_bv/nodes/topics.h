@@ -28,7 +28,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 enum class CloudType : std::uint8_t {
   point_cloud2,  ///< sensor_msgs/msg/PointCloud2.
   livox,         ///< livox_ros_driver2/msg/CustomMsg or livox_ros_driver/msg/CustomMsg.
-  compressed     ///< point_cloud_interfaces/msg/CompressedPointCloud2.
+  compressed,    ///< point_cloud_interfaces/msg/CompressedPointCloud2.
+  /// draco_point_cloud_transport/CompressedPointCloud2 of ROS 1.
+  compressed_draco
 };
 
 /// A serialised message and the owner of its bytes.
