@@ -56,7 +56,7 @@ class Talk {
  public:
   Talk()
       : carrier_(middleware("dds").carrier("")),
-        markers_(middleware("dds").receiver("/bv/markers", msg::MarkerArray::ros_type)),
+        markers_(middleware("dds").receiver("/bv/markers", {msg::MarkerArray::ros_type})),
         points_(carrier_->add_topic({"/points", msg::PointCloud2::ros_type})) {
     for (std::size_t i = 0; i < (tiny() ? 1U : 20U); ++i)
       clouds_.push_back(cloud_message(i));

@@ -1,6 +1,6 @@
 include(CMakePackageConfigHelpers)
 set(libraries ${PCL_BV_COMPONENTS})
-list(REMOVE_ITEM libraries dds live ros1 mpi python) # modules, a node and a command, which nobody links
+list(REMOVE_ITEM libraries dds draco live ros1 mpi python) # modules, a node and a command, which nobody links
 list(REMOVE_ITEM libraries segmentation)              # a part of core
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_bv)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/pcl_bvConfig.cmake.in

@@ -37,34 +37,35 @@ fs::path module_of(const std::string& name) {
   throw IoError(file.filename().string() + " is not installed; it belongs to the component `" + name + "`");
 }
 
-template <typename Function>
-Function function_of(void* module, const char* name) {
-  return reinterpret_cast<Function>(dlsym(module, name));
-}
-
-Middleware& load(const std::string& name) {
+// Loads a module and checks its version.
+void* load(const std::string& name) {
   const fs::path file = module_of(name);
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
     const char* const why = dlerror();
     throw IoError(why == nullptr ? file.string() + ": cannot be loaded" : why);
   }
-  const auto version = function_of<MiddlewareVersion>(module, kMiddlewareVersion);
-  const auto instance = function_of<MiddlewareInstance>(module, kMiddlewareInstance);
-  if (version == nullptr || instance == nullptr || std::strcmp(version(), PCL_BV_VERSION) != 0)
+  const auto version = reinterpret_cast<ModuleVersion>(dlsym(module, kModuleVersion));
+  if (version == nullptr || std::strcmp(version(), PCL_BV_VERSION) != 0)
     throw IoError(file.string() + ": its version is not " PCL_BV_VERSION ", that of this library");
-  return *instance();
+  return module;
 }
 
 }  // namespace
 
-Middleware& middleware(const std::string& name) {
+void* module_function(const std::string& name, const char* function) {
   static std::mutex mutex;
-  static std::map<std::string, Middleware*> loaded;
+  static std::map<std::string, void*> loaded;
   const std::lock_guard lock(mutex);
-  Middleware*& module = loaded[name];
-  if (module == nullptr) module = &load(name);
-  return *module;
+  void*& module = loaded[name];
+  if (module == nullptr) module = load(name);
+  void* const found = dlsym(module, function);
+  if (found == nullptr) throw IoError("the module " + name + " has no function " + function);
+  return found;
+}
+
+Middleware& middleware(const std::string& name) {
+  return *reinterpret_cast<MiddlewareInstance>(module_function(name, kMiddlewareInstance))();
 }
 
 }  // namespace pcl_bv::detail

@@ -63,6 +63,7 @@ struct ReceivedMessage {
   std::size_t size = 0;
   std::shared_ptr<const void> owner;  ///< Keeps the bytes alive.
   std::int64_t sent_ns = 0;           ///< Time of sending, nanoseconds of the sender's system clock.
+  std::size_t type = 0;               ///< Index of the message's type in the types of the receiver.
 };
 
 /// Receives the messages of one topic. Called by one thread.
@@ -90,10 +91,13 @@ class Middleware {
  public:
   virtual ~Middleware() = default;
 
-  /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). Throws
-  /// IoError if the network cannot be used. Throws std::invalid_argument for an invalid topic name or an
+  /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). If there are
+  /// several types, the publishers of the topic decide: the receiver takes the first type until a publisher
+  /// of another one appears while there is none of the type that it takes. Throws IoError if the network
+  /// cannot be used. Throws std::invalid_argument if `types` is empty, for an invalid topic name or for an
   /// invalid value of an environment variable.
-  virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type,
+  virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic,
+                                                    const std::vector<std::string>& types,
                                                     Delivery delivery = Delivery::newest) = 0;
 
   /// Creates a sender. `address` is for modules that need an address ("localhost:8765"). Throws as
@@ -112,12 +116,16 @@ class Middleware {
 /// library. Throws IoError if the module is not installed or has another version.
 Middleware& middleware(const std::string& name);
 
-/// Functions that a module exports as `extern "C"`. They return the module's version, which must equal the
-/// version of the library, and its Middleware object.
-using MiddlewareVersion = const char* (*)();
+/// Returns a function that a module exports as `extern "C"`. Loads the module as middleware() does, and
+/// throws as it, also if the module does not have the function.
+void* module_function(const std::string& name, const char* function);
+
+/// Functions that a module exports as `extern "C"`: in every module one that returns the module's version,
+/// which must equal the version of the library, and in those of middleware() one that returns the object.
+using ModuleVersion = const char* (*)();
 using MiddlewareInstance = Middleware* (*)();
-inline constexpr const char* kMiddlewareVersion = "pcl_bv_middleware_version";
+inline constexpr const char* kModuleVersion = "pcl_bv_module_version";
 inline constexpr const char* kMiddlewareInstance = "pcl_bv_middleware";
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

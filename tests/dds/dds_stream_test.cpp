@@ -4,6 +4,7 @@
 // bv_stream between the topics of ROS 2.
 
 #include <gmock/gmock.h>
+#include <zstd.h>
 
 #include <cmath>
 #include <cstring>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dds_test.h"
+#include "message_bytes.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
@@ -97,7 +99,7 @@ TEST_F(Dds, AnswersACloudWithItsObjects) {
                 {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none",
                  "--queue", "100"});  // clouds come until one is answered: none is dropped on a busy machine
   Talk talk("");
-  const auto markers = middleware("dds").receiver("/bv/markers", "visualization_msgs/msg/MarkerArray");
+  const auto markers = middleware("dds").receiver("/bv/markers", {"visualization_msgs/msg/MarkerArray"});
   ASSERT_TRUE(talk.heard());
   ReceivedMessage message;
   ASSERT_TRUE(wait_for([&] {
@@ -209,6 +211,33 @@ TEST_F(Dds, SaysWhatToTypeWhereTheKernelsBuffersAreSmall) {
   EXPECT_EQ(node.end(SIGINT), 0);
   const std::string command = "sudo sysctl -w net.core.rmem_max=8388608\n";
   EXPECT_EQ(text_of(at("err")).find(command) != std::string::npos, most < 8388608) << most;
+}
+
+// Clouds of a Livox, and compressed ones of 400 points.
+TEST_F(Dds, ReadsTheTypeOfCloudsThatIsPublished) {
+  const Bytes raw(std::size_t{16} * 400, std::byte{0x3f});
+  Bytes packed(ZSTD_compressBound(raw.size()));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), 1));
+  const std::pair<const char*, Bytes> clouds[]{
+      {"livox_ros_driver2/msg/CustomMsg", livox_message(Encoding::cdr, 400)},
+      {"livox_ros_driver/msg/CustomMsg", livox_message(Encoding::cdr, 400)},
+      {"point_cloud_interfaces/msg/CompressedPointCloud2",
+       compressed_message(Encoding::cdr, CompressedCloud{1, 400, 16, 6400, "zstd"}, packed)}};
+  for (const auto& [type, bytes] : clouds) {
+    std::filesystem::remove(at("out"));
+    BvStream node(at("err"), {"--source", "dds:/points", "--sink", "jsonl:" + at("out"), "--ground", "none"});
+    const auto carrier = middleware("dds").carrier("");
+    const std::size_t topic = carrier->add_topic({"/points", type});
+    EXPECT_TRUE(wait_for([&] {
+      carrier->send(topic, 0, bytes);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return lines_of(at("out")) > 0;
+    })) << type
+        << node.errors();
+    EXPECT_THAT(text_of(at("out")), HasSubstr("\"points\":400,")) << type;
+    EXPECT_EQ(node.end(SIGINT), 0);
+    EXPECT_THAT(node.errors(), testing::Not(HasSubstr("publisher ignored"))) << type;
+  }
 }
 
 TEST_F(Dds, SaysThatATopicHasAnotherType) {

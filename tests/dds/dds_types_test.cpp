@@ -12,6 +12,7 @@
 #include <random>
 
 #include "dds_test.h"
+#include "pcl_bv/messages/livox.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 #include "stream/middleware.h"
@@ -101,7 +102,7 @@ TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
   Middleware& dds = middleware("dds");
   const auto carrier = dds.carrier("");
   const std::size_t out = carrier->add_topic({"/out", type});
-  const auto back = dds.receiver("/back", type);
+  const auto back = dds.receiver("/back", {type});
 
   const dds_entity_t participant = dds_create_participant(own_domain(), nullptr, nullptr);
   ASSERT_GT(participant, 0);
@@ -139,6 +140,61 @@ TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
     ASSERT_EQ(unpadded(received.data, received.size), sent) << "round " << round;
   }
   EXPECT_TRUE(carrier->take_warnings().empty());
+  dds_delete(participant);
+}
+
+class DdsClouds : public DdsTest {};
+
+// Cyclone writes the clouds of a Livox from their definition. The receiver would rather have PointCloud2.
+TEST_F(DdsClouds, OfALivoxAreFoundByTheTypeOfTheirPublisher) {
+  const auto receiver =
+      middleware("dds").receiver("/livox", {msg::PointCloud2::ros_type, msg::CustomMsg::ros_type});
+  const dds_entity_t participant = dds_create_participant(own_domain(), nullptr, nullptr);
+  ASSERT_GT(participant, 0);
+  const dds_entity_t writer =
+      dds_create_writer(participant,
+                        dds_create_topic(participant, &livox_ros_driver2_msg_dds__CustomMsg__desc, "rt/livox",
+                                         nullptr, nullptr),
+                        nullptr, nullptr);
+  ASSERT_GT(writer, 0);
+  using Point = livox_ros_driver2_msg_dds__CustomPoint_;
+  std::vector<Point> points;
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    const auto number = static_cast<float>(i);
+    const auto byte = static_cast<std::uint8_t>(i);
+    points.push_back({1000 * i, number, number + 0.5F, -number, byte, 16, byte});
+  }
+  livox_ros_driver2_msg_dds__CustomMsg_ sent{};
+  sent.timebase = 1'234'567'890'123;
+  std::string frame = "livox_frame";
+  sent.header.frame_id = frame.data();
+  sent.points._buffer = points.data();
+  sent.points._length = sent.points._maximum = 7;
+  ReceivedMessage received;
+  ASSERT_TRUE(wait_for([&] {
+    EXPECT_EQ(dds_write(writer, &sent), DDS_RETCODE_OK);
+    return receiver->next(received, std::chrono::milliseconds(50));
+  }));
+  EXPECT_EQ(received.type, 1U);
+  msg::CustomMsg message;
+  read_cdr(received.data, received.size, message);
+  EXPECT_EQ(message.timebase, sent.timebase);
+  const auto view = view_points(message);
+  ASSERT_TRUE(view);
+  ASSERT_EQ(view->count, 7U);
+  const auto times = view_times(message), intensity = view_intensity(message);
+  ASSERT_TRUE(times && intensity);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const auto number = static_cast<double>(i);
+    const Coordinates p = load_point(*view, i);
+    EXPECT_EQ(p.x, number);
+    EXPECT_EQ(p.y, number + 0.5);
+    EXPECT_EQ(p.z, -number);
+    EXPECT_EQ(times->number(i), 1000 * number);
+    EXPECT_EQ(intensity->number(i), number);
+  }
+  for (const std::string& warning : receiver->take_warnings())
+    EXPECT_EQ(warning.find("publisher ignored"), std::string::npos) << warning;
   dds_delete(participant);
 }
 

@@ -4,13 +4,15 @@
 #include <cstdint>
 
 #include "pcl_bv/messages/cloud.h"
+#include "pcl_bv/messages/livox.h"
 #include "pcl_bv/messages/serialize.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 // A view and a copy agree to the bit.
-void look(const msg::PointCloud2& cloud) {
+template <class Cloud>
+void look(const Cloud& cloud) {
   const std::optional<PointView> view = view_points(cloud);
   const RawCloud copy = raw_cloud_of(cloud);
   if (!view || view->count == 0) return;
@@ -21,17 +23,11 @@ void look(const msg::PointCloud2& cloud) {
   }
 }
 
-}  // namespace
-}  // namespace pcl_bv::detail
-
-// Any bytes as sensor_msgs/PointCloud2 of ROS 2 and of ROS 1.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace pcl_bv;
-  using namespace pcl_bv::detail;
-  const auto* const bytes = reinterpret_cast<const std::byte*>(data);
+template <class Cloud>
+void look_at_both_encodings(const std::byte* bytes, std::size_t size) {
   for (const bool ros1 : {false, true}) {
     try {
-      msg::PointCloud2 cloud;
+      Cloud cloud;
       if (ros1) {
         read_ros1(bytes, size, cloud);
       } else {
@@ -41,5 +37,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const MessageError&) {
     }
   }
+}
+
+}  // namespace
+}  // namespace pcl_bv::detail
+
+// Any bytes as sensor_msgs/PointCloud2 and as the clouds of Livox' drivers, of ROS 2 and of ROS 1.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace pcl_bv;
+  const auto* const bytes = reinterpret_cast<const std::byte*>(data);
+  detail::look_at_both_encodings<msg::PointCloud2>(bytes, size);
+  detail::look_at_both_encodings<msg::CustomMsg>(bytes, size);
   return 0;
 }

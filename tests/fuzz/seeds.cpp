@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // seeds FOLDER: small clouds of every layout and encoding, as the fuzzers' first inputs.
+#include <libdeflate.h>
+
 #include <filesystem>
 #include <fstream>
 
 #include "../recording/made_packets.h"
+#include "codecs.h"
+#include "message_bytes.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/recording/mcap_writer.h"
@@ -128,6 +132,22 @@ void write_partials(const fs::path& folder) {
         heading(5000) + results(5000, bytes_of(none, one) + point + bytes_of(one) + node));
 }
 
+std::vector<std::byte> zstd_of(const std::string& raw) {
+  std::vector<std::byte> packed;
+  Compressor().compress(Compression::zstd, reinterpret_cast<const std::byte*>(raw.data()), raw.size(),
+                        packed);
+  return packed;
+}
+
+std::vector<std::byte> deflated(const std::string& raw, bool gzip) {
+  libdeflate_compressor* const compressor = libdeflate_alloc_compressor(6);
+  std::vector<std::byte> packed(raw.size() + 100);
+  const auto compress = gzip ? libdeflate_gzip_compress : libdeflate_zlib_compress;
+  packed.resize(compress(compressor, raw.data(), raw.size(), packed.data(), packed.size()));
+  libdeflate_free_compressor(compressor);
+  return packed;
+}
+
 // A cloud as a message of both encodings, recordings of it, and a packet.
 void write_recordings(const fs::path& folder) {
   const std::string points(48, '\x3f');
@@ -145,6 +165,17 @@ void write_recordings(const fs::path& folder) {
   };
   write(folder / "cloud" / "cdr", text(bytes));
   write(folder / "cloud" / "ros1", text(ros1));
+  using test::Encoding;
+  write(folder / "cloud" / "livox_cdr", text(test::livox_message(Encoding::cdr, 3)));
+  write(folder / "cloud" / "livox_big", text(test::livox_message(Encoding::big_endian_cdr, 3)));
+  write(folder / "cloud" / "livox_ros1", text(test::livox_message(Encoding::ros1, 3)));
+  test::CompressedCloud packed{1, 3, 16, 48, "zstd"};
+  write(folder / "compressed" / "zstd",
+        text(test::compressed_message(Encoding::cdr, packed, zstd_of(points))));
+  packed.format = "zlib";
+  for (const char* name : {"zlib", "gzip"})
+    write(folder / "compressed" / name,
+          text(test::compressed_message(Encoding::cdr, packed, deflated(points, *name == 'g'))));
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
     McapWriter writer(folder / "mcap" / std::to_string(static_cast<int>(compression)), {compression, 200});
     writer.add_topic({"/points", msg::PointCloud2::ros_type, "uint8 x\n", {}});
@@ -186,7 +217,7 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
   for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "partial",
-                           "cloud", "live", "nested"})
+                           "cloud", "compressed", "live", "nested"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);

@@ -142,8 +142,7 @@ TEST_F(RecordedSource, NamesOfTopicsDoNotBreakTheLineOfAnError) {
 TEST_F(RecordedSource, WithoutCloudsSaysWhatIsThere) {
   record({});
   EXPECT_EQ(refusal({}),
-            "unreadable: " + file() +
-                ": no topic of sensor_msgs/msg/PointCloud2; topics: /tf (tf2_msgs/msg/TFMessage)");
+            "unreadable: " + file() + ": no topic with clouds; topics: /tf (tf2_msgs/msg/TFMessage)");
   ReplayOptions options = as_recorded();
   options.topic = "/points";
   EXPECT_EQ(refusal(options), "no topic /points; there are /tf (tf2_msgs/msg/TFMessage)");

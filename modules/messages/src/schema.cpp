@@ -41,6 +41,23 @@ constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
     {"sensor_msgs/PointCloud2",
      "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
      "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
+    {"livox_ros_driver/CustomPoint",
+     "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 line\n"},
+    {"livox_ros_driver/CustomMsg",
+     "std_msgs/Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\n"
+     "livox_ros_driver/CustomPoint[] points\n"},
+    {"livox_ros_driver2/CustomPoint",
+     "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 line\n"},
+    {"livox_ros_driver2/CustomMsg",
+     "std_msgs/Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\n"
+     "livox_ros_driver2/CustomPoint[] points\n"},
+    {"point_cloud_interfaces/CompressedPointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] compressed_data\nbool is_dense\nstring "
+     "format\n"},
+    {"draco_point_cloud_transport/CompressedPointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] compressed_data\nbool is_dense\n"},
     {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
     {"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
     {"diagnostic_msgs/DiagnosticStatus",

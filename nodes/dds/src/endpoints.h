@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "stream/middleware.h"
 
@@ -13,8 +14,8 @@ namespace pcl_bv::dds {
 using namespace detail;
 
 /// The implementations of Middleware::receiver() and Middleware::carrier().
-std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type,
-                                               Delivery delivery);
+std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic,
+                                               const std::vector<std::string>& types, Delivery delivery);
 std::unique_ptr<MessageSender> make_sender();
 
 }  // namespace pcl_bv::dds

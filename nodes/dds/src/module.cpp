@@ -10,9 +10,9 @@ namespace {
 
 class Dds final : public Middleware {
  public:
-  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type,
+  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::vector<std::string>& types,
                                             Delivery delivery) override {
-    return make_receiver(topic, type, delivery);
+    return make_receiver(topic, types, delivery);
   }
   std::unique_ptr<MessageSender> carrier(const std::string&) override { return make_sender(); }
 };
@@ -20,7 +20,7 @@ class Dds final : public Middleware {
 }  // namespace
 }  // namespace pcl_bv::dds
 
-extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version() {
+extern "C" [[gnu::visibility("default")]] const char* pcl_bv_module_version() {
   return PCL_BV_VERSION;
 }
 

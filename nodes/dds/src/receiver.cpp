@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "cdr_type.h"
@@ -47,20 +50,44 @@ std::string receive_buffer_warning() {
          std::to_string(kMinReceiveBuffer);
 }
 
+// A reader of one type. The members are destroyed in reverse order, the reader before its topic.
+struct Subscription {
+  Subscription(dds_entity_t participant, const std::string& name, const std::string& type, Delivery delivery)
+      : topic(create_cdr_topic(participant, name, type), name),
+        reader(dds_create_reader(participant, topic.get(), reader_qos(delivery).get(), nullptr), name),
+        read_condition(dds_create_readcondition(reader.get(), DDS_ANY_STATE), name) {}
+
+  bool has_publishers() const {
+    dds_subscription_matched_status_t matched{};
+    return dds_get_subscription_matched_status(reader.get(), &matched) >= 0 && matched.current_count > 0;
+  }
+
+  Entity topic, reader, read_condition;
+};
+
+std::vector<std::string> dds_types(const std::vector<std::string>& types) {
+  if (types.empty()) throw std::invalid_argument("a receiver needs a type of messages");
+  std::vector<std::string> names;
+  for (const std::string& type : types)
+    names.push_back(dds_type(type));
+  return names;
+}
+
 class Receiver final : public MessageReceiver {
  public:
-  Receiver(const std::string& topic, const std::string& type, Delivery delivery)
-      : type_(dds_type(type)),
+  Receiver(const std::string& topic, const std::vector<std::string>& types, Delivery delivery)
+      : types_(dds_types(types)),
         name_(dds_topic(topic)),
+        delivery_(delivery),
         participant_(Participant::shared()),
-        topic_(create_cdr_topic(participant_->get(), name_, type_), topic),
-        reader_(dds_create_reader(participant_->get(), topic_.get(), reader_qos(delivery).get(), nullptr), topic),
-        read_condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), topic),
         publications_(
             dds_create_reader(participant_->get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
             topic),
+        publisher_condition_(dds_create_readcondition(publications_.get(), DDS_ANY_STATE), topic),
         waitset_(dds_create_waitset(participant_->get()), topic) {
-    dds_waitset_attach(waitset_.get(), read_condition_.get(), 0);
+    dds_get_instance_handle(participant_->get(), &own_handle_);
+    dds_waitset_attach(waitset_.get(), publisher_condition_.get(), 0);
+    subscribe(0);
     if (std::string warning = receive_buffer_warning(); !warning.empty())
       pending_warnings_.push_back(std::move(warning));
   }
@@ -68,6 +95,7 @@ class Receiver final : public MessageReceiver {
   bool next(ReceivedMessage& message, std::chrono::milliseconds timeout) override {
     const Clock::time_point until = Clock::now() + timeout;
     do {
+      inspect_publishers();
       if (take(message)) return true;
       const auto left = std::max(until - Clock::now(), Clock::duration(0));
       dds_waitset_wait(waitset_.get(), nullptr, 0, std::chrono::nanoseconds(left).count());
@@ -80,20 +108,27 @@ class Receiver final : public MessageReceiver {
     for (std::string& line : participant_->take_log())
       all.push_back(std::move(line));
     report_losses(all);
-    if (Clock::now() >= next_check_) report_mismatched_publishers(all);
+    report_refused_publishers(all);
     return all;
   }
 
  private:
+  void subscribe(std::size_t type) {
+    subscription_.reset();  // a participant has only one topic of a name
+    subscription_.emplace(participant_->get(), name_, types_[type], delivery_);
+    dds_waitset_attach(waitset_.get(), subscription_->read_condition.get(), 0);
+    type_ = type;
+  }
+
   bool take(ReceivedMessage& message) {
     for (;;) {
       ddsi_serdata* sample = nullptr;
       dds_sample_info_t info;
-      if (dds_takecdr(reader_.get(), &sample, 1, &info, DDS_ANY_STATE) <= 0) return false;
+      if (dds_takecdr(subscription_->reader.get(), &sample, 1, &info, DDS_ANY_STATE) <= 0) return false;
       std::shared_ptr<ddsi_serdata> owner(sample, Unref());
       if (!info.valid_data) continue;  // no message: a writer has left
       const CdrSample& cdr = *static_cast<const CdrSample*>(sample);
-      message = {cdr.bytes.get(), cdr.size, std::move(owner), info.source_timestamp};
+      message = {cdr.bytes.get(), cdr.size, std::move(owner), info.source_timestamp, type_};
       return true;
     }
   }
@@ -101,34 +136,61 @@ class Receiver final : public MessageReceiver {
   // Reports messages lost because of missing fragments or an overloaded network.
   void report_losses(std::vector<std::string>& all) {
     dds_sample_lost_status_t lost{};
-    if (dds_get_sample_lost_status(reader_.get(), &lost) < 0 || lost.total_count_change == 0) return;
+    if (dds_get_sample_lost_status(subscription_->reader.get(), &lost) < 0 || lost.total_count_change == 0)
+      return;
     all.push_back(std::to_string(lost.total_count_change) + " messages lost, " +
                   std::to_string(lost.total_count) + " in total");
   }
 
-  // Reports publishers on this topic with another type or with incompatible QoS.
-  void report_mismatched_publishers(std::vector<std::string>& all) {
-    next_check_ = Clock::now() + std::chrono::seconds(1);
+  // Inspects the publishers that have appeared on this topic since the last call. Changes the type to that of
+  // a publisher if there is none of the present type.
+  void inspect_publishers() {
     void* samples[32] = {};
     dds_sample_info_t infos[32];
     const dds_return_t count = dds_take(publications_.get(), samples, infos, 32, 32);
+    if (count <= 0) return;
+    std::set<std::string> others;
+    bool has_publishers = subscription_->has_publishers();
     for (dds_return_t i = 0; i < count; ++i) {
       const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
-      if (!infos[i].valid_data || name_ != writer.topic_name || type_ == writer.type_name) continue;
-      if (mismatched_types_.insert(writer.type_name).second)
-        all.push_back("published as " + ros_type(writer.type_name) + ": publisher ignored, expected " +
-                      ros_type(type_));
+      if (!infos[i].valid_data || name_ != writer.topic_name) continue;
+      if (types_[type_] == writer.type_name) {
+        has_publishers = true;
+      } else if (writer.participant_instance_handle != own_handle_) {
+        others.insert(writer.type_name);
+      }
     }
-    if (count > 0) dds_return_loan(publications_.get(), samples, count);
+    dds_return_loan(publications_.get(), samples, count);
+    const auto is_other = [&](const std::string& type) { return others.count(type) > 0; };
+    const auto other = std::find_if(types_.begin(), types_.end(), is_other);
+    if (!has_publishers && other != types_.end()) {
+      subscribe(static_cast<std::size_t>(other - types_.begin()));
+      others.erase(*other);
+    }
+    for (const std::string& type : others)
+      if (mismatched_types_.insert(type).second)
+        pending_warnings_.push_back("published as " + ros_type(type) + ": publisher ignored, expected " +
+                                    ros_type(types_[type_]));
+  }
+
+  // Reports publishers with incompatible QoS, at most once a second.
+  void report_refused_publishers(std::vector<std::string>& all) {
+    if (Clock::now() < next_check_) return;
+    next_check_ = Clock::now() + std::chrono::seconds(1);
     dds_requested_incompatible_qos_status_t refused{};
-    dds_get_requested_incompatible_qos_status(reader_.get(), &refused);
+    dds_get_requested_incompatible_qos_status(subscription_->reader.get(), &refused);
     if (refused.total_count_change > 0)
       all.push_back(std::to_string(refused.total_count_change) + " publishers with incompatible QoS");
   }
 
-  std::string type_, name_;
+  std::vector<std::string> types_;
+  std::string name_;
+  Delivery delivery_;
   std::shared_ptr<Participant> participant_;
-  Entity topic_, reader_, read_condition_, publications_, waitset_;
+  Entity publications_, publisher_condition_, waitset_;
+  std::optional<Subscription> subscription_;  // of types_[type_]
+  std::size_t type_ = 0;
+  dds_instance_handle_t own_handle_ = 0;
   std::vector<std::string> pending_warnings_;
   std::set<std::string> mismatched_types_;
   Clock::time_point next_check_{};
@@ -136,9 +198,9 @@ class Receiver final : public MessageReceiver {
 
 }  // namespace
 
-std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type,
-                                               Delivery delivery) {
-  return std::make_unique<Receiver>(topic, type, delivery);
+std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic,
+                                               const std::vector<std::string>& types, Delivery delivery) {
+  return std::make_unique<Receiver>(topic, types, delivery);
 }
 
 }  // namespace pcl_bv::dds

@@ -10,7 +10,7 @@ namespace {
 
 class WebSockets final : public Middleware {
  public:
-  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string&,
+  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::vector<std::string>&,
                                             Delivery) override {
     throw std::invalid_argument(in_quotes(topic) + ": ws: cannot be used as a source");
   }
@@ -22,7 +22,7 @@ class WebSockets final : public Middleware {
 }  // namespace
 }  // namespace pcl_bv::live
 
-extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version() {
+extern "C" [[gnu::visibility("default")]] const char* pcl_bv_module_version() {
   return PCL_BV_VERSION;
 }
 

@@ -32,8 +32,8 @@ std::optional<Pose> pose_of(const msg::Point& position, const msg::Quaternion& q
 class LiveTransforms final : public TransformFeed {
  public:
   LiveTransforms()
-      : changing_(middleware("dds").receiver("/tf", msg::TFMessage::ros_type, Delivery::all)),
-        fixed_(middleware("dds").receiver("/tf_static", msg::TFMessage::ros_type, Delivery::latched)) {}
+      : changing_(middleware("dds").receiver("/tf", {msg::TFMessage::ros_type}, Delivery::all)),
+        fixed_(middleware("dds").receiver("/tf_static", {msg::TFMessage::ros_type}, Delivery::latched)) {}
 
   void read(std::int64_t /*recorded_ns*/, Transforms& to) override {
     read_topic(*fixed_, true, to);

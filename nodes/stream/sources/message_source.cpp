@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cloud_message.h"
 #include "pcl_bv/nodes/topics.h"
 #include "sources.h"
 
@@ -35,7 +36,8 @@ class MessageSource final : public FrameSource {
     frame.header.seq = seq_++;
     frame.header.stamp_ns = frame.recorded_ns = message.sent_ns;
     try {
-      read_cloud_message({message.data, message.size, message.owner, false}, class_field_, frame);
+      const CloudType type = cloud_type_of(cloud_type_names().at(message.type)).value();
+      read_cloud_message({message.data, message.size, message.owner, false, type}, class_field_, frame);
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), error.what());
     }

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Used instead of recorded.cpp, packets.cpp and recording_sink.cpp in builds without the component
-// `recording`.
+// Used instead of recorded.cpp, packets.cpp, compressed_cloud.cpp and recording_sink.cpp in builds without
+// the component `recording`.
 
+#include "compressed_cloud.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/messages/serialize.h"
 #include "sources.h"
 #include "stream/rig/transform_feed.h"
 #include "stream/sinks/sinks.h"
@@ -25,6 +27,10 @@ std::vector<std::string> recorded_cloud_topics(const std::string&) {
 
 std::unique_ptr<TransformFeed> recorded_transforms(const std::string&) {
   return nullptr;
+}
+
+DecompressedCloud decompress(const msg::CompressedPointCloud2& /*message*/) {
+  throw MessageError("the cloud is compressed: this build lacks the component recording, which decompresses");
 }
 
 void check_recording_content(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cloud_message.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/recording/recording.h"
@@ -68,8 +69,10 @@ class Recorded final : public FrameSource {
 
   void read(const RecordedMessage& message, Frame& frame) {
     const auto bytes = std::make_shared<std::vector<std::byte>>(message.data, message.data + message.size);
-    const bool ros1 = reader_->topics()[topic_].encoding != "cdr";
-    read_cloud_message({bytes->data(), bytes->size(), bytes, ros1}, options_.class_field, frame);
+    const RecordedTopic& topic = reader_->topics()[topic_];
+    read_cloud_message(
+        {bytes->data(), bytes->size(), bytes, topic.encoding != "cdr", cloud_type_of(topic.type).value()},
+        options_.class_field, frame);
     if (!options_.own_stamps)
       frame.header.stamp_ns = std::llround(1e9 * static_cast<double>(frame.header.seq) / options_.rate_hz);
     if (!options_.frame_id.empty()) frame.header.frame_id = options_.frame_id;

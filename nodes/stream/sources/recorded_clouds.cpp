@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cloud_message.h"
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/io/untrusted_text.h"
-#include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/recording/velodyne.h"
@@ -25,7 +25,7 @@ namespace pcl_bv::detail {
 namespace {
 
 bool has_clouds(const RecordedTopic& topic) {
-  return topic.type == msg::PointCloud2::ros_type && (topic.encoding == "cdr" || topic.encoding == "ros1");
+  return cloud_type_of(topic.type) && (topic.encoding == "cdr" || topic.encoding == "ros1");
 }
 
 std::string clouds_of(const std::vector<RecordedTopic>& topics) {
@@ -36,7 +36,7 @@ std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   return printable(list);
 }
 
-// Returns a list of the topics with their types, such as "/points (livox_ros_driver2/msg/CustomMsg)". Users
+// Returns a list of the topics with their types, such as "/scan (sensor_msgs/msg/LaserScan)". Users
 // need the type to convert the messages.
 std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
   std::string list;
@@ -71,9 +71,7 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
   const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
   if (count > 1)
     throw std::invalid_argument("several topics have clouds: " + clouds + "; choose one with --topic");
-  if (count == 0)
-    throw IoError("no topic of " + std::string(msg::PointCloud2::ros_type) +
-                  "; topics: " + topics_with_types(topics));
+  if (count == 0) throw IoError("no topic with clouds; topics: " + topics_with_types(topics));
   return number(std::find_if(topics.begin(), topics.end(), has_clouds));
 }
 
@@ -138,8 +136,9 @@ struct RecordedClouds::State {
 
   RawCloud cloud() const {
     if (packets) return raw_cloud_of(sweep);
-    const bool ros1 = reader->topics()[topic].encoding != "cdr";
-    return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
+    const RecordedTopic& from = reader->topics()[topic];
+    return raw_cloud_in(
+        {message.data, message.size, nullptr, from.encoding != "cdr", cloud_type_of(from.type).value()});
   }
 
   // Converts the cloud that take() has read. Counts the cloud, also if the conversion throws. Stores the

@@ -18,7 +18,7 @@ struct RecordedTopic;
 namespace [[gnu::visibility("default")]] detail {
 
 /// Returns the index of the topic with this name. If `name` is empty, returns the index of the only topic
-/// with clouds (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding).
+/// with clouds (cloud_type_of(), in CDR or ROS 1 encoding).
 ///
 /// Throws std::invalid_argument if the named topic does not exist or has no clouds, or if `name` is empty and
 /// several topics have clouds. The message lists the topics that have clouds. Throws IoError if `name` is
@@ -72,5 +72,5 @@ std::vector<std::string> take_new(const std::vector<std::string>& warnings, std:
 /// begins with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

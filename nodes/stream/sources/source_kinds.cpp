@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cloud_message.h"
 #include "message_source.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud.h"
@@ -115,7 +116,7 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
 
 std::unique_ptr<FrameSource> detail::open_dds(const std::string& name, const ReplayOptions& options) {
   const std::string topic = name.substr(kDds.size());
-  return make_message_source(middleware("dds").receiver(topic, "sensor_msgs/msg/PointCloud2"), name, options);
+  return make_message_source(middleware("dds").receiver(topic, cloud_type_names()), name, options);
 }
 
 bool detail::has_recording_extension(const std::filesystem::path& file) {
@@ -128,7 +129,7 @@ const std::vector<SourceKind>& source_kinds() {
     std::vector<SourceKind> all{
         {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]",
          FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
-        {"dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)", FrameTimes::live,
+        {"dds:TOPIC of ROS 2 with clouds", FrameTimes::live,
          [](const std::string& name) { return name.starts_with(kDds); }, open_dds},
         {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },
          open_folder}};

@@ -24,25 +24,37 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// Types of messages that are clouds.
+enum class CloudType : std::uint8_t {
+  point_cloud2,  ///< sensor_msgs/msg/PointCloud2.
+  livox,         ///< livox_ros_driver2/msg/CustomMsg or livox_ros_driver/msg/CustomMsg.
+  compressed,    ///< point_cloud_interfaces/msg/CompressedPointCloud2.
+  /// draco_point_cloud_transport/CompressedPointCloud2 of ROS 1.
+  compressed_draco
+};
+
 /// A serialised message and the owner of its bytes.
 struct CloudMessage {
   const std::byte* data = nullptr;
   std::size_t size = 0;
   std::shared_ptr<const void> owner;
   bool ros1 = false;  ///< Whether `data` has ROS 1 encoding. Otherwise: CDR with its encapsulation header.
+  CloudType type = CloudType::point_cloud2;
 };
 
 /// Parses a sensor_msgs/msg/PointCloud2. The result refers to the point data in the bytes of `message` and
 /// does not copy them. Throws MessageError if the message is not a PointCloud2.
 msg::PointCloud2 cloud_in(const CloudMessage& message);
 
-/// Turns a sensor_msgs/msg/PointCloud2 into a frame.
+/// Turns a cloud into a frame.
 ///
-/// Sets points, intensity, owner and frame_id. Sets the stamp, unless the stamp of the message is 0. Sets
-/// `note` to the names of fields that cannot be read (skipped_fields_note()). Points are not copied if they
-/// can be read in place (view_points()). If `class_field` is not empty, Frame::classes gets the values of
-/// that integer field. Throws MessageError if the message is not a PointCloud2, and std::runtime_error if the
-/// class field cannot be used (integers_of()).
+/// Sets points, intensity, times, owner and frame_id. Sets the stamp, unless the stamp of the message is 0.
+/// Sets `note` to the names of fields that cannot be read (skipped_fields_note()). Points are not copied if
+/// they can be read in place (view_points()). If `class_field` is not empty, Frame::classes gets the values
+/// of that integer field. Throws MessageError if the message is not of CloudMessage::type, and
+/// std::runtime_error if the class field cannot be used (integers_of()).
+///
+/// Livox' messages have the fields offset_time (times), x, y, z, reflectivity (intensity), tag and line.
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame);
 
 /// As the function above, for a parsed message; `owner` keeps its data alive.
@@ -377,4 +389,4 @@ class StreamHealth {
   double slowest_ms_ = 0;
 };
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

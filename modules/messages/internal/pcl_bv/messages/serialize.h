@@ -16,6 +16,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "pcl_bv/messages/records.h"
 #include "pcl_bv/messages/types.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -167,6 +168,15 @@ class MessageReader {
     bytes.size = read_length();
     bytes.data = take(bytes.size);
   }
+  template <std::size_t bytes, std::size_t alignment>
+  void read(msg::Records<bytes, alignment>& list) {
+    list.count = read_length();
+    list.stride = ros1 ? bytes : (bytes + alignment - 1) / alignment * alignment;
+    list.swapped = swap_;
+    if (list.count == 0) return;
+    align(alignment);
+    list.data = take((list.count - 1) * list.stride + bytes);
+  }
   template <class T>
   void read(std::vector<T>& list) {
     const std::uint32_t length = read_length();
@@ -215,4 +225,4 @@ void read_ros1(const std::byte* data, std::size_t size, Message& message) {
   reader.finish();
 }
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv
