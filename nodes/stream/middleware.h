@@ -22,6 +22,7 @@ struct MessageTopic {
   std::string name;              ///< "/bv/objects".
   std::string type;              ///< "vision_msgs/msg/Detection3DArray".
   std::string encoding = "cdr";  ///< "cdr", or "json" for viewers.
+  bool latched = false;          ///< Later receivers get the last message, too (Delivery::latched).
 };
 
 /// Sends the messages of several topics. Called by one thread.

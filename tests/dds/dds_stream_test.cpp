@@ -27,10 +27,10 @@ using Bytes = std::vector<std::byte>;
 
 constexpr const char* kCloud = "sensor_msgs/msg/PointCloud2";
 
-Bytes cloud_of(const std::vector<float>& xyz, bool big_endian = false) {
+Bytes cloud_of(const std::vector<float>& xyz, bool big_endian = false,
+               const msg::Header& header = {{17, 5}, "lidar"}) {
   msg::PointCloud2 cloud;
-  cloud.header.frame_id = "lidar";
-  cloud.header.stamp = {17, 5};
+  cloud.header = header;
   cloud.is_bigendian = big_endian;
   for (const char* name : {"x", "y", "z"})
     cloud.fields.push_back(
@@ -45,13 +45,13 @@ Bytes cloud_of(const std::vector<float>& xyz, bool big_endian = false) {
 }
 
 // A cube of 1000 points, 1 m wide, 10 m ahead.
-Bytes cube() {
+Bytes cube(const msg::Header& header = {{17, 5}, "lidar"}) {
   std::vector<float> xyz;
   for (int i = 0; i < 1000; ++i)
     for (const float value : {10 + 0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(i / 10 % 10),
                               0.1F * static_cast<float>(i / 100)})
       xyz.push_back(value);
-  return cloud_of(xyz);
+  return cloud_of(xyz, false, header);
 }
 
 class Dds : public DdsTest {
@@ -117,6 +117,62 @@ TEST_F(Dds, AnswersACloudWithItsObjects) {
   EXPECT_NEAR(marker.scale.x, 0.9, 1e-6);
   EXPECT_EQ(node.end(SIGINT), 0);
   EXPECT_EQ(node.errors(), "");
+}
+
+msg::TransformStamped step_from(const std::string& parent, const std::string& child, double x, std::int32_t seconds) {
+  msg::TransformStamped step;
+  step.header = {{seconds, 5}, parent};
+  step.child_frame_id = child;
+  step.transform.translation.x = x;
+  return step;
+}
+
+template <class Message>
+Bytes cdr_of(const Message& message) {
+  Bytes bytes;
+  write_cdr(message, bytes);
+  return bytes;
+}
+
+// Two sensors, whose places are known from /tf_static, on a robot, whose place is known from /tf.
+TEST_F(Dds, TheCloudsOfTwoSensorsBecomeOneInTheFrameOfTheRobot) {
+  const auto carrier = middleware("dds").carrier("");
+  const std::size_t fixed = carrier->add_topic({"/tf_static", msg::TFMessage::ros_type, "cdr", true}),
+                    moving = carrier->add_topic({"/tf", msg::TFMessage::ros_type}),
+                    front = carrier->add_topic({"/front", kCloud}), rear = carrier->add_topic({"/rear", kCloud});
+  // Sent before anybody listens.
+  carrier->send(fixed, 0, cdr_of(msg::TFMessage{{step_from("base", "front", 1, 0), step_from("base", "rear", -9, 0)}}));
+  BvStream node(at("err"), {"--source", "dds:/front", "--source", "dds:/rear", "--target-frame", "base", "--fixed-frame",
+                            "odom", "--ground", "none", "--volume", "aabb", "--queue", "100", "--sink",
+                            "jsonl:" + at("lines")});
+  ASSERT_TRUE(wait_for([&] { return carrier->has_subscribers(front) && carrier->has_subscribers(rear); }));
+  std::int32_t seconds = 17;
+  const auto merged = [&] {
+    const std::string text = text_of(at("lines"));
+    return text.find("\"points\":2000") != std::string::npos;
+  };
+  ASSERT_TRUE(wait_for([&] {
+    ++seconds;
+    carrier->send(moving, 0, cdr_of(msg::TFMessage{{step_from("odom", "base", 100, seconds)}}));
+    carrier->send(front, 0, cube({{seconds, 5}, "front"}));
+    carrier->send(rear, 0, cube({{seconds, 5}, "rear"}));
+    return merged();
+  })) << node.errors() << text_of(at("lines"));
+  EXPECT_EQ(node.end(SIGINT), 0);
+  std::istringstream lines(text_of(at("lines")));
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json frame = nlohmann::json::parse(line);
+    if (frame.value("points", 0) != 2000) continue;
+    EXPECT_EQ(frame["frame_id"], "base");
+    EXPECT_EQ(frame["sensors"][1]["name"], "/rear");
+    ASSERT_EQ(frame["clusters"].size(), 2U);
+    std::vector<double> left;
+    for (const auto& cluster : frame["clusters"])
+      left.push_back(cluster["volumes"][0]["min"][0].get<double>());
+    EXPECT_NEAR(std::max(left[0], left[1]), 11, 1e-5);
+    EXPECT_NEAR(std::min(left[0], left[1]), 1, 1e-5);
+    return;
+  }
 }
 
 TEST_F(Dds, AStoppedReaderHoldsNothingUp) {

@@ -69,7 +69,7 @@ TEST(SettingValues, OfNumbersAreRefusedInTheSameWordsByStructFileAndPage) {
   FramePipeline pipeline;
   const auto remote = remote_settings(pipeline);
   for (const auto& [key, values] : by_problem_of()) {
-    const bool of_pipeline = key.rfind("runner.", 0) != 0;
+    const bool of_pipeline = !key.starts_with("runner.") && !key.starts_with("rig.");
     for (const auto& [value, problem] : values) {
       SCOPED_TRACE(key + " = " + value);
       const std::string in_file = file_problem(key, value);

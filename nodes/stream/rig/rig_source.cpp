@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -234,6 +235,7 @@ void RigSource::merge(Frame& frame) {
     sensor.head.reset();
   }
   frame.pose = pose_of_rig(frame);
+  frame.fixed_frame = rig_.fixed_frame;
   frame.decode_ms += std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   last_stamp_ = stamp;
   ++seq_;
@@ -265,9 +267,11 @@ Next RigSource::next(Frame& frame, std::chrono::milliseconds timeout) {
 
 std::vector<std::string> RigSource::take_warnings() {
   std::vector<std::string> all = std::exchange(warnings_, {});
-  const auto append = [&](std::vector<std::string> lines, const std::string& prefix) {
-    for (std::string& line : lines)
-      all.push_back(prefix.empty() ? std::move(line) : prefix + ": " + line);
+  // The sources of all sensors may have the same warning, for example about the network.
+  std::set<std::string> known;
+  const auto append = [&](const std::vector<std::string>& lines, const std::string& prefix) {
+    for (const std::string& line : lines)
+      if (known.insert(line).second) all.push_back(prefix.empty() ? line : prefix + ": " + line);
   };
   for (Sensor& sensor : sensors_)
     append(sensor.input.source->take_warnings(), sensor.input.name);

@@ -117,7 +117,7 @@ class MessageSink final : public FrameSink {
     const Eigen::Vector3d at = frame.pose->translation();
     msg::TransformStamped transform;
     topics::set_time(frame.header.stamp_ns, transform.header.stamp);
-    transform.header.frame_id = "map";
+    transform.header.frame_id = frame.fixed_frame.empty() ? "map" : frame.fixed_frame;
     transform.child_frame_id = frame.header.frame_id;
     transform.transform = {{at.x(), at.y(), at.z()},
                            {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};

@@ -64,6 +64,7 @@ struct Frame {
   /// null.
   const float* seconds = nullptr;
   std::optional<Pose> pose;  ///< Pose of the sensor in a fixed frame, if known.
+  std::string fixed_frame{};  ///< Name of that fixed frame, if known.
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
