@@ -28,8 +28,8 @@ struct MountedCloud {
 /// merged clouds that nobody uses any more for the next ones.
 class CloudMerger {
  public:
-  /// If `times`, merged clouds have Frame::seconds.
-  explicit CloudMerger(bool times) : times_(times) {}
+  /// If `times`, merged clouds have Frame::seconds. The instruction set does not change the result.
+  explicit CloudMerger(bool times, UsableIsa isa = Isa::automatic) : times_(times), isa_(isa) {}
 
   /// Replaces the points of `merged`, their intensities, classes, times and sensors. Intensities and classes
   /// are set if all clouds have them. `merged.header.stamp_ns` must be set. O(points).
@@ -55,7 +55,7 @@ class CloudMerger {
   void write_times(const MountedCloud& cloud, std::int64_t stamp_ns, float* seconds);
 
   bool times_;
-  UsableIsa isa_{Isa::automatic};
+  UsableIsa isa_;
   PointTimes point_times_;
   std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
   std::vector<std::string> warnings_, warned_;  // names of sensors that a warning named
