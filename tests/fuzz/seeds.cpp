@@ -132,6 +132,30 @@ void write_partials(const fs::path& folder) {
         heading(5000) + results(5000, bytes_of(none, one) + point + bytes_of(one) + node));
 }
 
+// As fuzz_transforms wants them: kind, length, message.
+void write_transforms(const fs::path& folder) {
+  msg::TransformStamped step;
+  step.header.frame_id = "base";
+  step.child_frame_id = "front";
+  std::vector<std::byte> cdr, ros1;
+  write_cdr(msg::TFMessage{{step}}, cdr);
+  step.header = {{0, 100'000'000}, "odom"};
+  step.child_frame_id = "base";
+  write_ros1(msg::TFMessage{{step}}, ros1);
+  std::string all;
+  for (const auto& [kind, bytes] : {std::pair(4, &cdr), {1, &ros1}}) {
+    all += static_cast<char>(kind);
+    all += static_cast<char>(bytes->size());
+    all.append(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  }
+  write(folder / "transforms" / "two", all);
+  write(folder / "urdf" / "robot",
+        "<robot><link name='a'><collision><origin xyz='1 2 3' rpy='0 0 1'/><geometry><box size='1 2 3'/>"
+        "</geometry></collision></link><link name='b'><collision><geometry><mesh filename='m.stl'/>"
+        "</geometry></collision></link><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+        "</robot>");
+}
+
 std::vector<std::byte> zstd_of(const std::string& raw) {
   std::vector<std::byte> packed;
   Compressor().compress(Compression::zstd, reinterpret_cast<const std::byte*>(raw.data()), raw.size(),
@@ -217,7 +241,7 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
   for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "partial",
-                           "cloud", "compressed", "live", "nested"})
+                           "cloud", "compressed", "live", "nested", "transforms", "urdf"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -227,6 +251,7 @@ int main(int count, char** arguments) {
   write_nested(folder);
   write_recordings(folder);
   write_partials(folder);
+  write_transforms(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");
   write(folder / "text" / "rows",

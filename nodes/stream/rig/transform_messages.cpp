@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <optional>
+
+#include "mounting_pose.h"
+#include "pcl_bv/messages/odometry.h"
+#include "pcl_bv/messages/serialize.h"
+#include "transform_feed.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+template <class Message>
+Message read_message(const TransformMessage& bytes) {
+  Message message;
+  if (bytes.ros1) {
+    read_ros1(bytes.data, bytes.size, message);
+  } else {
+    read_cdr(bytes.data, bytes.size, message);
+  }
+  return message;
+}
+
+std::optional<Pose> pose_of(const msg::Point& position, const msg::Quaternion& q) {
+  return pose_of_quaternion({position.x, position.y, position.z}, {q.w, q.x, q.y, q.z});
+}
+
+}  // namespace
+
+std::string add_transforms(const TransformMessage& bytes, Transforms& to) {
+  std::string warning;
+  const auto add = [&](const msg::Header& header, const std::string& child, const std::optional<Pose>& pose) {
+    if (!pose) {
+      warning = "the transform from " + child + " to " + header.frame_id + " is not rigid; it is ignored";
+    } else if (bytes.fixed) {
+      to.add_fixed(header.frame_id, child, *pose);
+    } else {
+      to.add(header.frame_id, child, msg::nanoseconds_of(header.stamp), *pose);
+    }
+  };
+  if (bytes.odometry) {
+    const auto message = read_message<msg::Odometry>(bytes);
+    const msg::Pose& pose = message.pose.pose;
+    add(message.header, message.child_frame_id, pose_of(pose.position, pose.orientation));
+  } else {
+    for (const msg::TransformStamped& step : read_message<msg::TFMessage>(bytes).transforms)
+      add(step.header, step.child_frame_id, pose_of(step.transform.translation, step.transform.rotation));
+  }
+  return warning;
+}
+
+}  // namespace pcl_bv::detail
