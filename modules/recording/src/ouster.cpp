@@ -51,7 +51,10 @@ std::uint64_t serial_of(const Payload& packet, const OusterProfile& profile) {
 
 class OusterFamily final : public SensorFamily {
  public:
-  explicit OusterFamily(const std::filesystem::path& capture) : capture_(capture) {}
+  explicit OusterFamily(const std::filesystem::path& capture) : capture_(capture) {
+    std::error_code unknown;
+    if (std::filesystem::exists(own_ouster_metadata(capture), unknown)) metadata();
+  }
 
   std::optional<std::size_t> model_of(const Payload& packet) const override {
     if (!found_ && !is_like_ouster(packet)) return std::nullopt;
@@ -91,8 +94,8 @@ class OusterFamily final : public SensorFamily {
   }
 
  private:
-  // The metadata are not searched before the first packet that needs them, because the folder of a capture
-  // may have many .json files.
+  // Metadata without the capture's name are not searched before the first packet that needs them, because the
+  // folder of a capture may have many .json files.
   const FoundOusterMetadata& metadata() const {
     if (!found_) found_ = find_ouster_metadata(capture_);
     return *found_;

@@ -181,9 +181,13 @@ OusterMetadata parse_ouster_metadata(std::string_view json) {
   return made;
 }
 
-FoundOusterMetadata find_ouster_metadata(const std::filesystem::path& capture) {
+std::filesystem::path own_ouster_metadata(const std::filesystem::path& capture) {
   std::filesystem::path own = capture;
-  own.replace_extension(".json");
+  return own.replace_extension(".json");
+}
+
+FoundOusterMetadata find_ouster_metadata(const std::filesystem::path& capture) {
+  const std::filesystem::path own = own_ouster_metadata(capture);
   std::error_code unknown;
   if (std::filesystem::exists(own, unknown)) return read_ouster_metadata(own);
   const std::filesystem::path folder = capture.has_parent_path() ? capture.parent_path() : ".";

@@ -43,6 +43,9 @@ struct FoundOusterMetadata {
   std::string reason{};  ///< Tells the user what is needed.
 };
 
+/// Returns where the metadata of this capture should be: its name with the extension .json.
+std::filesystem::path own_ouster_metadata(const std::filesystem::path& capture);
+
 /// Finds the metadata of a capture. This is the file with the capture's name and the extension .json. Without
 /// such a file, it is the only .json file in the capture's folder that can be parsed as metadata. Never
 /// throws.
