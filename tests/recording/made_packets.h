@@ -61,8 +61,10 @@ inline std::string pcap_of_ip(const std::vector<std::string>& ip_packets, unsign
   unsigned microseconds = 0;
   for (const std::string& ip : ip_packets) {
     const std::string frame = linked(link, ip);
-    file += bytes_of(100, 4, big) + bytes_of(nano ? microseconds * 1000 : microseconds, 4, big) +
-            bytes_of(frame.size(), 4, big) + bytes_of(frame.size(), 4, big) + frame;
+    const unsigned fraction = microseconds % 1'000'000;
+    file += bytes_of(100 + microseconds / 1'000'000, 4, big) +
+            bytes_of(nano ? fraction * 1000 : fraction, 4, big) + bytes_of(frame.size(), 4, big) +
+            bytes_of(frame.size(), 4, big) + frame;
     microseconds += 1327;
   }
   return file;

@@ -92,8 +92,12 @@ const std::vector<std::byte>* FragmentBuffer::add(const IpPacket& fragment, std:
       std::memcmp(datagram.bytes.data() + first, fragment.data, fragment.size) == 0)
     return nullptr;
   if (beyond || too_short || datagram.overlaps(first, last)) begin(datagram, fragment, time_ns);
-  if (datagram.bytes.size() < last) datagram.bytes.resize(last);
-  std::memcpy(datagram.bytes.data() + first, fragment.data, fragment.size);
+  if (datagram.bytes.size() == first) {  // the usual order
+    datagram.bytes.insert(datagram.bytes.end(), fragment.data, fragment.data + fragment.size);
+  } else {
+    if (datagram.bytes.size() < last) datagram.bytes.resize(last);
+    std::memcpy(datagram.bytes.data() + first, fragment.data, fragment.size);
+  }
   datagram.insert(first, last);
   if (!fragment.more) datagram.whole = last;
   datagram.complete = datagram.whole && datagram.parts.size() == 1 && datagram.holds(0, *datagram.whole);

@@ -35,15 +35,15 @@ std::uint32_t range_mm(const std::byte* channel, std::size_t which) {
 }
 
 template <const OusterProfile& profile>
-SensorPoint measurement(const std::byte* channel, std::size_t which) {
-  const OusterReturn& at = profile.at[which];
-  SensorPoint point;
-  point.reflectivity = profile.reflectivity_bytes == 2
-                           ? std::uint32_t{little<std::uint16_t>(channel + at.reflectivity)}
-                           : std::to_integer<std::uint32_t>(channel[at.reflectivity]);
-  point.intensity = profile.has_signal ? static_cast<float>(little<std::uint16_t>(channel + at.signal))
-                                       : static_cast<float>(point.reflectivity);
-  return point;
+std::uint32_t reflectivity(const std::byte* channel, std::size_t which) {
+  const std::byte* const at = channel + profile.at[which].reflectivity;
+  return profile.reflectivity_bytes == 2 ? little<std::uint16_t>(at) : std::to_integer<std::uint32_t>(*at);
+}
+
+template <const OusterProfile& profile>
+std::uint32_t intensity(const std::byte* channel, std::size_t which) {
+  return profile.has_signal ? little<std::uint16_t>(channel + profile.at[which].signal)
+                            : reflectivity<profile>(channel, which);
 }
 
 }  // namespace
@@ -58,6 +58,8 @@ OusterGeometry::OusterGeometry(const OusterMetadata& metadata) {
     y.push_back(std::sin(azimuth) * std::cos(altitude));
     z.push_back(std::sin(altitude));
   }
+  const auto& t = metadata.lidar_to_sensor;
+  upright = t[2] == 0 && t[6] == 0 && t[8] == 0 && t[9] == 0;
   const auto entry = [&](std::size_t row, std::size_t column) {
     return metadata.lidar_to_sensor[4 * row + column];
   };
@@ -100,7 +102,8 @@ void OusterSensor::begin_frame(std::uint16_t id, SweepQueue& queue) {
   current_.sweep.sensor = *number_;
   current_.sweep.has_reflectivity = true;
   current_.sweep.frame_id = "os_sensor";
-  current_.sweep.points.reserve(previous_.sweep.points.size());
+  const std::size_t expected = previous_.sweep.points.size();
+  current_.sweep.points.reserve(expected + expected / 8 + 2 * metadata_->beams);
   packets_in_frame_ = 0;
 }
 
@@ -171,17 +174,17 @@ void OusterSensor::add_column(const std::byte* column, std::int64_t packet_time_
   const auto time_ns = static_cast<std::uint32_t>(std::clamp<std::int64_t>(since_stamp, 0, kMaxSweepTime));
   const std::byte* const channels = column + profile.column_header;
   const OusterGeometry::Column& place = geometry_->columns[id];
-  if (&profile == &kOusterLegacy) return add_points<kOusterLegacy>(channels, place, time_ns, sweep);
-  if (&profile == &kOusterSingle) return add_points<kOusterSingle>(channels, place, time_ns, sweep);
-  if (&profile == &kOusterDual) return add_points<kOusterDual>(channels, place, time_ns, sweep);
-  add_points<kOusterLowRate>(channels, place, time_ns, sweep);
+  if (&profile == &kOusterLegacy) return add_points<kOusterLegacy>(channels, place, time_ns, sweep.points);
+  if (&profile == &kOusterSingle) return add_points<kOusterSingle>(channels, place, time_ns, sweep.points);
+  if (&profile == &kOusterDual) return add_points<kOusterDual>(channels, place, time_ns, sweep.points);
+  add_points<kOusterLowRate>(channels, place, time_ns, sweep.points);
 }
 
-// Computes the points of one return of a column, also those without a range. The loops have no branches, so
-// that the compiler can use vector instructions.
-template <const OusterProfile& profile>
-void OusterSensor::compute_points(const std::byte* channels, const OusterGeometry::Column& place,
-                                  std::size_t which) {
+// Computes the coordinates of one return of a column, also those without a range. The loops have no branches,
+// so that the compiler can use vector instructions. `upright`: the sensor's z axis is the lidar's.
+template <const OusterProfile& profile, bool upright>
+void OusterSensor::compute_coordinates(const std::byte* channels, const OusterGeometry::Column& place,
+                                       std::size_t which) {
   const std::size_t beams = metadata_->beams;
   std::uint32_t* const ranges = ranges_[which].data();
   for (std::size_t i = 0; i < beams; ++i)
@@ -194,36 +197,58 @@ void OusterSensor::compute_points(const std::byte* channels, const OusterGeometr
   for (std::size_t i = 0; i < beams; ++i) {
     const double distance = static_cast<double>(static_cast<std::int32_t>(ranges[i])) - near;
     const double dx = distance * bx[i], dy = distance * by[i], dz = distance * bz[i];
-    x[i] = static_cast<float>(m[0] * dx + m[1] * dy + m[2] * dz + origin[0]);
-    y[i] = static_cast<float>(m[3] * dx + m[4] * dy + m[5] * dz + origin[1]);
-    z[i] = static_cast<float>(m[6] * dx + m[7] * dy + m[8] * dz + origin[2]);
+    if constexpr (upright) {
+      x[i] = static_cast<float>(m[0] * dx + m[1] * dy + origin[0]);
+      y[i] = static_cast<float>(m[3] * dx + m[4] * dy + origin[1]);
+      z[i] = static_cast<float>(m[8] * dz + origin[2]);
+    } else {
+      x[i] = static_cast<float>(m[0] * dx + m[1] * dy + m[2] * dz + origin[0]);
+      y[i] = static_cast<float>(m[3] * dx + m[4] * dy + m[5] * dz + origin[1]);
+      z[i] = static_cast<float>(m[6] * dx + m[7] * dy + m[8] * dz + origin[2]);
+    }
   }
 }
 
+// Appends the returns of a column. Each return is written, and the next one overwrites it if it is no point,
+// because the processor cannot predict which beams have a return.
 template <const OusterProfile& profile>
 void OusterSensor::add_points(const std::byte* channels, const OusterGeometry::Column& place,
-                              std::uint32_t time_ns, SensorSweep& sweep) {
-  for (std::size_t which = 0; which < profile.returns; ++which)
-    compute_points<profile>(channels, place, which);
-  points_.clear();
-  for (std::size_t i = 0; i < metadata_->beams; ++i) {
-    const std::byte* const channel = channels + i * profile.channel;
-    for (std::size_t which = 0; which < profile.returns; ++which) {
-      if (ranges_[which][i] == 0) continue;  // no return
-      SensorPoint point = measurement<profile>(channel, which);
-      if (which == 1 && ranges_[0][i] == ranges_[1][i] &&
-          measurement<profile>(channel, 0).intensity == point.intensity &&
-          measurement<profile>(channel, 0).reflectivity == point.reflectivity)
-        continue;  // the first return again
-      point.x = x_[which][i];
-      point.y = y_[which][i];
-      point.z = z_[which][i];
-      point.ring = static_cast<std::uint32_t>(i);
-      point.time_ns = time_ns;
-      points_.push_back(point);
+                              std::uint32_t time_ns, SensorPoints& points) {
+  const std::size_t beams = metadata_->beams;
+  for (std::size_t which = 0; which < profile.returns; ++which) {
+    if (geometry_->upright) {
+      compute_coordinates<profile, true>(channels, place, which);
+    } else {
+      compute_coordinates<profile, false>(channels, place, which);
     }
   }
-  sweep.points.insert(sweep.points.end(), points_.begin(), points_.end());
+  const std::size_t before = points.size();
+  if (points.capacity() < before + profile.returns * beams)
+    points.reserve(2 * before + profile.returns * beams);
+  points.resize(before + profile.returns * beams);
+  SensorPoint* to = points.data() + before;
+  const auto write = [&](std::size_t i, std::size_t which, const std::byte* channel) {
+    *to = {x_[which][i],
+           y_[which][i],
+           z_[which][i],
+           static_cast<float>(intensity<profile>(channel, which)),
+           static_cast<std::uint32_t>(i),
+           time_ns,
+           reflectivity<profile>(channel, which)};
+  };
+  for (std::size_t i = 0; i < beams; ++i) {
+    const std::byte* const channel = channels + i * profile.channel;
+    write(i, 0, channel);
+    to += ranges_[0][i] != 0 ? 1 : 0;
+    if constexpr (profile.returns == 2) {
+      write(i, 1, channel);
+      const bool repeated = ranges_[1][i] == ranges_[0][i] &&
+                            intensity<profile>(channel, 1) == intensity<profile>(channel, 0) &&
+                            reflectivity<profile>(channel, 1) == reflectivity<profile>(channel, 0);
+      to += ranges_[1][i] != 0 && !repeated ? 1 : 0;
+    }
+  }
+  points.resize(static_cast<std::size_t>(to - points.data()));
 }
 
 }  // namespace pcl_bv::detail

@@ -25,6 +25,7 @@ struct OusterGeometry {
   std::vector<Column> columns;
   std::vector<double> x, y, z;  // direction of each beam in a column with encoder angle 0
   double beam_distance_mm = 0;
+  bool upright = false;  // whether the sensor's z axis is parallel to the lidar's
 };
 
 /// One sensor. Its sweeps are the frames of the sensor, by the packets' frame id. A packet that comes late
@@ -56,9 +57,9 @@ class OusterSensor final : public SweepAssembler {
   void add_column(const std::byte* column, std::int64_t packet_time_ns, Frame& frame);
   template <const OusterProfile& profile>
   void add_points(const std::byte* channels, const OusterGeometry::Column& place, std::uint32_t time_ns,
-                  SensorSweep& sweep);
-  template <const OusterProfile& profile>
-  void compute_points(const std::byte* channels, const OusterGeometry::Column& place, std::size_t which);
+                  SensorPoints& points);
+  template <const OusterProfile& profile, bool upright>
+  void compute_coordinates(const std::byte* channels, const OusterGeometry::Column& place, std::size_t which);
 
   std::shared_ptr<const OusterMetadata> metadata_;
   std::shared_ptr<const OusterGeometry> geometry_;
@@ -69,10 +70,9 @@ class OusterSensor final : public SweepAssembler {
   unsigned late_in_succession_ = 0;  // packets that belong to neither frame
   std::uint64_t late_ = 0;           // dropped packets
   std::uint64_t late_warned_ = 0;
-  // Ranges and points of one column, for each return.
+  // Ranges and coordinates of one column, for each return.
   std::array<std::vector<std::uint32_t>, 2> ranges_{};
   std::array<std::vector<float>, 2> x_{}, y_{}, z_{};
-  std::vector<SensorPoint> points_{};
 };
 
 }  // namespace pcl_bv::detail

@@ -16,19 +16,23 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// A LiDAR return, in metres in the sensor's frame, with z up.
+/// A LiDAR return, in metres in the sensor's frame, with z up. Members have no initial values, so that
+/// decoders can append points before they write them.
 struct SensorPoint {
-  float x = 0, y = 0, z = 0;
-  float intensity = 0;
-  std::uint32_t ring = 0;          ///< Number of the beam; each family of sensors has its own order.
-  std::uint32_t time_ns = 0;       ///< Nanoseconds since the sweep's stamp.
-  std::uint32_t reflectivity = 0;  ///< 0 if the sensor does not measure it (SensorSweep::has_reflectivity).
+  float x, y, z;
+  float intensity;
+  std::uint32_t ring;          ///< Number of the beam; each family of sensors has its own order.
+  std::uint32_t time_ns;       ///< Nanoseconds since the sweep's stamp.
+  std::uint32_t reflectivity;  ///< 0 if the sensor does not measure it (SensorSweep::has_reflectivity).
 };
+
+/// Points of a sweep. resize() leaves the new points uninitialised. Write them before reading them.
+using SensorPoints = std::vector<SensorPoint, BufferAllocator<SensorPoint>>;
 
 /// The points of one revolution of a sensor.
 struct SensorSweep {
   std::int64_t stamp_ns = 0;  ///< Capture time of the first packet, nanoseconds since 1970.
-  std::vector<SensorPoint> points;
+  SensorPoints points;
   std::size_t sensor = 0;  ///< Number of the sensor, from 0, in the order of the sensors' first packets.
   bool has_reflectivity = false;
   std::string_view frame_id;  ///< Default frame of the family's ROS driver, such as "velodyne". A literal.
