@@ -119,11 +119,11 @@ TEST_F(Fragments, ThatAreOldAreGivenUp) {
   }
 }
 
-TEST_F(Fragments, AreReadWithoutThePaddingOfShortFrames) {
+TEST_F(Fragments, AreReadWithoutPaddingAndChecksumOfTheLink) {
   const std::string payload = payload_of(1480 - 8 + 5, 1);  // 5 bytes in the last fragment
-  std::vector<std::string> fragments = fragments_of(udp(payload), 9);
-  fragments.back() += std::string(21, '\0');
-  EXPECT_EQ(payloads_of_ip(fragments), std::vector{payload});
+  const std::vector<std::string> fragments = fragments_of(udp(payload), 9);
+  EXPECT_EQ(payloads_of_ip({fragments[0], fragments[1] + std::string(21, '\0')}), std::vector{payload});
+  EXPECT_EQ(payloads_of_ip({fragments[0] + "FCS.", fragments[1] + "FCS."}), std::vector{payload});
 }
 
 TEST_F(Fragments, ThatOverlapWithOtherContentOrExceedADatagramGiveNothing) {
@@ -136,12 +136,16 @@ TEST_F(Fragments, ThatOverlapWithOtherContentOrExceedADatagramGiveNothing) {
   beyond[6] = '\x1F';
   beyond[7] = '\xFF';
   EXPECT_THAT(payloads_of_ip({good[0], good[1], good[2], beyond}), testing::IsEmpty());
-  std::string odd = good[1];  // only the last fragment may have any size
+  std::string odd = good[1];  // shorter than the next fragment's offset tells
   odd.pop_back();
   odd.replace(2, 2, pcl_bv::bytes_of(odd.size(), 2, true));
   EXPECT_THAT(payloads_of_ip({good[0], odd, good[2], good[3]}), testing::IsEmpty());
-  std::string cut = good[1].substr(0, 500);  // by the capture's limit of bytes
-  EXPECT_THAT(payloads_of_ip({good[0], cut, good[2], good[3]}), testing::IsEmpty());
+  EXPECT_THAT(payloads_of_ip(fragments_of(udp(payload_of(65'600, 1)), 9)), testing::IsEmpty());
+  for (const std::size_t number : {1U, 3U}) {
+    std::vector<std::string> cut = good;  // by the capture's limit of bytes
+    cut[number].pop_back();
+    EXPECT_THAT(payloads_of_ip(cut), testing::IsEmpty());
+  }
 }
 
 TEST_F(Fragments, AreReadFromCapturesCutAtAnyByte) {

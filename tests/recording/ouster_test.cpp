@@ -111,7 +111,12 @@ TEST_F(Ouster, PointsOfEachProfileFollowTheManualsFormulas) {
         MadeOuster s = made_ouster(profile, beams, beams == 128 ? 512 : 64);
         if (nested) {
           s.beam_z = -7.5;
-          s.lidar_to_sensor = {0.8, -0.6, 0, 10, 0.6, 0.8, 0, -20, 0, 0, 1, 38.195, 0, 0, 0, 1};
+          if (beams == 16) {
+            s.lidar_to_sensor = {0.8, -0.6, 0, 10, 0.6, 0.8, 0, -20, 0, 0, 1, 38.195, 0, 0, 0, 1};
+          } else {  // tilted
+            s.lidar_to_sensor = {0.36, 0.48, -0.8, 10,     -0.8, 0.6, 0, -20,
+                                 0.48, 0.64, 0.6,  38.195, 0,    0,   0, 1};
+          }
         }
         put("a.json", nested ? nested_metadata(s) : flat_metadata(s));
         std::vector<std::string> packets;

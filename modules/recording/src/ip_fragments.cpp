@@ -12,11 +12,9 @@ namespace {
 constexpr std::size_t kMaxDatagram = 65'535 - 20;         // bytes after the IP header
 constexpr std::int64_t kMaxFragmentWait = 1'000'000'000;  // nanoseconds
 
-// Returns whether a datagram can have the fragment. Only the last one may have a size that is no multiple of
-// 8 bytes.
+// Returns whether a datagram can have the fragment.
 bool is_valid_fragment(const IpPacket& fragment) {
-  return !fragment.cut && fragment.size > 0 && fragment.offset + fragment.size <= kMaxDatagram &&
-         (!fragment.more || fragment.size % 8 == 0);
+  return !fragment.cut && fragment.size > 0 && fragment.offset + fragment.size <= kMaxDatagram;
 }
 
 }  // namespace
