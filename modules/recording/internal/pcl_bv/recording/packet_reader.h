@@ -52,7 +52,8 @@ bool is_capture(const std::filesystem::path& file);
 ///   block is added. For each beam of a VLP-32C, the beam's azimuth offset is added. Two identical dual
 ///   returns give one point. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
 /// - Ouster (OS-0, OS-1, OS-2), with the sensor's metadata in a .json file next to the capture. Ring 0 is the
-///   highest beam. The intensity is the signal. See ouster.h.
+///   highest beam. The intensity is the signal. A frame id is a sweep. Source:
+///   the firmware user manual.
 ///
 /// A sweep is one revolution. The first and the last sweep may be incomplete. Late packets go to the
 /// revolution in which they were measured. Lost packets are tolerated.
