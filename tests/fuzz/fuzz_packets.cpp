@@ -6,16 +6,16 @@
 
 #include "memory_file.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/recording/packet_reader.h"
 
 // Any bytes as a capture: every point is finite and within 262 m.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static pcl_bv::MemoryFile file;
   file.assign({reinterpret_cast<const char*>(data), size});
   try {
-    pcl_bv::VelodyneReader reader(file.path());
-    for (pcl_bv::VelodyneSweep sweep; reader.next(sweep);) {
-      for (const pcl_bv::VelodynePoint& p : sweep.points) {
+    pcl_bv::PacketReader reader(file.path());
+    for (pcl_bv::SensorSweep sweep; reader.next(sweep);) {
+      for (const pcl_bv::SensorPoint& p : sweep.points) {
         if (!(std::hypot(p.x, p.y, p.z) < 263)) std::abort();
       }
     }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../recording/made_ouster.h"
 #include "../recording/made_packets.h"
 #include "codecs.h"
 #include "message_bytes.h"
@@ -235,13 +236,32 @@ void write_recordings(const fs::path& folder) {
   write(folder / "packets" / "hdl32", pcap({packet(35'900, 40, 0x39, 0x21, 3)}, 113, true));
 }
 
+// Metadata, a zero byte and a capture, as fuzz_ouster wants them.
+void write_ouster(const fs::path& folder) {
+  for (const char* profile :
+       {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL", "RNG15_RFL8_NIR8"}) {
+    MadeOuster sensor = made_ouster(profile, 2, 8);
+    sensor.columns_per_packet = 4;
+    std::vector<std::string> fragments;
+    for (const std::string& packet : packets_of_frame(sensor, 1, random_columns(sensor, 1'000'000, 3))) {
+      for (const std::string& fragment :
+           fragments_of(udp(packet), static_cast<unsigned>(fragments.size()), 128))
+        fragments.push_back(fragment);
+    }
+    write(folder / "ouster" / (std::string(profile) + "_flat"),
+          flat_metadata(sensor) + '\0' + pcap_of_ip(fragments));
+    write(folder / "ouster" / (std::string(profile) + "_nested"),
+          nested_metadata(sensor) + '\0' + pcap_of_ip(fragments));
+  }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "partial",
-                           "cloud", "compressed", "live", "nested", "transforms", "urdf"})
+  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "ouster",
+                           "partial", "cloud", "compressed", "live", "nested", "transforms", "urdf"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -250,6 +270,7 @@ int main(int count, char** arguments) {
   write_requests(folder);
   write_nested(folder);
   write_recordings(folder);
+  write_ouster(folder);
   write_partials(folder);
   write_transforms(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));

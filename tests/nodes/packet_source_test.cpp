@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../recording/made_ouster.h"
 #include "../recording/made_packets.h"
 #include "folder.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
+#include "stream/sources/recorded_clouds.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -63,6 +65,38 @@ TEST_F(PacketSource, HasNeitherTopicsNorClasses) {
   options = {};
   options.class_field = "label";
   EXPECT_THROW(open_source(record(), options), std::invalid_argument);
+}
+
+TEST_F(PacketSource, GivesTheFramesOfAnOusterWithItsMetadata) {
+  const MadeOuster sensor = made_ouster("RNG19_RFL8_SIG16_NIR16", 32);
+  std::vector<std::string> packets;
+  for (unsigned frame = 0; frame < 3; ++frame) {
+    for (const std::string& packet :
+         packets_of_frame(sensor, frame, random_columns(sensor, 1'000'000, frame)))
+      packets.push_back(packet);
+  }
+  write("a.pcap", pcap(packets));
+  const std::string file = (path_ / "a.pcap").string();
+  ReplayOptions options;
+  options.own_stamps = true;
+  try {
+    open_source(file, options);
+    FAIL();
+  } catch (const IoError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::StartsWith(file + ": no packet that can be decoded"),
+                                             testing::EndsWith(".json file next to the capture, as a.json")));
+  }
+  write("a.json", nested_metadata(sensor));
+  const std::vector<Frame> frames = frames_of(*open_source(file, options));
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].header.frame_id, "os_sensor");
+  EXPECT_EQ(frames[1].header.stamp_ns, 100'000'000'000 + 4 * 1'327'000);
+  EXPECT_GT(frames[1].points.count, 1000U);
+  ASSERT_TRUE(frames[1].times && frames[1].intensity);
+  EXPECT_EQ(frames[1].times->number(frames[1].points.count - 1), 63 * 97'656);
+  RecordedClouds clouds(file, {});
+  EXPECT_EQ(clouds.count(), 3U);
+  EXPECT_EQ(clouds.load(1).size(), frames[1].points.count);
 }
 
 TEST_F(PacketSource, SaysWhereTheCaptureIsCut) {

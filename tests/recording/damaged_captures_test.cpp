@@ -9,7 +9,7 @@
 #include <map>
 
 #include "made_packets.h"
-#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/recording/packet_reader.h"
 #include "recording_files.h"
 
 namespace pcl_bv::detail {
@@ -30,9 +30,9 @@ class DamagedCapture : public RecordingFiles {
   // The points of each sensor.
   std::map<std::size_t, std::size_t> points_of(const std::string& file, const std::string& sensor = {}) {
     put("a.pcap", file);
-    VelodyneReader reader(at("a.pcap"), sensor);
+    PacketReader reader(at("a.pcap"), sensor);
     std::map<std::size_t, std::size_t> points;
-    for (VelodyneSweep sweep; reader.next(sweep);) {
+    for (SensorSweep sweep; reader.next(sweep);) {
       points[sweep.sensor] += sweep.points.size();
       newest_ns_ = std::max(newest_ns_, sweep.stamp_ns);
     }

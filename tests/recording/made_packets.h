@@ -52,16 +52,19 @@ inline std::string linked(unsigned link, const std::string& ip) {
   return ip;
 }
 
-inline std::string pcap(const std::vector<std::string>& payloads, unsigned link = 1, bool big = false,
-                        bool nano = false) {
+// A capture of these IP packets.
+inline std::string pcap_of_ip(const std::vector<std::string>& ip_packets, unsigned link = 1, bool big = false,
+                              bool nano = false) {
   std::string file = bytes_of(nano ? 0xA1B23C4D : 0xA1B2C3D4, 4, big) + bytes_of(2, 2, big) +
                      bytes_of(4, 2, big) + bytes_of(0, 8) + bytes_of(65'535, 4, big) +
                      bytes_of(link % 10'000, 4, big);
   unsigned microseconds = 0;
-  for (const std::string& payload : payloads) {
-    const std::string frame = linked(link, udp(payload));
-    file += bytes_of(100, 4, big) + bytes_of(nano ? microseconds * 1000 : microseconds, 4, big) +
-            bytes_of(frame.size(), 4, big) + bytes_of(frame.size(), 4, big) + frame;
+  for (const std::string& ip : ip_packets) {
+    const std::string frame = linked(link, ip);
+    const unsigned fraction = microseconds % 1'000'000;
+    file += bytes_of(100 + microseconds / 1'000'000, 4, big) +
+            bytes_of(nano ? fraction * 1000 : fraction, 4, big) + bytes_of(frame.size(), 4, big) +
+            bytes_of(frame.size(), 4, big) + frame;
     microseconds += 1327;
   }
   return file;
@@ -71,6 +74,29 @@ inline std::string block(unsigned type, const std::string& body, bool big) {
   const std::string padded = body + std::string((4 - body.size() % 4) % 4, '\0');
   const std::string length = bytes_of(12 + padded.size(), 4, big);
   return bytes_of(type, 4, big) + length + padded + length;
+}
+
+inline std::string pcap(const std::vector<std::string>& payloads, unsigned link = 1, bool big = false,
+                        bool nano = false) {
+  std::vector<std::string> ip_packets;
+  for (const std::string& payload : payloads)
+    ip_packets.push_back(udp(payload));
+  return pcap_of_ip(ip_packets, link, big, nano);
+}
+
+// The fragments of a whole IP packet, each with at most `size` bytes (a multiple of 8) after its IP header.
+inline std::vector<std::string> fragments_of(const std::string& ip, unsigned identification,
+                                             std::size_t size = 1480) {
+  std::vector<std::string> fragments;
+  const std::string data = ip.substr(20);
+  for (std::size_t at = 0; at < data.size(); at += size) {
+    const std::string part = data.substr(at, size);
+    const std::size_t more = at + size < data.size() ? 0x2000 : 0;
+    fragments.push_back(ip.substr(0, 2) + bytes_of(20 + part.size(), 2, true) +
+                        bytes_of(identification, 2, true) + bytes_of(more | at / 8, 2, true) +
+                        ip.substr(8, 12) + part);
+  }
+  return fragments;
 }
 
 // Times count `time` on, in units of the power of ten `resolution`.

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/recording/packet_reader.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -53,8 +53,8 @@ struct VlpFile : pcl::VLPGrabber {
 // Point by point; PCL takes the first laser of a VLP-16's second firing for one of its first (it asks for
 // more than 16 where it means from 16 on), so that one may be half a block's turn aside.
 void expect_the_same(const std::vector<Cloud::ConstPtr>& theirs, const std::string& file, bool vlp) {
-  VelodyneReader reader(file);
-  VelodyneSweep sweep;
+  PacketReader reader(file);
+  SensorSweep sweep;
   ASSERT_GE(theirs.size(), 3U);
   std::size_t aside = 0, all = 0;
   for (const Cloud::ConstPtr& cloud : theirs) {
@@ -62,7 +62,7 @@ void expect_the_same(const std::vector<Cloud::ConstPtr>& theirs, const std::stri
     ASSERT_NEAR(static_cast<double>(sweep.points.size()), static_cast<double>(cloud->size()), vlp ? 2 : 0);
     if (sweep.points.size() != cloud->size()) continue;
     for (std::size_t i = 0; i < cloud->size(); ++i, ++all) {
-      const VelodynePoint& ours = sweep.points[i];
+      const SensorPoint& ours = sweep.points[i];
       const pcl::PointXYZI& p = (*cloud)[i];
       const double apart = std::hypot(ours.x - p.x, ours.y - p.y, ours.z - p.z);
       EXPECT_EQ(ours.intensity, p.intensity);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/recording/packet_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,11 +17,11 @@ namespace {
 
 class Velodyne : public RecordingFiles {
  protected:
-  std::vector<VelodyneSweep> sweeps_of(const std::string& file) {
+  std::vector<SensorSweep> sweeps_of(const std::string& file) {
     put("a.pcap", file);
-    VelodyneReader reader(at("a.pcap"));
-    std::vector<VelodyneSweep> sweeps;
-    for (VelodyneSweep sweep; reader.next(sweep);)
+    PacketReader reader(at("a.pcap"));
+    std::vector<SensorSweep> sweeps;
+    for (SensorSweep sweep; reader.next(sweep);)
       sweeps.push_back(sweep);
     return sweeps;
   }
@@ -40,7 +40,7 @@ TEST_F(Velodyne, OfEachModelHasItsBeamsWhereItsManualSays) {
     ASSERT_EQ(sweeps[0].points.size(), 12U * 32);
     EXPECT_EQ(sweeps[0].stamp_ns, 100'000'000'000);
     for (std::size_t i = 0; i < 32; ++i) {
-      const VelodynePoint& p = sweeps[0].points[i];
+      const SensorPoint& p = sweeps[0].points[i];
       const double distance = std::hypot(p.x, p.y, p.z),
                    up = std::asin(p.z / distance) * 180 / 3.14159265358979;
       EXPECT_NEAR(distance, c.metres * static_cast<double>(1000 + i), 1e-5);
@@ -78,9 +78,9 @@ std::vector<std::string> three_turns(std::uint8_t factory = 0x22, std::uint8_t m
   return payloads;
 }
 
-std::vector<std::size_t> sizes_of(const std::vector<VelodyneSweep>& sweeps) {
+std::vector<std::size_t> sizes_of(const std::vector<SensorSweep>& sweeps) {
   std::vector<std::size_t> sizes;
-  for (const VelodyneSweep& sweep : sweeps)
+  for (const SensorSweep& sweep : sweeps)
     sizes.push_back(sweep.points.size());
   return sizes;
 }
@@ -102,7 +102,7 @@ TEST_F(Velodyne, PacketsThatComeLateOrTwiceEndNoTurn) {
         const auto sweeps = sweeps_of(pcap(twice));
         ASSERT_EQ(sweeps.size(), 3U);
         std::size_t all = 0;
-        for (const VelodyneSweep& sweep : sweeps)
+        for (const SensorSweep& sweep : sweeps)
           all += sweep.points.size();
         EXPECT_EQ(all, expected[0] + expected[1] + expected[2] + (mode == 0x39 ? 6 : 12) * 32U);
       }
@@ -163,9 +163,9 @@ TEST_F(Velodyne, OfSeveralSensorsGivesTheTurnsOfEach) {
         both.emplace_back(same_address ? 201 : 202, other[i]);
       }
       put("a.pcap", pcap_of(both));
-      VelodyneReader reader(at("a.pcap"));
+      PacketReader reader(at("a.pcap"));
       std::size_t sweeps[2] = {}, points = 0;
-      for (VelodyneSweep sweep; reader.next(sweep);) {
+      for (SensorSweep sweep; reader.next(sweep);) {
         ASSERT_LT(sweep.sensor, 2U);
         ++sweeps[sweep.sensor];
         points += sweep.points.size();
@@ -187,14 +187,14 @@ TEST_F(Velodyne, OneOfSeveralSensorsIsChosenByItsAddress) {
     both.emplace_back(202, payload);
   }
   put("a.pcap", pcap_of(both));
-  VelodyneReader reader(at("a.pcap"), "192.168.1.202:2368");
+  PacketReader reader(at("a.pcap"), "192.168.1.202:2368");
   std::size_t sweeps = 0;
-  for (VelodyneSweep sweep; reader.next(sweep);)
+  for (SensorSweep sweep; reader.next(sweep);)
     ++sweeps;
   EXPECT_EQ(sweeps, 3U);
   EXPECT_THAT(reader.warning_lines(), testing::IsEmpty());
   try {
-    VelodyneReader(at("a.pcap"), "192.168.1.203:2368");
+    PacketReader(at("a.pcap"), "192.168.1.203:2368");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(
@@ -207,7 +207,7 @@ TEST_F(Velodyne, SaysWhatElseACaptureHas) {
   const auto said = [&](const std::string& payload) {
     put("a.pcap", pcap({payload}));
     try {
-      VelodyneReader(at("a.pcap"));
+      PacketReader(at("a.pcap"));
     } catch (const IoError& error) {
       return std::string(error.what());
     }
@@ -225,9 +225,9 @@ TEST_F(Velodyne, GoesOnBehindADamagedPacket) {
     for (std::size_t i = 0; i < 40; ++i)  // headers among them
       file[file.size() - 100 * record - 20 + i] = '\xFE';
     put("a.pcap", file);
-    VelodyneReader reader(at("a.pcap"));
+    PacketReader reader(at("a.pcap"));
     std::size_t points = 0, sweeps = 0;
-    for (VelodyneSweep sweep; reader.next(sweep); ++sweeps)
+    for (SensorSweep sweep; reader.next(sweep); ++sweeps)
       points += sweep.points.size();
     EXPECT_EQ(sweeps, 3U) << blocks;
     EXPECT_GE(points, (payloads.size() - 3) * 12 * 32) << blocks;
@@ -271,7 +271,7 @@ TEST_F(Velodyne, PassesOverWhatIsNoPacketOfIts) {
   EXPECT_EQ(sweeps_of(fragment)[0].points.size(), 12U * 32);
   EXPECT_EQ(sweeps_of(pcap({"position", good}))[0].points.size(), 12U * 32);
   put("a.pcap", pcap({"position"}));
-  EXPECT_THROW(VelodyneReader(at("a.pcap")), IoError);
+  EXPECT_THROW(PacketReader(at("a.pcap")), IoError);
   EXPECT_FALSE(is_capture(at("none")));
   put("text", "no capture");
   EXPECT_FALSE(is_capture(at("text")));
@@ -284,8 +284,8 @@ TEST_F(Velodyne, CutAnywhereIsReadUpToItsLastWholePacket) {
     for (std::size_t size = 1; size < whole.size(); size += 7) {
       put("b.pcap", whole.substr(0, size));
       try {
-        VelodyneReader reader(at("b.pcap"));
-        VelodyneSweep sweep;
+        PacketReader reader(at("b.pcap"));
+        SensorSweep sweep;
         ASSERT_TRUE(reader.next(sweep)) << size;
         EXPECT_EQ(sweep.points.size(), 12U * 32) << size;
         EXPECT_FALSE(reader.next(sweep));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "search.h"
 
@@ -168,7 +169,20 @@ std::uint64_t PacketFile::end_of_block(std::uint64_t at) const {
 }
 
 bool PacketFile::next(Payload& payload) {
-  return blocks_ ? next_block(payload) : next_pcap(payload);
+  if (blocks_ ? next_block(payload) : next_pcap(payload)) return true;
+  if (!std::exchange(ended_, true) && fragments_.lost() > 0)
+    warnings_.add("fragments are missing of " + std::to_string(fragments_.lost()) + " UDP datagrams");
+  return false;
+}
+
+// Reads the payload of a captured frame. Returns false if the frame has no UDP, or if its fragment does not
+// complete a datagram.
+bool PacketFile::payload_of(unsigned link, const std::byte* data, std::size_t size, Payload& payload) {
+  const std::optional<IpPacket> packet = find_ip_packet(link, data, size);
+  if (!packet) return false;
+  if (!packet->is_fragment()) return read_datagram(packet->data, packet->size, packet->source, payload);
+  const std::vector<std::byte>* const datagram = fragments_.add(*packet, payload.time_ns);
+  return datagram != nullptr && read_datagram(datagram->data(), datagram->size(), packet->source, payload);
 }
 
 bool PacketFile::next_pcap(Payload& payload) {
@@ -185,7 +199,7 @@ bool PacketFile::next_pcap(Payload& payload) {
     payload.time_ns = *last_seconds_ * kSecond + u32(packet + 4) * (kSecond / interfaces_[0].ticks);
     previous_ = at_;
     at_ += 16 + size;
-    if (unwrap_udp(interfaces_[0].link, packet + 16, size, payload)) return true;
+    if (payload_of(interfaces_[0].link, packet + 16, size, payload)) return true;
   }
   return false;
 }
@@ -235,7 +249,7 @@ bool PacketFile::begin_section(const std::byte* head) {
 bool PacketFile::packet_of_block(const std::byte* block, std::uint32_t length, std::uint32_t type,
                                  Payload& payload) {
   if (type == 3 && length >= 16 && !interfaces_.empty())
-    return unwrap_udp(interfaces_[0].link, block + 12, std::min(u32(block + 8), length - 16), payload);
+    return payload_of(interfaces_[0].link, block + 12, std::min(u32(block + 8), length - 16), payload);
   if (type != 6 || length < 32) return false;
   const std::uint32_t number = u32(block + 8), size = u32(block + 20);
   if (number >= interfaces_.size() || size > length - 32) return false;
@@ -245,7 +259,7 @@ bool PacketFile::packet_of_block(const std::byte* block, std::uint32_t length, s
   payload.time_ns =
       std::min(time / ticks, kMaxSeconds) * kSecond +
       static_cast<std::int64_t>(static_cast<double>(time % ticks) * (1e9 / static_cast<double>(ticks)));
-  return unwrap_udp(link, block + 28, size, payload);
+  return payload_of(link, block + 28, size, payload);
 }
 
 void PacketFile::add_interface(const std::byte* body, std::size_t size) {

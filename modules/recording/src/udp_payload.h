@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the UDP payload in a captured network packet.
+// Finds the IPv4 packet in a captured network packet, and the UDP payload in an IPv4 packet.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace pcl_bv::detail {
@@ -25,8 +26,25 @@ struct Payload {
   std::string source() const;
 };
 
-/// Sets all members except the time from the UDP packet in a frame of this link type. Returns false for IP
-/// fragments, other protocols and unsupported link types.
-bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload& payload);
+/// An IPv4 packet with UDP: a whole datagram or a fragment of one.
+struct IpPacket {
+  const std::byte* data = nullptr;  ///< Bytes after the IP header.
+  std::size_t size = 0;             ///< Captured bytes of data, without padding of the link layer.
+  std::uint32_t source = 0, destination = 0;
+  std::uint16_t identification = 0;  ///< Equal in all fragments of a datagram.
+  std::size_t offset = 0;            ///< Position of data in the datagram, in bytes.
+  bool more = false;                 ///< Whether further fragments follow.
+  bool cut = false;                  ///< Whether the capture has only the first bytes of the packet.
+
+  bool is_fragment() const { return more || offset > 0; }
+};
+
+/// Returns the IPv4 packet with UDP in a frame of this link type. Returns nullopt for other protocols and
+/// unsupported link types.
+std::optional<IpPacket> find_ip_packet(unsigned link, const std::byte* data, std::size_t size);
+
+/// Sets all members of `payload` except the time from a datagram, which begins with the UDP header. Returns
+/// false if the datagram is too short.
+bool read_datagram(const std::byte* data, std::size_t size, std::uint32_t source, Payload& payload);
 
 }  // namespace pcl_bv::detail

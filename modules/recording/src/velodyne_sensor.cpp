@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t kBlock = 100, kBlocks = 12;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-constexpr VelodyneModel kModels[] = {
+constexpr VelodyneModel kVelodyneModels[] = {
     {"VLP-16",
      0x22,
      16,
@@ -120,13 +120,21 @@ int velodyne_product(const Payload& packet) {
 const VelodyneModel* velodyne_model(const Payload& packet) {
   const int product = velodyne_product(packet);
   const auto* const found =
-      std::find_if(std::begin(kModels), std::end(kModels),
+      std::find_if(std::begin(kVelodyneModels), std::end(kVelodyneModels),
                    [&](const VelodyneModel& model) { return model.product_id == product; });
-  return found == std::end(kModels) ? nullptr : found;
+  return found == std::end(kVelodyneModels) ? nullptr : found;
 }
 
 std::string_view name_of(const VelodyneModel& model) {
   return model.name;
+}
+
+std::size_t number_of(const VelodyneModel& model) {
+  return static_cast<std::size_t>(&model - std::begin(kVelodyneModels));
+}
+
+const VelodyneModel& velodyne_model(std::size_t number) {
+  return kVelodyneModels[number];
 }
 
 VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
@@ -141,7 +149,14 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
     azimuth_offset_[i] =
         static_cast<std::size_t>(std::lround(100 * model.azimuth_offset[i]) + static_cast<long>(kFullCircle));
   }
-  sweep_.sensor = number;
+  sweep_ = previous_ = empty_sweep();
+}
+
+SensorSweep VelodyneSensor::empty_sweep() const {
+  SensorSweep sweep;
+  sweep.sensor = number_;
+  sweep.frame_id = "velodyne";
+  return sweep;
 }
 
 // Returns the rotation from the first block of the newest packet to the first block of `packet`. Whole
@@ -169,24 +184,22 @@ void VelodyneSensor::update_speed(const Payload& packet, double rotation) {
   speed_ += (rotation / passed - speed_) / 8;
 }
 
-void VelodyneSensor::begin_revolution(std::int64_t revolution, std::deque<VelodyneSweep>& whole) {
+void VelodyneSensor::begin_revolution(std::int64_t revolution, std::deque<SensorSweep>& whole) {
   revolution_ = revolution;
   packets_in_revolution_ = 0;
   if (!previous_.points.empty()) whole.push_back(std::move(previous_));
-  previous_ = std::exchange(sweep_, VelodyneSweep());
-  sweep_.sensor = number_;
+  previous_ = std::exchange(sweep_, empty_sweep());
 }
 
-void VelodyneSensor::finish(std::deque<VelodyneSweep>& whole) {
-  for (VelodyneSweep* const sweep : {&previous_, &sweep_}) {
+void VelodyneSensor::finish(std::deque<SensorSweep>& whole) {
+  for (SensorSweep* const sweep : {&previous_, &sweep_}) {
     if (!sweep->points.empty()) whole.push_back(std::move(*sweep));
-    *sweep = VelodyneSweep();
-    sweep->sensor = number_;
+    *sweep = empty_sweep();
   }
   started_ = false;
 }
 
-void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole) {
+void VelodyneSensor::add(const Payload& packet, std::deque<SensorSweep>& whole) {
   if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kMaxPause) finish(whole);
   const double rotation = started_ ? rotation_since_last(packet) : 0;
   update_speed(packet, rotation);
@@ -210,7 +223,7 @@ void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole
       if (at > azimuth && at == static_cast<double>(revolution) * kFullCircle) --revolution;
       if (forward * static_cast<double>(revolution - revolution_) > 0) begin_revolution(revolution, whole);
       const bool late = revolution != revolution_ && !previous_.points.empty();
-      VelodyneSweep& sweep = late ? previous_ : sweep_;
+      SensorSweep& sweep = late ? previous_ : sweep_;
       if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
       const std::size_t firing = block / step;
       const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
@@ -220,11 +233,11 @@ void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole
     }
   }
   if (++packets_in_revolution_ < kLatePackets || previous_.points.empty()) return;
-  whole.push_back(std::exchange(previous_, VelodyneSweep()));
+  whole.push_back(std::exchange(previous_, empty_sweep()));
 }
 
 void VelodyneSensor::add_firing(const Payload& packet, std::size_t block, std::size_t laser, double azimuth,
-                                double time, VelodyneSweep& sweep) const {
+                                double time, SensorSweep& sweep) const {
   const std::byte* const one = return_of(packet, block, laser);
   add_point(one, laser, azimuth, time, sweep);
   if (step_of(packet) == 1) return;
@@ -233,7 +246,7 @@ void VelodyneSensor::add_firing(const Payload& packet, std::size_t block, std::s
 }
 
 void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
-                               VelodyneSweep& sweep) const {
+                               SensorSweep& sweep) const {
   const double distance = word(at) * model_->distance_unit;
   if (distance == 0) return;  // no return
   const std::size_t beam = laser % model_->beams;
@@ -243,7 +256,7 @@ void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hu
   sweep.points.push_back(
       {static_cast<float>(level * azimuth.sine), static_cast<float>(level * azimuth.cosine),
        static_cast<float>(distance * sine_[beam]), static_cast<float>(std::to_integer<int>(at[2])),
-       ring_[beam], static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
+       ring_[beam], static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9)), 0});
 }
 
 }  // namespace pcl_bv::detail

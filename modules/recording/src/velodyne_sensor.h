@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "packet_file.h"
-#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/recording/packet_reader.h"
 
 namespace pcl_bv::detail {
 
@@ -21,6 +21,10 @@ struct VelodyneModel;
 /// Returns the model of the sensor that sent the packet, or null if the packet is not of a supported model.
 const VelodyneModel* velodyne_model(const Payload& packet);
 std::string_view name_of(const VelodyneModel& model);
+
+/// Returns the number of the model in the list of models, and the model with this number.
+std::size_t number_of(const VelodyneModel& model);
+const VelodyneModel& velodyne_model(std::size_t number);
 
 /// Returns the product id (last byte) of a Velodyne packet, or -1 for other packets.
 int velodyne_product(const Payload& packet);
@@ -41,19 +45,20 @@ class VelodyneSensor {
   bool expects(const Payload& packet) const;
 
   /// Adds a packet's returns to the sweeps. Moves complete sweeps to `whole`.
-  void add(const Payload& packet, std::deque<VelodyneSweep>& whole);
+  void add(const Payload& packet, std::deque<SensorSweep>& whole);
 
   /// Moves all remaining sweeps to `whole`, complete or not.
-  void finish(std::deque<VelodyneSweep>& whole);
+  void finish(std::deque<SensorSweep>& whole);
 
  private:
+  SensorSweep empty_sweep() const;
   double rotation_since_last(const Payload& packet) const;
   void update_speed(const Payload& packet, double rotation);
-  void begin_revolution(std::int64_t revolution, std::deque<VelodyneSweep>& whole);
+  void begin_revolution(std::int64_t revolution, std::deque<SensorSweep>& whole);
   void add_firing(const Payload& packet, std::size_t block, std::size_t laser, double azimuth, double time,
-                  VelodyneSweep& sweep) const;
+                  SensorSweep& sweep) const;
   void add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
-                 VelodyneSweep& sweep) const;
+                 SensorSweep& sweep) const;
 
   const VelodyneModel* model_;
   std::size_t number_;
@@ -66,7 +71,7 @@ class VelodyneSensor {
   double azimuth_ = 0;  // unwrapped azimuth of the newest packet's first block, hundredths of a degree
   // Capture time of the newest packet, and number of the current sweep's revolution.
   std::int64_t last_time_ns_ = 0, revolution_ = 0;
-  VelodyneSweep sweep_, previous_;      // current sweep, and previous sweep, which may get late packets
+  SensorSweep sweep_, previous_;        // current sweep, and previous sweep, which may get late packets
   unsigned packets_in_revolution_ = 0;  // packets since the beginning of the revolution
 };
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A source of frames from a sensor's packets, one frame for each revolution.
+// A source of frames from sensors' packets, one frame for each revolution.
 
 #include <cmath>
 
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/recording/packet_reader.h"
 #include "recorded_clouds.h"
 #include "sources.h"
 
@@ -23,7 +23,7 @@ class Packets final : public FrameSource {
 
   Next next(Frame& frame, std::chrono::milliseconds) override {
     const auto begin = std::chrono::steady_clock::now();
-    const auto sweep = std::make_shared<VelodyneSweep>();
+    const auto sweep = std::make_shared<SensorSweep>();
     while (!reader_.next(*sweep)) {
       if (++loop_ >= options_.loops || index_ == 0) return Next::end;
       reader_.rewind();
@@ -35,16 +35,15 @@ class Packets final : public FrameSource {
     frame.header.stamp_ns = options_.own_stamps
                                 ? sweep->stamp_ns
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
-    frame.header.frame_id = options_.frame_id.empty() ? "velodyne" : options_.frame_id;
+    frame.header.frame_id = options_.frame_id.empty() ? std::string(sweep->frame_id) : options_.frame_id;
     frame.pose = poses_.at(index_++, frame.header.stamp_ns);
     ++seq_;
     if (!sweep->points.empty()) {
-      const VelodynePoint& first = sweep->points.front();
-      frame.points = PointView::of(&first.x, sizeof(VelodynePoint), sweep->points.size());
-      frame.intensity =
-          FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(VelodynePoint)};
+      const SensorPoint& first = sweep->points.front();
+      frame.points = PointView::of(&first.x, sizeof(SensorPoint), sweep->points.size());
+      frame.intensity = FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(SensorPoint)};
       frame.times =
-          FieldView{reinterpret_cast<const std::byte*>(&first.time_ns), sizeof(VelodynePoint), 'U', 4};
+          FieldView{reinterpret_cast<const std::byte*>(&first.time_ns), sizeof(SensorPoint), 'U', 4};
     }
     frame.owner = sweep;
     frame.decode_ms =
@@ -59,7 +58,7 @@ class Packets final : public FrameSource {
  private:
   std::size_t count() {
     std::size_t sweeps = 0;
-    for (VelodyneSweep sweep; reader_.next(sweep);)
+    for (SensorSweep sweep; reader_.next(sweep);)
       ++sweeps;
     reader_.rewind();
     return sweeps;
@@ -67,7 +66,7 @@ class Packets final : public FrameSource {
 
   std::string name_;
   ReplayOptions options_;
-  VelodyneReader reader_;
+  PacketReader reader_;
   Poses poses_;
   std::uint64_t seq_ = 0;
   std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;

@@ -8,8 +8,8 @@
 #include "cloud_message.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/topics.h"
+#include "pcl_bv/recording/packet_reader.h"
 #include "pcl_bv/recording/recording.h"
-#include "pcl_bv/recording/velodyne.h"
 #include "recorded_clouds.h"
 #include "sources.h"
 
@@ -98,7 +98,7 @@ std::unique_ptr<FrameSource> open_recorded(const std::string& name, const Replay
 }  // namespace
 
 std::vector<SourceKind> recording_kinds() {
-  return {{"packets of a Velodyne (.pcap, .pcapng)", FrameTimes::messages,
+  return {{"packets of a Velodyne or Ouster (.pcap, .pcapng)", FrameTimes::messages,
            [](const std::string& name) { return is_capture(name); }, open_packets},
           {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
            [](const std::string& name) { return is_recording(name); }, open_recorded}};

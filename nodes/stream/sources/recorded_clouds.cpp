@@ -17,8 +17,8 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/topics.h"
+#include "pcl_bv/recording/packet_reader.h"
 #include "pcl_bv/recording/recording.h"
-#include "pcl_bv/recording/velodyne.h"
 #include "sources.h"
 
 namespace pcl_bv::detail {
@@ -112,7 +112,7 @@ constexpr std::size_t kMaxSkipped = 16;
 
 struct RecordedClouds::State {
   std::unique_ptr<RecordingReader> reader;
-  std::unique_ptr<VelodyneReader> packets;  // used instead of `reader` for a packet capture
+  std::unique_ptr<PacketReader> packets;  // used instead of `reader` for a packet capture
   std::size_t topic = 0;
   std::size_t next = 0;                                      // number of the next cloud in the file
   std::map<std::size_t, std::function<RawCloud()>> skipped;  // by number; returns the cloud or throws
@@ -168,13 +168,13 @@ struct RecordedClouds::State {
   }
 
   RecordedMessage message;
-  VelodyneSweep sweep;
+  SensorSweep sweep;
 };
 
 RecordedClouds::RecordedClouds(const std::filesystem::path& file, const std::string& topic)
     : state_(std::make_unique<State>()) {
   if (is_capture(file)) {
-    state_->packets = std::make_unique<VelodyneReader>(file, topic);
+    state_->packets = std::make_unique<PacketReader>(file, topic);
     return;
   }
   state_->reader = open_recording(file);

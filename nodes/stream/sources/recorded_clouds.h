@@ -26,7 +26,7 @@ namespace [[gnu::visibility("default")]] detail {
 std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name);
 
 /// Returns whether the file's first bytes are those of a recording (open_recording()) or of a capture of a
-/// sensor's packets (VelodyneReader).
+/// sensor's packets (PacketReader).
 bool has_recorded_clouds(const std::filesystem::path& file);
 
 /// The clouds of a recording or of a packet capture, accessed by number. Several threads may call the member
@@ -34,7 +34,7 @@ bool has_recorded_clouds(const std::filesystem::path& file);
 class RecordedClouds {
  public:
   /// `topic` is the topic of a recording, or the ADDRESS:PORT of a sensor in a packet capture. Throws as
-  /// open_recording() and cloud_topic(), or as VelodyneReader.
+  /// open_recording() and cloud_topic(), or as PacketReader.
   RecordedClouds(const std::filesystem::path& file, const std::string& topic);
   ~RecordedClouds();
   RecordedClouds(const RecordedClouds&) = delete;
@@ -68,7 +68,7 @@ class RecordedClouds {
 /// Returns the warnings after the first `taken` ones, and adds their number to `taken`.
 std::vector<std::string> take_new(const std::vector<std::string>& warnings, std::size_t& taken);
 
-/// Returns a source of the sweeps in a capture of packets. Throws as VelodyneReader; the text of an IoError
+/// Returns a source of the sweeps in a capture of packets. Throws as PacketReader; the text of an IoError
 /// begins with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
