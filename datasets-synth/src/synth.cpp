@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pcl_bv/synth/rig_drive.h"
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/shapes.h"
 #include "pcl_bv/synth/street.h"
@@ -175,6 +176,19 @@ StreetSequenceOptions parse_street_sequence(std::string_view text) {
                                 "', expected street-sequence or rural-road-sequence[-BEAMS]");
   }
   StreetSequenceOptions spec;
+  spec.seed = seed_of(parts);
+  if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);
+  return spec;
+}
+
+bool detail::is_rig_sequence(const std::string& text) {
+  return text.substr(0, text.find(':')) == "rig";
+}
+
+detail::RigSequence detail::parse_rig_sequence(const std::string& text) {
+  const auto parts = split_spec(text, "FRAMES");
+  if (parts[0] != "rig") throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) + "', expected rig");
+  RigSequence spec;
   spec.seed = seed_of(parts);
   if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);
   return spec;

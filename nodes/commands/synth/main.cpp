@@ -14,10 +14,12 @@
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/synth/rig_drive.h"
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/rural_road_truth.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
+#include "rig_recording.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -38,6 +40,9 @@ std::string footer() {
          "4 house, 5 wall, 6 hedge, 7 tree, 8 cyclist, 9 bridge). Its sequences, of 100 sweeps, also give\n"
          "OUT/poses.txt (for bv_stream --poses) and OUT/truth.jsonl: a line for each sweep, with boxes and\n"
          "velocities of all objects.\n\n"
+         "rig is a recording (MCAP) of a robot with two LiDARs that turns at 30 degrees a second: the clouds\n"
+         "/front/points and /rear/points with the time of each point, and the transforms /tf and\n"
+         "/tf_static.\n\n"
          "Examples:\n"
          "  synth street street.pcd                  128000 rays, seed 1\n"
          "  synth street:256000:7 street.pcd         4000 azimuths, seed 7\n"
@@ -45,7 +50,8 @@ std::string footer() {
          "  synth street-sequence sweeps             22 sweeps in the folder sweeps\n"
          "  synth street-sequence:100:7 sweeps       100 sweeps, seed 7\n"
          "  synth rural-road-sequence-16:300:2 road  300 sweeps with 16 beams, seed 2, with poses and "
-         "truth\n\n"
+         "truth\n"
+         "  synth rig:100 rig.mcap                   10 s of two LiDARs\n\n"
          "Exit status: 0 done, 1 output not written, 2 wrong use.\n";
 }
 
@@ -99,6 +105,12 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
     write_sequence(parse_street_sequence(scene), output);
   } else if (is_rural_road_sequence(scene)) {
     write_sequence(parse_rural_road_sequence(scene), output);
+  } else if (is_rig_sequence(scene)) {
+    const RigSequence spec = parse_rig_sequence(scene);
+    naming(output, [&] {
+      create_parent_folders(output);
+      write_rig_recording(spec, output);
+    });
   } else {
     const SynthOptions spec = parse_synth(scene);
     naming(output, [&] {
@@ -112,9 +124,9 @@ int run(int argc, char** argv) {
   CommandLine line("synth", "Synthetic point clouds with ground truth, as .pcd files.", footer());
   std::string scene, output;
   line.option("SCENE", scene, "",
-              "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]] "
-              "or\nrural-road-sequence[-BEAMS][:FRAMES[:SEED]]");
-  line.option("OUT", output, "", "The .pcd file or, for a sequence, the folder");
+              "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]],\n"
+              "rural-road-sequence[-BEAMS][:FRAMES[:SEED]] or rig[:FRAMES[:SEED]]");
+  line.option("OUT", output, "", "The .pcd file; the folder of a sequence; the .mcap file of rig");
   if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
   const Interruption interruption([] {});

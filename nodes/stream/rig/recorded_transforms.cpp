@@ -111,6 +111,7 @@ class RecordedTransforms final : public TransformFeed {
 }  // namespace
 
 std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording) {
+  if (!is_recording(recording)) return nullptr;  // a capture of packets
   std::unique_ptr<RecordingReader> reader = open_recording(recording);
   const std::vector<RecordedTopic>& topics = reader->topics();
   std::vector<std::size_t> fixed = topics_that(topics, is_fixed), changing = topics_that(topics, is_changing);
