@@ -112,7 +112,7 @@ RigDrive::RigDrive(const RigDriveOptions& options) : options_(options) {
   }
   for (int i = 0; i < 7; ++i) {
     const double around = (i + random.uniform(0.3, 0.7)) * 2 * kPi / 7;
-    standing_.push_back(box(Kind::parked_car, 28 * std::cos(around), 28 * std::sin(around),
+    standing_.push_back(box(Kind::parked_car, 30.5 * std::cos(around), 30.5 * std::sin(around),
                             around + random.uniform(-0.3, 0.3), 4.4, 1.8, 1.5));
   }
 }
