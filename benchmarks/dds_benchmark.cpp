@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // bv_stream between ROS 2's topics on the loopback: clouds of 2 MB, 20 a second, from this process, and the
-// markers of their objects back in it. Once from one sensor, once in four parts from the sensors of a rig, with
-// their transforms. Counters: how many were answered, milliseconds from sending a cloud to
-// having its markers, and what bv_stream has resident after a tenth of the time and at its end.
-// PCL_BV_BENCH_CLOUDS: how many (600).
+// markers of their objects back in it. Once from one sensor, once in four parts from the sensors of a rig,
+// with their transforms. Counters: how many were answered, milliseconds from sending a cloud to having its
+// markers, and what bv_stream has resident after a tenth of the time and at its end. PCL_BV_BENCH_CLOUDS: how
+// many (600).
 
 #include <benchmark/benchmark.h>
 
@@ -82,8 +82,7 @@ class Talk {
       : carrier_(middleware("dds").carrier("")),
         markers_(middleware("dds").receiver("/bv/markers", {msg::MarkerArray::ros_type})),
         clouds_(sensors) {
-    const std::size_t transforms =
-        carrier_->add_topic({"/tf_static", msg::TFMessage::ros_type, "cdr", true});
+    const std::size_t transforms = carrier_->add_topic({"/tf_static", msg::TFMessage::ros_type, "cdr", true});
     carrier_->send(transforms, 0, transforms_message(sensors));
     for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
       points_.push_back(carrier_->add_topic({topic_of(sensor), msg::PointCloud2::ros_type}));
@@ -141,7 +140,7 @@ class Talk {
  private:
   std::unique_ptr<MessageSender> carrier_;
   std::unique_ptr<MessageReceiver> markers_;
-  std::vector<std::size_t> points_;                         // topic of each sensor
+  std::vector<std::size_t> points_;                          // topic of each sensor
   std::vector<std::vector<std::vector<std::byte>>> clouds_;  // of each sensor
   std::map<std::uint32_t, Clock::time_point> sent_;
   std::map<std::uint32_t, double> answers_;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Two clouds of 130 000 points become one, in the frame of the robot and at one time: transform, times and
-// merge (CloudMerger), then deskewing. One thread, each instruction set. Points of 16 bytes and of 22 bytes, as
-// drivers send them, with 32-bit times in nanoseconds.
+// merge (CloudMerger), then deskewing. One thread, each instruction set. Points of 16 bytes and of 22 bytes,
+// as drivers send them, with 32-bit times in nanoseconds.
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The robot drives on a circle of 15.3 m around the origin. Everything else keeps out of the ring between 12 m
-// and 18 m.
+// The robot drives on a circle of 15.3 m around the origin. Everything else keeps out of the ring between 12
+// m and 18 m.
 
 #include "pcl_bv/synth/rig_drive.h"
 
@@ -34,7 +34,8 @@ Frame3 frame_of(const RigPose& m) {
 }
 
 Frame3 joined(const Frame3& outer, const Frame3& inner) {
-  return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z), outer.point(inner.at)};
+  return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z),
+          outer.point(inner.at)};
 }
 
 // Yaw, then pitch (positive: the nose goes down), about the moved axes.
@@ -43,7 +44,8 @@ RigPose pose_rows(Vec3 at, double yaw, double pitch) {
   return {c * cp, -s, c * sp, at.x, s * cp, c, s * sp, at.y, -sp, 0, cp, at.z};
 }
 
-RigObject box(RigObject::Kind kind, double x, double y, double yaw, double length, double width, double height) {
+RigObject box(RigObject::Kind kind, double x, double y, double yaw, double length, double width,
+              double height) {
   return {kind, x, y, yaw, length, width, height, 0};
 }
 
@@ -85,10 +87,9 @@ double hit(const RigObject& object, Vec3 from, Vec3 step) {
   const double x = c * px + s * py, y = c * py - s * px, dx = c * step.x + s * step.y,
                dy = c * step.y - s * step.x;
   double near = 0, far = kMaxRange;
-  const bool across = object.radius > 0
-                          ? clip_circle(x, y, dx, dy, object.radius, near, far)
-                          : clip(x, dx, -object.length / 2, object.length / 2, near, far) &&
-                                clip(y, dy, -object.width / 2, object.width / 2, near, far);
+  const bool across = object.radius > 0 ? clip_circle(x, y, dx, dy, object.radius, near, far)
+                                        : clip(x, dx, -object.length / 2, object.length / 2, near, far) &&
+                                              clip(y, dy, -object.width / 2, object.width / 2, near, far);
   const bool inside = across && clip(from.z, step.z, 0, object.height, near, far);
   return inside && near > 0 ? near : std::numeric_limits<double>::infinity();
 }
@@ -139,8 +140,8 @@ std::vector<RigObject> RigDrive::objects(double seconds) const {
   }
   for (int i = 0; i < 2; ++i) {  // against the robot's direction
     const double around = kPi * i - 6.0 / 24 * seconds + random.uniform(-0.3, 0.3);
-    all.push_back(box(Kind::moving_car, 24 * std::cos(around), 24 * std::sin(around), around + kPi / 2, 4.4, 1.8,
-                      1.5));
+    all.push_back(
+        box(Kind::moving_car, 24 * std::cos(around), 24 * std::sin(around), around + kPi / 2, 4.4, 1.8, 1.5));
   }
   return all;
 }

@@ -187,7 +187,8 @@ bool detail::is_rig_sequence(const std::string& text) {
 
 detail::RigSequence detail::parse_rig_sequence(const std::string& text) {
   const auto parts = split_spec(text, "FRAMES");
-  if (parts[0] != "rig") throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) + "', expected rig");
+  if (parts[0] != "rig")
+    throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) + "', expected rig");
   RigSequence spec;
   spec.seed = seed_of(parts);
   if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);

@@ -52,7 +52,8 @@ class PointFilter {
   /// or, in a merged cloud, from the sensor that measured the point. For float32 and the origin, the relative
   /// error of a distance is below 2e-16: the square of a float is exact in double, and only the two additions
   /// of the three squares are rounded.
-  void classify(const PointView& points, const std::vector<SensorPart>& sensors, FilterScratch& scratch) const;
+  void classify(const PointView& points, const std::vector<SensorPart>& sensors,
+                FilterScratch& scratch) const;
 
   /// Replaces `kept` by the numbers of the points that are kept, in the order of the view. Counts the dropped
   /// points by reason in `counts`. Throws std::length_error for more than 2^31 - 1 points.

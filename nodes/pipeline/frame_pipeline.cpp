@@ -148,8 +148,8 @@ void FramePipeline::State::remember_pose(const Prepared& now, const Frame& frame
                     frame.pose.has_value());
 }
 
-// In a merged cloud, ranges are measured from each sensor, and the origin of the robot need not be one of them.
-// Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
+// In a merged cloud, ranges are measured from each sensor, and the origin of the robot need not be one of
+// them. Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
 void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PipelineConfig& config = now.config;
   result.sensor = {};

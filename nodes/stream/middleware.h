@@ -128,5 +128,5 @@ using MiddlewareInstance = Middleware* (*)();
 inline constexpr const char* kModuleVersion = "pcl_bv_module_version";
 inline constexpr const char* kMiddlewareInstance = "pcl_bv_middleware";
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

@@ -42,8 +42,8 @@ class Rig : public PcdBv {
 };
 
 TEST_F(Rig, MergesAllTopicsOfARecordingWithItsTransforms) {
-  const Result result = stream({"--source", drive(), "--target-frame", "base_link", "--fixed-frame", "odom", "--deskew",
-                                "on", "--track"});
+  const Result result = stream({"--source", drive(), "--target-frame", "base_link", "--fixed-frame", "odom",
+                                "--deskew", "on", "--track"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.err, "");
   const std::vector<Json> frames = lines(result);
@@ -52,7 +52,8 @@ TEST_F(Rig, MergesAllTopicsOfARecordingWithItsTransforms) {
     EXPECT_EQ(frame["frame_id"], "base_link");
     EXPECT_EQ(frame["sensors"][0]["name"], "/front/points");
     EXPECT_EQ(frame["sensors"][0]["points"], frame["sensors"][1]["points"]);
-    EXPECT_EQ(frame["sensors"][1]["stamp_ns"].get<std::int64_t>() - frame["stamp_ns"].get<std::int64_t>(), 30'000'000);
+    EXPECT_EQ(frame["sensors"][1]["stamp_ns"].get<std::int64_t>() - frame["stamp_ns"].get<std::int64_t>(),
+              30'000'000);
   }
   EXPECT_EQ(frames[0].count("deskew"), 0U);  // no motion yet
   EXPECT_EQ(frames[5]["deskew"], "poses");
@@ -103,13 +104,16 @@ TEST_F(Rig, RejectsWhatCannotBeMerged) {
     EXPECT_THAT(result.err, HasSubstr(why));
   };
   refused({"--source", recording, "--source", recording}, "--source: several sources need --target-frame");
-  refused({"--source", recording, "--source", "synth:street-sequence", "--target-frame", "a"}, "no common stamps");
+  refused({"--source", recording, "--source", "synth:street-sequence", "--target-frame", "a"},
+          "no common stamps");
   refused({"--source", recording, "--fixed-frame", "odom"}, "--fixed-frame: needs --target-frame");
   refused({"--source", recording, "--target-frame", "a", "--loop", "2"}, "--loop: not with --target-frame");
-  refused({"--source", recording, "--target-frame", "a", "--self-filter", "0.1"}, "--self-filter: needs --urdf");
+  refused({"--source", recording, "--target-frame", "a", "--self-filter", "0.1"},
+          "--self-filter: needs --urdf");
   refused({"--source", recording, "--config", file("r.yaml", "rig: {frame: a, sensors: [{topic: /none}]}\n")},
           "rig.sensors: no source has the topic /none");
-  refused({"--source", recording, "--config", file("p.yaml", "rig: {frame: a, sensors: [{topic: /x, pose: [1, 2]}]}\n")},
+  refused({"--source", recording, "--config",
+           file("p.yaml", "rig: {frame: a, sensors: [{topic: /x, pose: [1, 2]}]}\n")},
           "line 1: rig.sensors: the pose of /x is not x, y, z, roll, pitch, yaw");
   const Result missing = stream({"--source", recording, "--target-frame", "a", "--urdf", at("none.urdf")});
   EXPECT_EQ(missing.status, 1);

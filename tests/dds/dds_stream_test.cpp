@@ -119,7 +119,8 @@ TEST_F(Dds, AnswersACloudWithItsObjects) {
   EXPECT_EQ(node.errors(), "");
 }
 
-msg::TransformStamped step_from(const std::string& parent, const std::string& child, double x, std::int32_t seconds) {
+msg::TransformStamped step_from(const std::string& parent, const std::string& child, double x,
+                                std::int32_t seconds) {
   msg::TransformStamped step;
   step.header = {{seconds, 5}, parent};
   step.child_frame_id = child;
@@ -139,12 +140,14 @@ TEST_F(Dds, TheCloudsOfTwoSensorsBecomeOneInTheFrameOfTheRobot) {
   const auto carrier = middleware("dds").carrier("");
   const std::size_t fixed = carrier->add_topic({"/tf_static", msg::TFMessage::ros_type, "cdr", true}),
                     moving = carrier->add_topic({"/tf", msg::TFMessage::ros_type}),
-                    front = carrier->add_topic({"/front", kCloud}), rear = carrier->add_topic({"/rear", kCloud});
+                    front = carrier->add_topic({"/front", kCloud}),
+                    rear = carrier->add_topic({"/rear", kCloud});
   // Sent before anybody listens.
-  carrier->send(fixed, 0, cdr_of(msg::TFMessage{{step_from("base", "front", 1, 0), step_from("base", "rear", -9, 0)}}));
-  BvStream node(at("err"), {"--source", "dds:/front", "--source", "dds:/rear", "--target-frame", "base", "--fixed-frame",
-                            "odom", "--ground", "none", "--volume", "aabb", "--queue", "100", "--sink",
-                            "jsonl:" + at("lines")});
+  carrier->send(fixed, 0,
+                cdr_of(msg::TFMessage{{step_from("base", "front", 1, 0), step_from("base", "rear", -9, 0)}}));
+  BvStream node(at("err"), {"--source", "dds:/front", "--source", "dds:/rear", "--target-frame", "base",
+                            "--fixed-frame", "odom", "--ground", "none", "--volume", "aabb", "--queue", "100",
+                            "--sink", "jsonl:" + at("lines")});
   ASSERT_TRUE(wait_for([&] { return carrier->has_subscribers(front) && carrier->has_subscribers(rear); }));
   std::int32_t seconds = 17;
   const auto merged = [&] {
@@ -157,7 +160,8 @@ TEST_F(Dds, TheCloudsOfTwoSensorsBecomeOneInTheFrameOfTheRobot) {
     carrier->send(front, 0, cube({{seconds, 5}, "front"}));
     carrier->send(rear, 0, cube({{seconds, 5}, "rear"}));
     return merged();
-  })) << node.errors() << text_of(at("lines"));
+  })) << node.errors()
+      << text_of(at("lines"));
   EXPECT_EQ(node.end(SIGINT), 0);
   std::istringstream lines(text_of(at("lines")));
   for (std::string line; std::getline(lines, line);) {

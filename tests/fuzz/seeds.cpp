@@ -150,11 +150,12 @@ void write_transforms(const fs::path& folder) {
     all.append(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   }
   write(folder / "transforms" / "two", all);
-  write(folder / "urdf" / "robot",
-        "<robot><link name='a'><collision><origin xyz='1 2 3' rpy='0 0 1'/><geometry><box size='1 2 3'/>"
-        "</geometry></collision></link><link name='b'><collision><geometry><mesh filename='m.stl'/>"
-        "</geometry></collision></link><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
-        "</robot>");
+  write(
+      folder / "urdf" / "robot",
+      "<robot><link name='a'><collision><origin xyz='1 2 3' rpy='0 0 1'/><geometry><box size='1 2 3'/>"
+      "</geometry></collision></link><link name='b'><collision><geometry><mesh filename='m.stl'/>"
+      "</geometry></collision></link><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+      "</robot>");
 }
 
 std::vector<std::byte> zstd_of(const std::string& raw) {

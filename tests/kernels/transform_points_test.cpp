@@ -45,7 +45,8 @@ void expect_as_eigen(double tolerance) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d p(cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]);
     const Eigen::Vector3d expected = mounting() * p;
-    const Eigen::Vector3d error = Eigen::Vector3d(found[3 * i], found[3 * i + 1], found[3 * i + 2]) - expected;
+    const Eigen::Vector3d error =
+        Eigen::Vector3d(found[3 * i], found[3 * i + 1], found[3 * i + 2]) - expected;
     ASSERT_LT(error.norm(), tolerance * (2 + p.norm())) << i;
   }
 }
@@ -84,8 +85,8 @@ TEST(TransformPoints, MakesPointsWithoutReturnAndInvalidPointsNaN) {
     xyz.insert(xyz.end(), {1, 2, 3});
   const std::size_t n = xyz.size() / 3;
   for (const Isa isa : usable_isas()) {
-    const std::vector<float> found = transformed<float>(
-        isa, PointView::of(xyz.data(), 3 * sizeof(float), n), rows_of(mounting()));
+    const std::vector<float> found =
+        transformed<float>(isa, PointView::of(xyz.data(), 3 * sizeof(float), n), rows_of(mounting()));
     for (std::size_t i = 0; i < 3 * n; ++i)
       EXPECT_EQ(std::isnan(found[i]), i < 15) << isa_name(isa) << ' ' << i;
   }

@@ -71,7 +71,8 @@ TEST(PointTimes, AreNoneWithoutASweep) {
   std::vector<float> seconds(100);
   PointTimes times;
   const TimedPoints<double> equal(100, 5, 0), slow(100, 0, 1e9), none(0, 0, 0);
-  EXPECT_EQ(times.read(equal.field(), equal.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_sweep);
+  EXPECT_EQ(times.read(equal.field(), equal.view(), 0, seconds.data()).problem,
+            DeskewTimes::Problem::no_sweep);
   EXPECT_EQ(times.read(slow.field(), slow.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_sweep);
   EXPECT_EQ(times.read(none.field(), none.view(), 0, seconds.data()).problem, DeskewTimes::Problem::no_time);
   TimedPoints<double> nan(100, std::numeric_limits<double>::quiet_NaN(), 1);

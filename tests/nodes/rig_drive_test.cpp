@@ -74,7 +74,8 @@ class DrivePoses final : public TransformFeed {
 RigSource source_of(const RigDrive& drive, std::size_t frames) {
   RigInputs inputs;
   for (std::size_t sensor = 0; sensor < kRigSensors; ++sensor) {
-    inputs.sensors.push_back({std::make_unique<DriveSource>(drive, sensor, frames), kRigFrames.at(sensor), "", {}});
+    inputs.sensors.push_back(
+        {std::make_unique<DriveSource>(drive, sensor, frames), kRigFrames.at(sensor), "", {}});
     inputs.transforms.add_fixed("base_link", kRigFrames.at(sensor), pose_of(RigDrive::mounting(sensor)));
   }
   inputs.feeds.push_back(std::make_unique<DrivePoses>(drive));
@@ -102,7 +103,8 @@ double distance_from_surface(const RigObject& object, const Eigen::Vector3d& p) 
   const double x = p.x() - object.x, y = p.y() - object.y;
   if (object.radius > 0) return std::hypot(x, y) - object.radius;
   const double c = std::cos(object.yaw), s = std::sin(object.yaw);
-  const double dx = std::abs(c * x + s * y) - object.length / 2, dy = std::abs(c * y - s * x) - object.width / 2;
+  const double dx = std::abs(c * x + s * y) - object.length / 2,
+               dy = std::abs(c * y - s * x) - object.width / 2;
   return dx > 0 && dy > 0 ? std::hypot(dx, dy) : std::max(dx, dy);
 }
 
@@ -158,9 +160,9 @@ struct Known {
   std::uint64_t track = 0, seq = 0;  // at the last sighting
 };
 
-// Follows the tracks of cars and people. The object of a cluster is that of most of its points. As in CLEAR MOT, an
-// object keeps its track as long as one of its clusters has it. An object that was out of view for longer than
-// tracks live (track.death) may get a new one.
+// Follows the tracks of cars and people. The object of a cluster is that of most of its points. As in CLEAR
+// MOT, an object keeps its track as long as one of its clusters has it. An object that was out of view for
+// longer than tracks live (track.death) may get a new one.
 HandOver track_objects(std::size_t frames) {
   const RigDrive drive({});
   RigSource source = source_of(drive, frames);
@@ -173,7 +175,8 @@ HandOver track_objects(std::size_t frames) {
   while (source.next(frame, 0ms) == Next::frame) {
     pipeline.process(frame, result);
     const std::vector<RigObject> objects = drive.objects(0);
-    std::map<std::int64_t, std::map<std::size_t, std::uint64_t>> tracks;  // of each object, by number of points
+    std::map<std::int64_t, std::map<std::size_t, std::uint64_t>>
+        tracks;  // of each object, by number of points
     for (std::size_t k = 0; k < result.clusters.size(); ++k) {
       if (!result.tracks[k]) continue;
       std::map<std::int64_t, std::size_t> points;

@@ -138,7 +138,8 @@ TEST(Rig, MergesTheCloudsOfAnInstantInTheFrameOfTheRobot) {
 }
 
 TEST(Rig, PairsCloudsOfUnequalRatesAndPhases) {
-  RigSource equal(two_sensors({Cloud{0}, Cloud{100}, Cloud{200}}, {Cloud{49}, Cloud{149}, Cloud{249}}), rig(), {});
+  RigSource equal(two_sensors({Cloud{0}, Cloud{100}, Cloud{200}}, {Cloud{49}, Cloud{149}, Cloud{249}}), rig(),
+                  {});
   EXPECT_THAT(frames_of(equal), ElementsAre(Stamps{0, 49}, Stamps{100, 149}, Stamps{200, 249}));
   // A difference of sync_ms is too much. The next pair fits.
   RigSource late(two_sensors({Cloud{0}, Cloud{100}}, {Cloud{50}, Cloud{150}}), rig(), {});
@@ -178,8 +179,9 @@ TEST(Rig, WaitsForALiveSensorNoLongerThanSyncMs) {
 }
 
 TEST(Rig, DropsLateCloudsAndTimesThatRunBackwards) {
-  RigSource source(two_sensors({Cloud{0}, Cloud{100}, Cloud{90}, Cloud{200}}, {Cloud{0}, Cloud{100}, Cloud{200}}),
-                   rig(), {});
+  RigSource source(
+      two_sensors({Cloud{0}, Cloud{100}, Cloud{90}, Cloud{200}}, {Cloud{0}, Cloud{100}, Cloud{200}}), rig(),
+      {});
   EXPECT_THAT(frames_of(source), ElementsAre(Stamps{0, 0}, Stamps{100, 100}, Stamps{200, 200}));
   EXPECT_THAT(source.take_warnings(), ElementsAre(HasSubstr("/front: 1 clouds did not belong")));
 }
@@ -193,9 +195,11 @@ TEST(Rig, BeginsAnewWhenALiveRecordingIsRepeated) {
 }
 
 TEST(Rig, SaysThatClocksDiffer) {
-  RigSource source(two_sensors({Cloud{37'000, {1, 0, 0}, 100}}, {Cloud{0, {1, 0, 0}, 110}}), rig(), stamped());
+  RigSource source(two_sensors({Cloud{37'000, {1, 0, 0}, 100}}, {Cloud{0, {1, 0, 0}, 110}}), rig(),
+                   stamped());
   EXPECT_THAT(frames_of(source), ElementsAre(Stamps{-1, 0}, Stamps{37'000, -1}));
-  EXPECT_THAT(source.take_warnings(), Contains(HasSubstr("the clocks of /rear and /front differ by -37.010 s")));
+  EXPECT_THAT(source.take_warnings(),
+              Contains(HasSubstr("the clocks of /rear and /front differ by -37.010 s")));
 }
 
 TEST(Rig, NeverUsesACloudWithoutTransform) {
@@ -290,7 +294,8 @@ TEST(Rig, HasThePoseOfTheRobotInTheFixedFrame) {
 
 TEST(Rig, MeasuresRangesFromEachSensor) {
   // 4 m ahead of `front`, which is 5 m from the robot's origin, and 4 m ahead of `rear`.
-  RigSource source(two_sensors({Cloud{0, {4, 0, 0, 4.6F, 0, 0}}}, {Cloud{0, {4, 0, 0, 0.3F, 0, 0}}}), rig(), {});
+  RigSource source(two_sensors({Cloud{0, {4, 0, 0, 4.6F, 0, 0}}}, {Cloud{0, {4, 0, 0, 0.3F, 0, 0}}}), rig(),
+                   {});
   Frame frame;
   ASSERT_EQ(source.next(frame, 0ms), Next::frame);
   PipelineConfig config;
@@ -307,7 +312,8 @@ TEST(Rig, MeasuresRangesFromEachSensor) {
 }
 
 TEST(Rig, ClearsTheMemoryOfAFrameOnlyWhenNobodyUsesIt) {
-  RigSource source(two_sensors({Cloud{0, {1, 0, 0}}, Cloud{100, {2, 0, 0}}, Cloud{200, {3, 0, 0}}}, {}), rig(), {});
+  RigSource source(two_sensors({Cloud{0, {1, 0, 0}}, Cloud{100, {2, 0, 0}}, Cloud{200, {3, 0, 0}}}, {}),
+                   rig(), {});
   Frame first, second;
   ASSERT_EQ(source.next(first, 0ms), Next::frame);
   const std::byte* const memory = first.points.data;

@@ -36,7 +36,8 @@ TEST(Transforms, JoinFixedPosesOverTheCommonParent) {
   ASSERT_TRUE(found.pose) << found.problem;
   // 1 m ahead of the lidar, which looks to the left, from 0.5 m left of the mast.
   EXPECT_TRUE((*found.pose * Vector(1, 0, 0)).isApprox(Vector(1, 1.5, 1), 1e-12));
-  EXPECT_TRUE((*transforms.find("lidar", "camera", 7).pose * *found.pose * Vector(1, 2, 3)).isApprox(Vector(1, 2, 3)));
+  EXPECT_TRUE((*transforms.find("lidar", "camera", 7).pose * *found.pose * Vector(1, 2, 3))
+                  .isApprox(Vector(1, 2, 3)));
 }
 
 TEST(Transforms, OfAFrameToItselfAreTheIdentityWithoutAnyMessage) {
@@ -47,7 +48,8 @@ TEST(Transforms, ThatAreMissingAreAProblemAndNeverTheIdentity) {
   Transforms transforms;
   transforms.add_fixed("base", "lidar", at(1, 0, 0));
   transforms.add_fixed("odom", "other", at(1, 0, 0));
-  const FoundTransform unknown = transforms.find("base", "rear", 0), split = transforms.find("base", "other", 0);
+  const FoundTransform unknown = transforms.find("base", "rear", 0),
+                       split = transforms.find("base", "other", 0);
   EXPECT_FALSE(unknown.pose);
   EXPECT_TRUE(unknown.pending);
   EXPECT_THAT(unknown.problem, HasSubstr("no transform names the frame rear"));
@@ -157,7 +159,8 @@ TEST(TransformMessages, GiveTheSamePosesInBothEncodings) {
       EXPECT_EQ(found.pose->translation(), Vector(1, 2, 3));
       for (std::size_t size = 0; size < bytes.size(); ++size) {
         Transforms none;
-        EXPECT_THROW(add_transforms({bytes.data(), size, ros1, is_odometry, false}, none), MessageError) << size;
+        EXPECT_THROW(add_transforms({bytes.data(), size, ros1, is_odometry, false}, none), MessageError)
+            << size;
       }
     }
   }

@@ -73,7 +73,8 @@ std::string stl(bool binary) {
 TEST_F(UrdfFile, GivesItsFixedJointsAsTransforms) {
   Transforms transforms;
   read_urdf(write("robot.urdf", kRobot)).add_joints(transforms);
-  EXPECT_TRUE(transforms.find("base_link", "lidar", 0).pose->translation().isApprox(Vector(1, 0.5, 2), 1e-12));
+  EXPECT_TRUE(
+      transforms.find("base_link", "lidar", 0).pose->translation().isApprox(Vector(1, 0.5, 2), 1e-12));
   EXPECT_FALSE(transforms.find("base_link", "wheel", 0).pose);  // it moves
 }
 
@@ -105,12 +106,12 @@ TEST_F(UrdfFile, LeavesOutMeshesThatCannotBeReadWithAWarning) {
 }
 
 TEST_F(UrdfFile, MayNameMeshesInTextInObjAndByPath) {
-  for (const auto& [name, content] :
-       {std::pair<std::string, std::string>{"t.stl", stl(false)},
-        {"t.obj", "v 0 0 0\nv 1 0 0\nvn 5 5 5\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"}}) {
+  for (const auto& [name, content] : {std::pair<std::string, std::string>{"t.stl", stl(false)},
+                                      {"t.obj", "v 0 0 0\nv 1 0 0\nvn 5 5 5\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"}}) {
     EXPECT_EQ(read_mesh_vertices(write(name, content)).size(), name == "t.obj" ? 4U : 12U);
-    const Urdf urdf = read_urdf(write("robot.urdf", "<robot><link name='a'><collision><geometry><mesh filename='" +
-                                                        name + "'/></geometry></collision></link></robot>"));
+    const Urdf urdf =
+        read_urdf(write("robot.urdf", "<robot><link name='a'><collision><geometry><mesh filename='" + name +
+                                          "'/></geometry></collision></link></robot>"));
     ASSERT_EQ(urdf.shapes.size(), 1U);
     EXPECT_NEAR(std::get<Hull>(urdf.shapes[0].volume).volume(), 1.0 / 6, 1e-6);
   }
@@ -124,9 +125,11 @@ TEST_F(UrdfFile, IsRejectedWithItsFileAndLine) {
   EXPECT_THAT(refusal("<sdf/>"), HasSubstr("no element <robot>"));
   EXPECT_THAT(refusal("<robot>\n<joint name='j' type='fixed'><parent link='a'/></joint></robot>"),
               HasSubstr("line 2: a joint has no parent or no child"));
-  EXPECT_THAT(refusal("<robot><link name='a'><collision><geometry><sphere/></geometry></collision></link></robot>"),
-              HasSubstr("radius is not above 0"));
-  EXPECT_THAT(refusal("<robot><link name='a'><collision><geometry><sphere radius='nan'/></geometry></collision></link></robot>"),
+  EXPECT_THAT(
+      refusal("<robot><link name='a'><collision><geometry><sphere/></geometry></collision></link></robot>"),
+      HasSubstr("radius is not above 0"));
+  EXPECT_THAT(refusal("<robot><link name='a'><collision><geometry><sphere "
+                      "radius='nan'/></geometry></collision></link></robot>"),
               HasSubstr("radius 'nan' is not 1 numbers"));
   std::string deep = "<robot>";
   for (int i = 0; i < 100'000; ++i)

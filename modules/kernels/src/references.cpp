@@ -199,9 +199,9 @@ void transform_points_reference(const PointView& points, const RigidTransform& t
       load_point(points, i, p);
       for (std::size_t row = 0; row < 3; ++row) {
         const std::array<double, 4>& m = transform[row];
-        moved[row] = ((static_cast<T>(m[0]) * p[0] + static_cast<T>(m[1]) * p[1]) +
-                      static_cast<T>(m[2]) * p[2]) +
-                     static_cast<T>(m[3]);
+        moved[row] =
+            ((static_cast<T>(m[0]) * p[0] + static_cast<T>(m[1]) * p[1]) + static_cast<T>(m[2]) * p[2]) +
+            static_cast<T>(m[3]);
       }
       const bool no_return = p[0] == 0 && p[1] == 0 && p[2] == 0;
       if (no_return || !is_valid({p[0], p[1], p[2]}) || !is_valid({moved[0], moved[1], moved[2]}))

@@ -13,9 +13,9 @@
 #include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/kernels/run_boxes.h"
 #include "pcl_bv/kernels/slab_extents.h"
-#include "pcl_bv/kernels/transform_points.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/swept_ball.h"
+#include "pcl_bv/kernels/transform_points.h"
 
 namespace pcl_bv::detail {
 

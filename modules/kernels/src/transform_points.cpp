@@ -33,12 +33,12 @@ HWY_INLINE V<D> transformed_coordinate(D d, const std::array<double, 4>& row, V<
 
 template <class D>
 HWY_INLINE void transform_packet(D d, const RigidTransform& m, V<D>& x, V<D>& y, V<D>& z) {
-  const auto to_x = transformed_coordinate(d, m[0], x, y, z),
-             to_y = transformed_coordinate(d, m[1], x, y, z),
+  const auto to_x = transformed_coordinate(d, m[0], x, y, z), to_y = transformed_coordinate(d, m[1], x, y, z),
              to_z = transformed_coordinate(d, m[2], x, y, z);
   const auto zero = hn::Zero(d);
   const auto no_return = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Eq(z, zero));
-  const auto valid = hn::AndNot(no_return, hn::And(valid_lanes(d, x, y, z), valid_lanes(d, to_x, to_y, to_z)));
+  const auto valid =
+      hn::AndNot(no_return, hn::And(valid_lanes(d, x, y, z), valid_lanes(d, to_x, to_y, to_z)));
   const auto nan = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::quiet_NaN());
   x = hn::IfThenElse(valid, to_x, nan);
   y = hn::IfThenElse(valid, to_y, nan);

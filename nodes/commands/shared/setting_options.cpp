@@ -24,7 +24,8 @@ std::string shown_default(const Setting& setting, const std::string& value) {
 // options only in commands for streams.
 bool has_option(const Setting& setting, bool stream) {
   const std::string_view stage = setting.key.substr(0, setting.key.find('.'));
-  return !setting.option.empty() && (stream || (stage != "track" && stage != "runner" && stage != "deskew" && stage != "rig"));
+  return !setting.option.empty() &&
+         (stream || (stage != "track" && stage != "runner" && stage != "deskew" && stage != "rig"));
 }
 
 // Removes repeated methods. The command line may repeat a method, but a configuration file may not.

@@ -24,7 +24,8 @@ std::int64_t stamp_at(double seconds) {
   return kStart + std::llround(1e9 * seconds);
 }
 
-msg::TransformStamped transform_of(const char* parent, const char* child, double seconds, const RigPose& pose) {
+msg::TransformStamped transform_of(const char* parent, const char* child, double seconds,
+                                   const RigPose& pose) {
   const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows =
       Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(pose.data());
   const Eigen::Quaterniond q(Eigen::Matrix3d(rows.leftCols<3>()));
@@ -47,9 +48,10 @@ struct Record {
 std::vector<Record> records_of(const RigSweep& sweep) {
   std::vector<Record> records(sweep.ring.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const float intensity = sweep.object[i] == 0 ? 10.F : 20.F + static_cast<float>(sweep.object[i] % 8) * 10.F;
-    records[i] = {sweep.xyz[3 * i], sweep.xyz[3 * i + 1], sweep.xyz[3 * i + 2], intensity, sweep.ring[i],
-                  sweep.time_ns[i]};
+    const float intensity =
+        sweep.object[i] == 0 ? 10.F : 20.F + static_cast<float>(sweep.object[i] % 8) * 10.F;
+    records[i] = {sweep.xyz[3 * i], sweep.xyz[3 * i + 1], sweep.xyz[3 * i + 2],
+                  intensity,        sweep.ring[i],        sweep.time_ns[i]};
   }
   return records;
 }
@@ -61,9 +63,9 @@ msg::PointCloud2 cloud_of(const std::vector<Record>& records, const RigSweep& sw
   cloud.width = static_cast<std::uint32_t>(records.size());
   cloud.point_step = sizeof(Record);
   cloud.row_step = cloud.point_step * cloud.width;
-  cloud.fields = {{"x", 0, Field::FLOAT32, 1},          {"y", 4, Field::FLOAT32, 1},
-                  {"z", 8, Field::FLOAT32, 1},          {"intensity", 12, Field::FLOAT32, 1},
-                  {"ring", 16, Field::UINT16, 1},       {"t", 18, Field::UINT32, 1}};
+  cloud.fields = {{"x", 0, Field::FLOAT32, 1},    {"y", 4, Field::FLOAT32, 1},
+                  {"z", 8, Field::FLOAT32, 1},    {"intensity", 12, Field::FLOAT32, 1},
+                  {"ring", 16, Field::UINT16, 1}, {"t", 18, Field::UINT32, 1}};
   cloud.data = {reinterpret_cast<const std::byte*>(records.data()), records.size() * sizeof(Record)};
   return cloud;
 }

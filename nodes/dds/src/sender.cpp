@@ -55,8 +55,8 @@ class Sender final : public MessageSender {
     if (encoding != "cdr") throw std::invalid_argument(name + ": DDS carries CDR only");
     const ddsi_sertype* known = nullptr;
     Entity topic(create_cdr_topic(participant_->get(), dds_topic(name), dds_type(type), &known), name);
-    Entity writer(dds_create_writer(participant_->get(), topic.get(), writer_qos(type, latched).get(), nullptr),
-                  name);
+    Entity writer(
+        dds_create_writer(participant_->get(), topic.get(), writer_qos(type, latched).get(), nullptr), name);
     topics_.push_back({name, known, std::move(topic), std::move(writer)});
     return topics_.size() - 1;
   }

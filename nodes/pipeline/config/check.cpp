@@ -12,8 +12,8 @@
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "rows.h"
-#include "stream/rig/mounting_pose.h"
 #include "settings.h"
+#include "stream/rig/mounting_pose.h"
 
 namespace pcl_bv {
 using namespace detail;

@@ -38,7 +38,8 @@ Execution PipelineConfig::execution() const {
 }
 
 MethodOptions PipelineConfig::method_options() const {
-  return {growth, detail::normalized_up(ground.up), concave_length.value_or(std::numeric_limits<double>::infinity())};
+  return {growth, detail::normalized_up(ground.up),
+          concave_length.value_or(std::numeric_limits<double>::infinity())};
 }
 
 Refine PipelineConfig::effective_refine() const {

@@ -14,8 +14,8 @@ namespace pcl_bv::detail {
 
 /// Element types of the lists in the configuration.
 template <typename T>
-concept ConfigRow = std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig> ||
-                    std::same_as<T, RigSensor>;
+concept ConfigRow =
+    std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig> || std::same_as<T, RigSensor>;
 
 /// How messages name a row.
 struct RowNames {

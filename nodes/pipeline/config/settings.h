@@ -193,8 +193,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
 }
 // clang-format on
 
-/// Same as visit_pipeline(), for all settings of a stream: those of its pipeline, its runner and its rig, where
-/// `value` may also be a std::string of any text or a std::vector of a RigSensor.
+/// Same as visit_pipeline(), for all settings of a stream: those of its pipeline, its runner and its rig,
+/// where `value` may also be a std::string of any text or a std::vector of a RigSensor.
 template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   visit_pipeline(c.pipeline, visit);

@@ -15,7 +15,7 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double kLongestPoseStep = 1;  // seconds between two poses
-constexpr double kMaxSpeed = 100;   // m/s; faster motions are jumps of the poses
+constexpr double kMaxSpeed = 100;       // m/s; faster motions are jumps of the poses
 
 // Returns the seconds from one stamp to the next, or nullopt if the second frame does not follow the first.
 std::optional<double> seconds_between(std::int64_t before_ns, std::int64_t after_ns) {

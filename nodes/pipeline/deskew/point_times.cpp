@@ -94,7 +94,8 @@ double PointTimes::ranked(std::size_t rank) {
   return *at;
 }
 
-// A single minimum would wait for the one before: one minimum for each of 8 residues takes a quarter of the time.
+// A single minimum would wait for the one before: one minimum for each of 8 residues takes a quarter of the
+// time.
 void find_time_limits(const float* seconds, std::size_t count, DeskewTimes& times) {
   constexpr std::size_t lanes = 8;
   std::array<float, lanes> first, last;

@@ -29,8 +29,7 @@ class PointTimes {
   /// Writes the times relative to the stamp to `seconds`, one for each point. `points` are the points of the
   /// field's records. Returns what was found. `seconds` is undefined unless DeskewTimes::problem is `none`.
   /// O(points); allocates only if it needs more memory than before.
-  DeskewTimes read(const FieldView& field, const PointView& points, std::int64_t stamp_ns,
-                   float* seconds);
+  DeskewTimes read(const FieldView& field, const PointView& points, std::int64_t stamp_ns, float* seconds);
 
  private:
   void sample(const FieldView& field, const PointView& points);

@@ -127,8 +127,8 @@ void CloudMerger::merge(const std::vector<MountedCloud>& clouds, Frame& merged) 
   const ScalarType scalar = widest_scalar(clouds);
   const std::size_t step = 3 * size_of(scalar);
   const std::shared_ptr<Memory> memory = take_memory();
-  const bool intensity = all_have(clouds, [](const Frame& frame) { return frame.intensity.has_value(); }),
-             classes = all_have(clouds, [](const Frame& frame) { return frame.classes != nullptr; });
+  const bool intensity = all_have(clouds, [](const Frame&frame) { return frame.intensity.has_value(); }),
+             classes = all_have(clouds, [](const Frame&frame) { return frame.classes != nullptr; });
   memory->xyz.resize((total * step + sizeof(double) - 1) / sizeof(double));
   if (times_) memory->seconds.resize(total);
   if (intensity) memory->intensity.resize(total);

@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3d> read_mesh_vertices(const std::filesystem::path& fil
   if (extension != ".stl" && extension != ".obj")
     throw IoError("meshes can be read as .stl or .obj, not as '" + extension + "'");
   const std::string bytes = read_untrusted_text(file, kMaxMeshBytes);
-  Vertices vertices = extension == ".obj"     ? text_vertices(bytes, "v")
+  Vertices vertices = extension == ".obj"    ? text_vertices(bytes, "v")
                       : is_binary_stl(bytes) ? binary_stl(bytes)
                                              : text_vertices(bytes, "vertex");
   if (vertices.empty()) throw IoError("has no vertices");

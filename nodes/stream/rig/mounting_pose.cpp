@@ -20,8 +20,8 @@ Pose pose_of_angles(const Eigen::Vector3d& position, const Eigen::Vector3d& roll
 std::optional<Pose> pose_of_quaternion(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
   constexpr double tolerance = 1e-2;
   // Comparisons with NaN are false.
-  const bool is_pose = (position.array().abs() <= kMaxCoordinate).all() &&
-                       std::abs(rotation.squaredNorm() - 1) <= tolerance;
+  const bool is_pose =
+      (position.array().abs() <= kMaxCoordinate).all() && std::abs(rotation.squaredNorm() - 1) <= tolerance;
   if (!is_pose) return std::nullopt;
   Pose pose = Pose::Identity();
   pose.linear() = rotation.normalized().toRotationMatrix();

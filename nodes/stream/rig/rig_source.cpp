@@ -106,7 +106,8 @@ bool RigSource::all_ended() const {
 std::int64_t RigSource::first_stamp() const {
   std::optional<std::int64_t> first;
   for (const Sensor& sensor : sensors_)
-    if (sensor.head && (!first || sensor.head->header.stamp_ns < *first)) first = sensor.head->header.stamp_ns;
+    if (sensor.head && (!first || sensor.head->header.stamp_ns < *first))
+      first = sensor.head->header.stamp_ns;
   return first.value_or(0);
 }
 
@@ -173,9 +174,9 @@ void RigSource::note_presence(Sensor& sensor, bool present, std::int64_t stamp_n
   const bool silent = sensor.absent >= kAbsentFrames;
   if (silent == sensor.silent) return;
   sensor.silent = silent;
-  const std::string what = silent ? ": no clouds; the frames from " + seconds_of(stamp_ns) +
-                                        " on have only the other sensors'"
-                                  : ": sends clouds again, at " + seconds_of(stamp_ns);
+  const std::string what =
+      silent ? ": no clouds; the frames from " + seconds_of(stamp_ns) + " on have only the other sensors'"
+             : ": sends clouds again, at " + seconds_of(stamp_ns);
   warnings_.push_back(printable(sensor.input.name + what));
 }
 
@@ -231,7 +232,8 @@ void RigSource::merge(Frame& frame) {
     frame.recorded_ns = std::max(frame.recorded_ns, cloud.recorded_ns);
     const bool earlier = frame.taken == Clock::time_point() || cloud.taken < frame.taken;
     if (earlier) frame.taken = cloud.taken;
-    if (!cloud.note.empty()) frame.note += (frame.note.empty() ? "" : "; ") + sensor.input.name + ": " + cloud.note;
+    if (!cloud.note.empty())
+      frame.note += (frame.note.empty() ? "" : "; ") + sensor.input.name + ": " + cloud.note;
     sensor.head.reset();
   }
   frame.pose = pose_of_rig(frame);

@@ -24,8 +24,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// A sensor of a rig and the source of its clouds.
 struct SensorInput {
   std::unique_ptr<FrameSource> source;
-  std::string name;           ///< For messages: the topic.
-  std::string frame;          ///< Frame id of the sensor; if empty, that of its clouds.
+  std::string name;            ///< For messages: the topic.
+  std::string frame;           ///< Frame id of the sensor; if empty, that of its clouds.
   std::optional<Pose> pose{};  ///< In the frame of the rig; if not set, from transforms.
 };
 
@@ -51,8 +51,8 @@ class RigSource final : public FrameSource {
 
   struct Sensor {
     SensorInput input;
-    std::optional<Frame> head;        // its next cloud
-    Clock::time_point arrival;        // of `head`
+    std::optional<Frame> head;         // its next cloud
+    Clock::time_point arrival;         // of `head`
     std::optional<std::int64_t> last;  // stamp of its previous cloud
     bool ended = false, silent = false;
     std::uint64_t clouds = 0, used = 0, late = 0;

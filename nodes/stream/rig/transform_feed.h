@@ -20,8 +20,8 @@ class TransformFeed {
  public:
   virtual ~TransformFeed() = default;
 
-  /// Adds transforms to `to`: of a recording, those recorded up to 0.5 s after `recorded_ns`; of a live topic,
-  /// those that have come. Invalid transforms are ignored with a warning.
+  /// Adds transforms to `to`: of a recording, those recorded up to 0.5 s after `recorded_ns`; of a live
+  /// topic, those that have come. Invalid transforms are ignored with a warning.
   virtual void read(std::int64_t recorded_ns, Transforms& to) = 0;
 
   /// Returns the warnings since the last call, one line each.

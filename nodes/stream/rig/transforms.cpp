@@ -11,7 +11,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::int64_t kMaxPoseGap = 500'000'000;          // nanoseconds
+constexpr std::int64_t kMaxPoseGap = 500'000'000;           // nanoseconds
 constexpr std::int64_t kStoredTransforms = 10'000'000'000;  // nanoseconds
 constexpr std::size_t kMaxFrames = 10'000;
 
@@ -131,8 +131,8 @@ std::optional<Pose> Transforms::pose_in(const std::vector<std::size_t>& chain, s
     const std::optional<Pose> step = node.fixed ? node.fixed : pose_at(node.timed, stamp_ns);
     if (!step) {
       found.pending = node.timed.empty() || stamp_ns > node.timed.back().first;
-      found.problem = "no pose of " + node.name + " in " + nodes_[*node.parent].name + " at " +
-                      seconds_text(stamp_ns);
+      found.problem =
+          "no pose of " + node.name + " in " + nodes_[*node.parent].name + " at " + seconds_text(stamp_ns);
       if (!node.timed.empty())
         found.problem += "; they reach from " + seconds_text(node.timed.front().first) + " to " +
                          seconds_text(node.timed.back().first) + ", gaps above 0.5 s are not bridged";
@@ -157,8 +157,8 @@ FoundTransform Transforms::find(const std::string& target, const std::string& so
     return found;
   }
   const std::vector<std::size_t> above_source = ancestors(*from), above_target = ancestors(*to);
-  const auto common = std::find_first_of(above_source.begin(), above_source.end(), above_target.begin(),
-                                         above_target.end());
+  const auto common =
+      std::find_first_of(above_source.begin(), above_source.end(), above_target.begin(), above_target.end());
   if (common == above_source.end()) {
     found.problem = "the frames " + source + " and " + target + " are not connected; they hang on " +
                     nodes_[above_source.back()].name + " and " + nodes_[above_target.back()].name;

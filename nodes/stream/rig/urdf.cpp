@@ -186,8 +186,9 @@ std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<st
   Transforms all;
   for (const UrdfJoint& joint : joints)
     all.add_fixed(joint.parent, joint.child, joint.pose);
-  const bool named = shapes.end() != std::find_if(shapes.begin(), shapes.end(),
-                                                  [&](const UrdfShape& shape) { return shape.link == frame; });
+  const bool named = shapes.end() != std::find_if(shapes.begin(), shapes.end(), [&](const UrdfShape& shape) {
+                       return shape.link == frame;
+                     });
   const bool joined = std::any_of(joints.begin(), joints.end(), [&](const UrdfJoint& joint) {
     return joint.parent == frame || joint.child == frame;
   });
@@ -212,7 +213,8 @@ std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<st
   }
   for (const UrdfJoint& joint : joints)
     if (joint.moves)
-      problems.push_back(printable("joint " + joint.name + " moves: what hangs on it is taken at position 0"));
+      problems.push_back(
+          printable("joint " + joint.name + " moves: what hangs on it is taken at position 0"));
   return volumes;
 }
 

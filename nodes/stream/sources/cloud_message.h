@@ -25,5 +25,5 @@ const std::vector<std::string>& cloud_type_names();
 /// Returns a copy of the cloud in a message, with all its fields. Throws as read_cloud_message().
 RawCloud raw_cloud_in(const CloudMessage& message);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

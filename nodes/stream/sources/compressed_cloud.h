@@ -25,5 +25,5 @@ struct DecompressedCloud {
 /// installed, or in builds without the component `recording`.
 DecompressedCloud decompress(const msg::CompressedPointCloud2& message);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

@@ -28,5 +28,5 @@ using DecodeDraco = void (*)(const msg::CompressedPointCloud2& message, std::uin
 /// Function that the module exports as `extern "C"`.
 inline constexpr const char* kDecodeDraco = "pcl_bv_decode_draco";
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

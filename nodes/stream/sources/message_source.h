@@ -25,5 +25,5 @@ namespace [[gnu::visibility("default")]] detail {
 std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver,
                                                  const std::string& name, const ReplayOptions& options = {});
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

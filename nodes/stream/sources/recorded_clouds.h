@@ -72,5 +72,5 @@ std::vector<std::string> take_new(const std::vector<std::string>& warnings, std:
 /// begins with the name of the file.
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

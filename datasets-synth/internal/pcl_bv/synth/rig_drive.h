@@ -15,9 +15,9 @@ namespace [[gnu::visibility("default")]] detail {
 
 struct RigDriveOptions {
   std::uint64_t seed = 1;
-  double speed = 8;                  ///< m/s, on a circle to the left.
-  double degrees_per_second = 30;    ///< Yaw rate.
-  double noise = 0.01;               ///< Standard deviation of ranges, metres.
+  double speed = 8;                ///< m/s, on a circle to the left.
+  double degrees_per_second = 30;  ///< Yaw rate.
+  double noise = 0.01;             ///< Standard deviation of ranges, metres.
   /// Whether the robot and all others move within a sweep. If not, they stand at the time of its stamp.
   bool rolling = true;
   std::size_t beams = 32, columns = 1024;  ///< Columns of a whole turn.

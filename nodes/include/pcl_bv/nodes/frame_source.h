@@ -88,7 +88,7 @@ struct ReplayOptions {
   /// TUM files have lines `seconds x y z qx qy qz qw`. The pose of a frame is interpolated between the lines
   /// before and after its stamp if these two lines are at most 0.5 s apart. Otherwise the frame has no pose.
   std::filesystem::path poses{};
-  std::string topic{};      ///< Topic of a recording. If empty: its only topic with clouds.
+  std::string topic{};       ///< Topic of a recording. If empty: its only topic with clouds.
   bool point_times = false;  ///< Whether open_rig() sets Frame::seconds, which deskewing needs.
 };
 

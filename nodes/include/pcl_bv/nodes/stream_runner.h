@@ -63,8 +63,8 @@ class ConfigError : public std::runtime_error {
 
 /// Reads a YAML file. The keys are the field names of PipelineConfig, nested by stage, such as `filter:
 /// {range_min: 0.5}`. The keys under `runner` and `rig` are the field names of RunnerConfig and RigConfig.
-/// Missing keys keep the values of `defaults`. For optional values, null means "not given". Throws ConfigError if the file cannot
-/// be read, is not YAML, or has an unknown key or a value that is not allowed.
+/// Missing keys keep the values of `defaults`. For optional values, null means "not given". Throws
+/// ConfigError if the file cannot be read, is not YAML, or has an unknown key or a value that is not allowed.
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
 /// Same as read_stream_config(), but parses `text`. Errors use `name` as the file name. If `name` is empty,

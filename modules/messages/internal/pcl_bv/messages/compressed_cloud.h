@@ -40,4 +40,4 @@ struct DracoPointCloud2 : CompressedPointCloud2 {
 };
 
 }  // namespace msg
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -57,4 +57,4 @@ inline std::string skipped_fields_note(const msg::CustomMsg& /*cloud*/) {
 RawCloud raw_cloud_of(const msg::CustomMsg& cloud);
 
 }  // namespace detail
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -23,4 +23,4 @@ struct Records {
 };
 
 }  // namespace msg
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -14,4 +14,4 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// package/Type" come before the text of each used type. Throws std::invalid_argument for unknown types.
 std::string schema_of(std::string_view type);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

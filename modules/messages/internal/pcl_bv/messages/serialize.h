@@ -225,4 +225,4 @@ void read_ros1(const std::byte* data, std::size_t size, Message& message) {
   reader.finish();
 }
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -17,5 +17,5 @@ std::vector<std::byte> decompress_zlib(const std::byte* data, std::size_t size, 
 /// Decompresses frames of zstd (RFC 8878). Otherwise like decompress_zlib().
 std::vector<std::byte> decompress_zstd(const std::byte* data, std::size_t size, std::size_t max_bytes);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
