@@ -149,7 +149,7 @@ TEST(RigDrive, WallsAndPolesAreAsThinAfterDeskewingAsOfAStandingSensor) {
                deskewed = thickness(true, Deskew::on);
   std::printf("thickness: standing %.4f m, rolling %.4f m, deskewed %.4f m\n", standing, rolling, deskewed);
   EXPECT_LE(deskewed, 1.1 * standing);
-  EXPECT_GE(rolling, 1.25 * deskewed);
+  EXPECT_GE(rolling, 20 * deskewed);
 }
 
 struct HandOver {

@@ -54,7 +54,7 @@ TEST(Transforms, ThatAreMissingAreAProblemAndNeverTheIdentity) {
   EXPECT_TRUE(unknown.pending);
   EXPECT_THAT(unknown.problem, HasSubstr("no transform names the frame rear"));
   EXPECT_FALSE(split.pose);
-  EXPECT_THAT(split.problem, HasSubstr("not connected; they hang on odom and base"));
+  EXPECT_THAT(split.problem, HasSubstr("not connected; their root frames are odom and base"));
 }
 
 TEST(Transforms, AreInterpolatedBetweenTwoTimesAndNotBeyond) {
@@ -113,10 +113,20 @@ TEST(Transforms, ThatMakeACycleOrASecondParentAreIgnoredWithAWarning) {
   EXPECT_NEAR(transforms.find("a", "c", 0).pose->translation().x(), 2, 1e-12);
   const std::vector<std::string> warnings = transforms.take_warnings();
   ASSERT_EQ(warnings.size(), 3U);
-  EXPECT_THAT(warnings[0], HasSubstr("frame a: is above its own parent c"));
+  EXPECT_THAT(warnings[0], HasSubstr("frame a: would form a cycle with its parent c"));
   EXPECT_THAT(warnings[1], HasSubstr("frame c: has two parents, b and d"));
   EXPECT_THAT(warnings[2], HasSubstr("without names"));
   EXPECT_THAT(transforms.take_warnings(), IsEmpty());
+}
+
+TEST(Transforms, ThatAreFinalStayAndOthersGiveAWarningIfTheyDiffer) {
+  Transforms transforms;
+  transforms.add_fixed("base", "a", at(1, 0, 0), true);
+  transforms.add_fixed("base", "b", at(1, 0, 0), true);
+  transforms.add_fixed("base", "a", at(1, 0, 0));
+  transforms.add_fixed("base", "b", at(1.1, 0, 0));
+  EXPECT_EQ(transforms.find("base", "b", 0).pose->translation().x(), 1);
+  EXPECT_THAT(transforms.take_warnings(), testing::ElementsAre(HasSubstr("frame b: has another pose")));
 }
 
 TEST(Transforms, OfMoreThanTenThousandFramesAreIgnoredWithAWarning) {

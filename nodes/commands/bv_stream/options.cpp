@@ -130,6 +130,10 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
   replay.own_stamps = line.given("--stamps")
                           ? t.stamps == "name"
                           : times == FrameTimes::messages || (recorded && times == FrameTimes::names);
+  const bool merges = !options.config.rig.frame.empty();
+  if (merges && times == FrameTimes::messages && !replay.own_stamps)
+    throw UsageError(
+        "--stamps rate: not with --target-frame, because transforms have the times of the recording");
   replay.topic = t.topic;
   if (line.given("--topic") && times != FrameTimes::messages)
     throw UsageError("--topic: only useful with a recording");

@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] detail {
 Pose pose_of_angles(const Eigen::Vector3d& position, const Eigen::Vector3d& roll_pitch_yaw);
 
 /// Returns the pose with this position and rotation. Returns nullopt if a number is not finite, exceeds
-/// kMaxCoordinate, or if the length of the quaternion is not 1 to within 1e-2: a transform with a scale is
-/// not a pose.
+/// kMaxCoordinate, or if the squared length of the quaternion is not 1 to within 1e-2: a transform with a
+/// scale is not a pose.
 std::optional<Pose> pose_of_quaternion(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation);
 
 /// Returns the pose of RigSensor::pose, or nullopt if the numbers are not a pose.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/messages/odometry.h"
@@ -53,7 +54,9 @@ class RecordedTransforms final : public TransformFeed {
       read_fixed(to);
       reader_->select(changing_);
     }
-    if (recorded_ns + kReadAhead < last_read_ns_ - kRestart) begin_again();
+    if (changing_.empty()) return;
+    if (latest_ns_ && recorded_ns < *latest_ns_ - kRestart) begin_again();
+    latest_ns_ = std::max(latest_ns_.value_or(recorded_ns), recorded_ns);
     while (!at_end_ && last_read_ns_ <= recorded_ns + kReadAhead) {
       RecordedMessage message;
       at_end_ = !reader_->next(message);
@@ -66,11 +69,12 @@ class RecordedTransforms final : public TransformFeed {
   std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
 
  private:
-  static constexpr std::int64_t kRestart = 2 * kReadAhead;  // a cloud so much earlier begins a repetition
+  static constexpr std::int64_t kRestart = 1'000'000'000;  // a cloud so much earlier begins a repetition
 
   void begin_again() {
     reader_->select(changing_);
     at_end_ = false;
+    latest_ns_.reset();
     last_read_ns_ = std::numeric_limits<std::int64_t>::min();
   }
 
@@ -104,6 +108,7 @@ class RecordedTransforms final : public TransformFeed {
   std::unique_ptr<RecordingReader> reader_;
   std::vector<std::size_t> fixed_, changing_;
   std::int64_t last_read_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::optional<std::int64_t> latest_ns_;  // latest time that was asked for
   bool begun_ = false, at_end_ = false, warned_ = false;
   std::vector<std::string> warnings_;
 };
@@ -115,7 +120,9 @@ std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording)
   std::unique_ptr<RecordingReader> reader = open_recording(recording);
   const std::vector<RecordedTopic>& topics = reader->topics();
   std::vector<std::size_t> fixed = topics_that(topics, is_fixed), changing = topics_that(topics, is_changing);
+  // Two topics of odometry are two estimates of the same pose, which must not be mixed.
   if (changing.empty()) changing = topics_that(topics, has_odometry);
+  if (changing.size() > 1 && has_odometry(topics[changing.front()])) changing.resize(1);
   if (fixed.empty() && changing.empty()) return nullptr;
   return std::make_unique<RecordedTransforms>(std::move(reader), std::move(fixed), std::move(changing));
 }

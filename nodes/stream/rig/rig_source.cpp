@@ -18,8 +18,8 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-// A sensor that was absent from so many frames is not waited for.
-constexpr std::uint64_t kAbsentFrames = 3;
+// A sensor that has sent nothing for three of its periods, and at least this time, is not waited for.
+constexpr std::int64_t kShortestSilence = 300'000'000;
 // A live cloud that no other sensor's clouds catch up with for this time is dropped.
 constexpr std::chrono::seconds kLongestWait{1};
 constexpr std::chrono::milliseconds kPollRigInterval{1};
@@ -51,21 +51,60 @@ RigSource::RigSource(RigInputs inputs, const RigConfig& rig, const ReplayOptions
   if (!options.poses.empty()) poses_ = Poses(options.poses, std::nullopt);
 }
 
-// Returns whether the cloud belongs to a frame that has been returned. A cloud that is much earlier than the
-// one before begins a repetition.
+// Returns whether the cloud belongs to a frame that has been returned.
 bool RigSource::is_late(const Sensor& sensor, const Frame& cloud) const {
   const std::int64_t stamp = cloud.header.stamp_ns;
-  if (sensor.last && stamp <= *sensor.last) return *sensor.last - stamp <= kSecond;
+  if (sensor.last && stamp <= *sensor.last) return true;
   if (!last_stamp_) return false;
-  if (stamp <= *last_stamp_) return *last_stamp_ - stamp <= kSecond;
-  return live_ && sensor.absent > 0 && stamp - *last_stamp_ < sync_ns_;
+  return stamp <= *last_stamp_ || (live_ && !sensor.in_last_frame && stamp - *last_stamp_ < sync_ns_);
 }
 
 void RigSource::drop_late(Sensor& sensor, const Frame& cloud) {
   if (!is_power_of_ten(++sensor.late)) return;
   warnings_.push_back(printable(sensor.input.name + ": " + std::to_string(sensor.late) +
-                                " clouds did not belong to the next frame and were dropped, now that of " +
+                                " late clouds dropped; the last one has the stamp " +
                                 seconds_of(cloud.header.stamp_ns)));
+}
+
+// A recording that is sent again begins at its first stamp. The waiting clouds are from its end.
+void RigSource::begin_repetition() {
+  last_stamp_.reset();
+  clock_ahead_.reset();
+  for (Sensor& sensor : sensors_) {
+    sensor.head.reset();
+    sensor.last.reset();
+  }
+}
+
+void RigSource::lose(Sensor& sensor, Frame cloud, const std::string& problem) {
+  sensor.problem = printable(problem);
+  cloud.file = sensor.input.name;
+  cloud.header.seq = seq_++;
+  throw FrameError(std::move(cloud), sensor.problem);
+}
+
+// Compares the stamp with the time of recording or arrival, which one machine has measured for all sensors.
+// Clouds of clocks that differ would be merged with clouds of another moment.
+void RigSource::check_clock(Sensor& sensor, const Frame& cloud) {
+  const bool live = cloud.taken != Clock::time_point();
+  if (!live && (!own_stamps_ || cloud.recorded_ns == 0)) return;
+  const std::int64_t measured =
+      live ? std::chrono::nanoseconds(cloud.taken.time_since_epoch()).count() : cloud.recorded_ns;
+  const std::int64_t ahead = cloud.header.stamp_ns - measured;
+  if (!clock_ahead_) {
+    clock_ahead_ = ahead;
+    clock_owner_ = sensor.input.name;
+  }
+  if (std::abs(ahead - *clock_ahead_) <= kSecond) return;
+  lose(sensor, cloud,
+       "its clock is " + seconds_of(ahead - *clock_ahead_) + " ahead of that of " + clock_owner_ +
+           "; the clouds can be merged when the clocks are synchronized");
+}
+
+// From now on, the sensor is waited for.
+void RigSource::end_silence(Sensor& sensor, std::int64_t stamp_ns) {
+  if (std::exchange(sensor.silent, false) && is_power_of_ten(sensor.silences))
+    warnings_.push_back(printable(sensor.input.name + ": sends clouds again, at " + seconds_of(stamp_ns)));
 }
 
 void RigSource::read_head(Sensor& sensor, std::chrono::milliseconds timeout) {
@@ -75,9 +114,16 @@ void RigSource::read_head(Sensor& sensor, std::chrono::milliseconds timeout) {
   live_ = live_ || next == Next::timeout;
   if (next != Next::frame) return;
   ++sensor.clouds;
+  const std::int64_t stamp = cloud.header.stamp_ns;
+  if (live_ && sensor.last && *sensor.last - stamp > kSecond) begin_repetition();
+  check_clock(sensor, cloud);
+  if (live_) end_silence(sensor, stamp);
   if (is_late(sensor, cloud)) return drop_late(sensor, cloud);
-  if (sensor.last && cloud.header.stamp_ns < *sensor.last) last_stamp_.reset();
-  sensor.last = cloud.header.stamp_ns;
+  if (sensor.last) {
+    const std::int64_t gap = stamp - *sensor.last;
+    sensor.period_ns = sensor.period_ns == 0 ? gap : std::min(sensor.period_ns, gap);
+  }
+  sensor.last = stamp;
   sensor.arrival = Clock::now();
   sensor.head = std::move(cloud);
 }
@@ -151,55 +197,39 @@ FoundTransform RigSource::find_pose(const Sensor& sensor) {
   return transforms_.find(rig_.frame, frame, cloud.header.stamp_ns);
 }
 
+FoundTransform RigSource::find_pose_of_rig(std::int64_t stamp_ns, std::int64_t recorded_ns) {
+  if (const std::optional<Pose> pose = poses_.at(seq_, stamp_ns)) return {pose, {}, false};
+  if (rig_.fixed_frame.empty()) return {};
+  for (const std::unique_ptr<TransformFeed>& feed : feeds_)
+    feed->read(recorded_ns, transforms_);
+  return transforms_.find(rig_.fixed_frame, rig_.frame, stamp_ns);
+}
+
 // Returns whether the transforms of the next frame are there or are not waited for.
 bool RigSource::has_transforms() {
   if (!live_) return true;
   const std::int64_t stamp = first_stamp();
+  const bool robot_is_pending = find_pose_of_rig(stamp, 0).pending;
   return std::all_of(sensors_.begin(), sensors_.end(), [&](Sensor& sensor) {
-    if (!is_member(sensor, stamp) || !find_pose(sensor).pending) return true;
+    if (!is_member(sensor, stamp) || !(robot_is_pending || find_pose(sensor).pending)) return true;
     return Clock::now() - sensor.arrival >= std::chrono::nanoseconds(sync_ns_);
   });
 }
 
-std::optional<Pose> RigSource::pose_of_rig(const Frame& frame) {
-  if (const std::optional<Pose> pose = poses_.at(seq_, frame.header.stamp_ns)) return pose;
-  if (rig_.fixed_frame.empty()) return std::nullopt;
-  for (const std::unique_ptr<TransformFeed>& feed : feeds_)
-    feed->read(frame.recorded_ns, transforms_);
-  return transforms_.find(rig_.fixed_frame, rig_.frame, frame.header.stamp_ns).pose;
-}
-
 void RigSource::note_presence(Sensor& sensor, bool present, std::int64_t stamp_ns) {
-  sensor.absent = present ? 0 : sensor.absent + 1;
-  const bool silent = sensor.absent >= kAbsentFrames;
-  if (silent == sensor.silent) return;
-  sensor.silent = silent;
-  const std::string what =
-      silent ? ": no clouds; the frames from " + seconds_of(stamp_ns) + " on have only the other sensors'"
-             : ": sends clouds again, at " + seconds_of(stamp_ns);
-  warnings_.push_back(printable(sensor.input.name + what));
-}
-
-// Compares stamps with times of recording or arrival, which one machine has measured for all sensors.
-void RigSource::compare_clocks() {
-  if (clocks_differ_ || !own_stamps_) return;
-  const Sensor* first = nullptr;
-  for (const Sensor& sensor : sensors_) {
-    if (!sensor.head || sensor.head->recorded_ns == 0) continue;
-    if (first == nullptr) first = &sensor;
-    const auto ahead = [](const Sensor& of) { return of.head->header.stamp_ns - of.head->recorded_ns; };
-    const std::int64_t difference = ahead(sensor) - ahead(*first);
-    if (std::abs(difference) <= kSecond) continue;
-    clocks_differ_ = true;
-    warnings_.push_back(printable("the clocks of " + sensor.input.name + " and " + first->input.name +
-                                  " differ by " + seconds_of(difference) +
-                                  "; their clouds cannot be merged until the clocks are synchronized"));
-    return;
-  }
+  sensor.in_last_frame = present;
+  if (present) end_silence(sensor, stamp_ns);
+  if (present || sensor.last_used_ns == 0) sensor.last_used_ns = stamp_ns;
+  const std::int64_t longest = std::max(kShortestSilence, 3 * sensor.period_ns);
+  if (present || sensor.silent || stamp_ns - sensor.last_used_ns < longest) return;
+  sensor.silent = true;
+  if (is_power_of_ten(++sensor.silences))
+    warnings_.push_back(printable(sensor.input.name + ": no clouds for " + seconds_of(longest) +
+                                  "; the frames from " + seconds_of(stamp_ns) +
+                                  " on have only the other sensors'"));
 }
 
 void RigSource::merge(Frame& frame) {
-  compare_clocks();
   const std::int64_t stamp = first_stamp();
   std::vector<MountedCloud> clouds;
   for (Sensor& sensor : sensors_) {
@@ -210,11 +240,9 @@ void RigSource::merge(Frame& frame) {
       clouds.back() = {&*sensor.head, sensor.input.name, *found.pose};
       continue;
     }
-    sensor.problem = printable("no pose in " + rig_.frame + ": " + found.problem);
     Frame lost = std::move(*sensor.head);
     sensor.head.reset();
-    lost.file = sensor.input.name;
-    throw FrameError(std::move(lost), sensor.problem);
+    lose(sensor, std::move(lost), "no pose in " + rig_.frame + ": " + found.problem);
   }
   const auto begin = Clock::now();
   frame = Frame();
@@ -236,7 +264,7 @@ void RigSource::merge(Frame& frame) {
       frame.note += (frame.note.empty() ? "" : "; ") + sensor.input.name + ": " + cloud.note;
     sensor.head.reset();
   }
-  frame.pose = pose_of_rig(frame);
+  frame.pose = find_pose_of_rig(stamp, frame.recorded_ns).pose;
   frame.fixed_frame = rig_.fixed_frame;
   frame.decode_ms += std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   last_stamp_ = stamp;
@@ -246,8 +274,9 @@ void RigSource::merge(Frame& frame) {
 // A sensor whose clouds were all lost is a mistake in the rig, although the other sensors' frames went on.
 void RigSource::report_unused() const {
   for (const Sensor& sensor : sensors_)
-    if (sensor.clouds > 0 && sensor.used == 0 && !sensor.problem.empty())
-      throw std::runtime_error(sensor.input.name + ": none of its clouds was used: " + sensor.problem);
+    if (sensor.clouds > 0 && sensor.used == 0)
+      throw std::runtime_error(sensor.input.name + ": none of its clouds was used" +
+                               (sensor.problem.empty() ? "" : ": " + sensor.problem));
 }
 
 Next RigSource::next(Frame& frame, std::chrono::milliseconds timeout) {

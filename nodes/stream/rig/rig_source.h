@@ -52,18 +52,25 @@ class RigSource final : public FrameSource {
   struct Sensor {
     SensorInput input;
     std::optional<Frame> head;         // its next cloud
-    Clock::time_point arrival;         // of `head`
-    std::optional<std::int64_t> last;  // stamp of its previous cloud
-    bool ended = false, silent = false;
-    std::uint64_t clouds = 0, used = 0, late = 0;
-    std::uint64_t absent = 0;  // frames without it since its last cloud
-    std::string problem;       // of its last cloud that was not used
+    Clock::time_point arrival{};       // of `head`
+    std::optional<std::int64_t> last;  // stamp of the cloud read last
+    std::int64_t period_ns = 0;        // shortest time between two of its clouds
+    std::int64_t last_used_ns = 0;     // stamp of the last frame with its cloud
+    bool in_last_frame = true;
+    bool ended = false;
+    bool silent = false;  // not waited for
+    std::uint64_t clouds = 0, used = 0, late = 0, silences = 0;
+    std::string problem;  // of its last cloud that was lost
   };
 
   void read_head(Sensor& sensor, std::chrono::milliseconds timeout);
   void read_heads(Clock::time_point until);
   bool is_late(const Sensor& sensor, const Frame& cloud) const;
   void drop_late(Sensor& sensor, const Frame& cloud);
+  void begin_repetition();
+  void end_silence(Sensor& sensor, std::int64_t stamp_ns);
+  void check_clock(Sensor& sensor, const Frame& cloud);
+  [[noreturn]] void lose(Sensor& sensor, Frame cloud, const std::string& problem);
   void drop_stuck_heads();
   bool all_ended() const;
   bool is_complete() const;
@@ -72,9 +79,8 @@ class RigSource final : public FrameSource {
   FoundTransform find_pose(const Sensor& sensor);
   bool has_transforms();
   void merge(Frame& frame);
-  std::optional<Pose> pose_of_rig(const Frame& frame);
+  FoundTransform find_pose_of_rig(std::int64_t stamp_ns, std::int64_t recorded_ns);
   void note_presence(Sensor& sensor, bool present, std::int64_t stamp_ns);
-  void compare_clocks();
   void report_unused() const;
 
   RigConfig rig_;
@@ -87,8 +93,9 @@ class RigSource final : public FrameSource {
   std::int64_t sync_ns_;
   std::optional<std::int64_t> last_stamp_;  // of the last frame
   std::uint64_t seq_ = 0;
-  bool live_ = false;           // some source waits for its clouds
-  bool clocks_differ_ = false;  // has been reported
+  bool live_ = false;                        // some source has had no cloud yet
+  std::optional<std::int64_t> clock_ahead_;  // of the sensors' clock, of the clock of recording or arrival
+  std::string clock_owner_;                  // sensor whose cloud gave `clock_ahead_`
   std::vector<std::string> warnings_;
 };
 

@@ -42,8 +42,8 @@ struct TransformMessage {
 std::string add_transforms(const TransformMessage& message, Transforms& to);
 
 /// Returns the transforms of a recording: the topics of type tf2_msgs/msg/TFMessage (/tf and /tf_static) and,
-/// if there is no topic of changing transforms, those of type nav_msgs/msg/Odometry. Returns null if the
-/// recording has no such topic, and for a capture of packets. Throws as open_recording().
+/// if there is no topic of changing transforms, the first one of type nav_msgs/msg/Odometry. Returns null if
+/// the recording has no such topic, and for a capture of packets. Throws as open_recording().
 std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording);
 
 /// Returns the topics /tf and /tf_static of ROS 2. Throws as Middleware::receiver().

@@ -54,7 +54,7 @@ std::optional<std::size_t> Transforms::index_of(const std::string& name) const {
 std::optional<std::size_t> Transforms::make_node(const std::string& name) {
   if (const auto known = index_of(name)) return known;
   if (nodes_.size() >= kMaxFrames) return std::nullopt;
-  nodes_.push_back({without_slash(name), {}, {}, {}, false});
+  nodes_.push_back({without_slash(name), {}, {}, {}, false, false});
   return numbers_.emplace(nodes_.back().name, nodes_.size() - 1).first->second;
 }
 
@@ -90,16 +90,23 @@ Transforms::Node* Transforms::edge(const std::string& parent, const std::string&
   }
   const std::vector<std::size_t> chain = ancestors(*above);
   if (std::find(chain.begin(), chain.end(), *below) != chain.end()) {
-    warn(node, "is above its own parent " + nodes_[*above].name + "; this transform is ignored");
+    warn(node, "would form a cycle with its parent " + nodes_[*above].name + "; this transform is ignored");
     return nullptr;
   }
   node.parent = above;
   return &node;
 }
 
-void Transforms::add_fixed(const std::string& parent, const std::string& child, const Pose& pose) {
+void Transforms::add_fixed(const std::string& parent, const std::string& child, const Pose& pose,
+                           bool final) {
   Node* const node = edge(parent, child);
   if (node == nullptr) return;
+  if (node->final) {
+    if (!pose.isApprox(*node->fixed, 1e-3))
+      warn(*node, "has another pose in the transforms than in the URDF, which is used");
+    return;
+  }
+  node->final = final;
   node->fixed = pose;
   node->timed.clear();
 }
@@ -134,8 +141,9 @@ std::optional<Pose> Transforms::pose_in(const std::vector<std::size_t>& chain, s
       found.problem =
           "no pose of " + node.name + " in " + nodes_[*node.parent].name + " at " + seconds_text(stamp_ns);
       if (!node.timed.empty())
-        found.problem += "; they reach from " + seconds_text(node.timed.front().first) + " to " +
-                         seconds_text(node.timed.back().first) + ", gaps above 0.5 s are not bridged";
+        found.problem += "; they are known from " + seconds_text(node.timed.front().first) + " to " +
+                         seconds_text(node.timed.back().first) +
+                         "; gaps longer than 0.5 s are not interpolated";
       return std::nullopt;
     }
     pose = *step * pose;
@@ -160,7 +168,7 @@ FoundTransform Transforms::find(const std::string& target, const std::string& so
   const auto common =
       std::find_first_of(above_source.begin(), above_source.end(), above_target.begin(), above_target.end());
   if (common == above_source.end()) {
-    found.problem = "the frames " + source + " and " + target + " are not connected; they hang on " +
+    found.problem = "the frames " + source + " and " + target + " are not connected; their root frames are " +
                     nodes_[above_source.back()].name + " and " + nodes_[above_target.back()].name;
     return found;
   }

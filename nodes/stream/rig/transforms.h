@@ -35,9 +35,10 @@ struct FoundTransform {
 /// Names are compared without a leading slash, which ROS 1 allowed.
 class Transforms {
  public:
-  /// Sets the fixed pose of `child` in `parent`. Replaces an earlier pose. Transforms that would give a frame
-  /// a second parent or make a cycle, and names that are empty, are ignored with a warning.
-  void add_fixed(const std::string& parent, const std::string& child, const Pose& pose);
+  /// Sets the fixed pose of `child` in `parent`. Replaces an earlier pose, unless that pose is `final`: then
+  /// a pose that differs from it is ignored with a warning. Transforms that would give a frame a second
+  /// parent or make a cycle, and names that are empty, are ignored with a warning.
+  void add_fixed(const std::string& parent, const std::string& child, const Pose& pose, bool final = false);
 
   /// Adds the pose of `child` in `parent` at a time. Otherwise like add_fixed(). Poses more than 10 s older
   /// than the newest one are forgotten. A pose that is itself so old begins anew, as a recording does that is
@@ -48,7 +49,7 @@ class Transforms {
   /// pose * p in `target`. O(depth of the tree).
   FoundTransform find(const std::string& target, const std::string& source, std::int64_t stamp_ns) const;
 
-  /// Returns the warnings since the last call, one line each. Each kind is returned once for a frame.
+  /// Returns the warnings since the last call, one line each, at most one for each frame.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -57,7 +58,7 @@ class Transforms {
     std::optional<std::size_t> parent;
     std::optional<Pose> fixed;
     std::vector<StampedPose> timed;
-    bool warned = false;
+    bool final = false, warned = false;
   };
 
   Node* edge(const std::string& parent, const std::string& child);

@@ -179,7 +179,7 @@ Urdf read_urdf(const std::filesystem::path& file) {
 
 void Urdf::add_joints(Transforms& to) const {
   for (const UrdfJoint& joint : joints)
-    if (!joint.moves) to.add_fixed(joint.parent, joint.child, joint.pose);
+    if (!joint.moves) to.add_fixed(joint.parent, joint.child, joint.pose, true);
 }
 
 std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<std::string>& problems) const {
@@ -214,7 +214,7 @@ std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<st
   for (const UrdfJoint& joint : joints)
     if (joint.moves)
       problems.push_back(
-          printable("joint " + joint.name + " moves: what hangs on it is taken at position 0"));
+          printable("joint " + joint.name + " moves: the links below it are placed as at its position 0"));
   return volumes;
 }
 

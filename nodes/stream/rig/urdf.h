@@ -33,12 +33,12 @@ struct Urdf {
   std::vector<UrdfShape> shapes;
   std::vector<std::string> warnings;  ///< Shapes that could not be read, one line each.
 
-  /// Adds the fixed joints.
+  /// Adds the fixed joints, as final transforms.
   void add_joints(Transforms& to) const;
 
   /// Returns the collision shapes in the frame of the link `frame`, with all joints at their position 0, and
-  /// a warning for each moving joint between. Shapes of links that are not connected with `frame` are left
-  /// out with a warning. Throws IoError if no joint names the frame.
+  /// a warning for each joint that moves. Shapes of links that are not connected with `frame` are left out
+  /// with a warning. Throws IoError if no joint and no shape names the frame.
   std::vector<AnyVolume> volumes_in(const std::string& frame, std::vector<std::string>& warnings) const;
 };
 

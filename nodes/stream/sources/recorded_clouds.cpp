@@ -80,7 +80,8 @@ std::vector<std::string> recorded_cloud_topics(const std::string& recording) {
   if (is_capture(recording)) return names;
   const auto reader = open_recording(recording);
   for (const RecordedTopic& topic : reader->topics())
-    if (has_clouds(topic)) names.push_back(topic.name);
+    if (has_clouds(topic) && std::find(names.begin(), names.end(), topic.name) == names.end())
+      names.push_back(topic.name);
   return names;
 }
 

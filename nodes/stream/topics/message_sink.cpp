@@ -108,6 +108,9 @@ class MessageSink final : public FrameSink {
     noted_ = result.config;
     StreamConfig config;
     config.pipeline = *result.config;
+    // Volumes without a file, such as the robot's body, have no text.
+    std::erase_if(config.pipeline.filter.regions,
+                  [](const RegionConfig& region) { return region.file.empty(); });
     carrier_->announce_settings(to_yaml(config), stamp_ns);
   }
 

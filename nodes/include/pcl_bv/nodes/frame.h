@@ -33,7 +33,7 @@ using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// The part of a merged cloud that one sensor of a rig measured (open_rig()).
 struct SensorPart {
-  std::string name;           ///< Frame id of the sensor.
+  std::string name;           ///< Topic or source of the sensor.
   std::size_t first = 0;      ///< Index of its first point in the merged cloud.
   std::size_t count = 0;      ///< Number of its points; 0 if the sensor sent no cloud for this frame.
   std::int64_t stamp_ns = 0;  ///< Stamp of its cloud.

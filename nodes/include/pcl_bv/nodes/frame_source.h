@@ -169,7 +169,9 @@ struct RigConfig {
 /// Clouds belong to one frame if their stamps are less than `rig.sync_ms` after the first one, whose stamp
 /// the frame has. Frame::seconds has the time of each point, also of sensors without own times, so that
 /// deskewing compensates the different stamps. If a sensor sends nothing, the other sensors' frames go on,
-/// and take_warnings() tells which sensor is silent. Points without a return, at (0, 0, 0), become NaN.
+/// and take_warnings() tells which sensor is silent. A cloud of a
+/// sensor whose clock differs from the others' by more than 1 s gives a FrameError. Points without a return,
+/// at (0, 0, 0), become NaN.
 ///
 /// Throws as open_source() for each source, std::invalid_argument if a sensor of `rig.sensors` has no source
 /// or the other way round, and IoError if the URDF cannot be read.
