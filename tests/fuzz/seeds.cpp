@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../recording/made_livox.h"
 #include "../recording/made_ouster.h"
 #include "../recording/made_packets.h"
 #include "codecs.h"
@@ -234,6 +235,11 @@ void write_recordings(const fs::path& folder) {
                  inside));
   write(folder / "packets" / "vlp16", pcap({packet(9000, 40, 0x37, 0x22)}));
   write(folder / "packets" / "hdl32", pcap({packet(35'900, 40, 0x39, 0x21, 3)}, 113, true));
+  for (const unsigned type : {1U, 2U, 3U}) {
+    write(folder / "packets" / ("livox" + std::to_string(type)),
+          pcap({livox_packet(random_livox(type, 99'900'000, 1, 5)),
+                livox_packet(random_livox(type, 100'000'000, 2, 5))}));
+  }
 }
 
 // Metadata, a zero byte and a capture, as fuzz_ouster wants them.

@@ -7,6 +7,7 @@ namespace pcl_bv::detail {
 
 const std::vector<SensorFamilyRow>& sensor_families() {
   static const std::vector<SensorFamilyRow> families{{"VLP-16, HDL-32E, VLP-32C", open_velodyne},
+                                                     {"Livox Mid-360, HAP", open_livox},
                                                      {"Ouster OS-0, OS-1, OS-2", open_ouster}};
   return families;
 }

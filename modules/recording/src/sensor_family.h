@@ -62,6 +62,7 @@ struct SensorFamilyRow {
 const std::vector<SensorFamilyRow>& sensor_families();
 
 std::unique_ptr<SensorFamily> open_velodyne(const std::filesystem::path& capture);
+std::unique_ptr<SensorFamily> open_livox(const std::filesystem::path& capture);
 std::unique_ptr<SensorFamily> open_ouster(const std::filesystem::path& capture);
 
 }  // namespace pcl_bv::detail
