@@ -8,8 +8,8 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/recording/packet_reader.h"
 
-// Any bytes as a capture: every point is finite, and within 262 m unless a Livox measured it, whose coordinates
-// have 32 bits.
+// Any bytes as a capture: every point is finite, and within 262 m unless a Livox measured it, whose
+// coordinates have 32 bits.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static pcl_bv::MemoryFile file;
   file.assign({reinterpret_cast<const char*>(data), size});
