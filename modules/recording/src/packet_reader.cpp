@@ -188,7 +188,7 @@ struct PacketReader::State {
     const std::size_t others = addresses.size() - names.size();
     sensors_note = "packets of " + std::to_string(queue.sensors) + " sensors (" + listed(names) +
                    (others > 0 ? " and " + std::to_string(others) + " others" : "") +
-                   "): each frame is a revolution of one of them" +
+                   "): each frame is from one of them" +
                    (addresses.size() > 1 ? ", --topic chooses one" : "");
   }
 
