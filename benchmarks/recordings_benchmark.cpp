@@ -5,13 +5,17 @@
 // blocks of 1 MiB over reading every message of it; cloud-in-place/n:POINTS is a copy of a message's data
 // over viewing its points; packets/PROFILE is reading a capture of an Ouster with 128 beams and 1024 columns
 // at 10 Hz in blocks over reading its sweeps, and real_time is the recorded time over the time of reading.
+// packets/MODEL is the same for Hesai's and Livox' sensors.
 
 #include <unistd.h>
 
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 
+#include "../tests/recording/made_hesai.h"
+#include "../tests/recording/made_livox.h"
 #include "../tests/recording/made_ouster.h"
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/messages/cloud.h"
@@ -87,40 +91,71 @@ void add_reading(const std::string& name, Compression compression) {
   });
 }
 
-// A capture of one second, in fragments as on an Ethernet. Gone with the process.
+// A capture of one second and the file that its decoder needs.
+struct Capture {
+  std::string packets, metadata;
+  const char* extension;  // of the metadata's file
+  std::size_t sweeps;
+};
+
+// In fragments as on an Ethernet.
+Capture ouster_capture(const std::string& profile) {
+  const MadeOuster sensor = made_ouster(profile, 128, 1024);
+  std::vector<std::string> ip;
+  unsigned identification = 0;
+  for (unsigned frame = 0; frame < 10; ++frame) {
+    const std::vector<MadeColumn> columns = random_columns(sensor, 100'000'000 * (frame + 1), frame);
+    for (const std::string& packet : packets_of_frame(sensor, frame, columns)) {
+      for (const std::string& fragment : fragments_of(udp(packet), identification++))
+        ip.push_back(fragment);
+    }
+  }
+  return {pcap_of_ip(ip), nested_metadata(sensor), ".json", 10};
+}
+
+// At 10 Hz.
+Capture hesai_capture(std::size_t channels, bool dual) {
+  MadeHesai sensor{channels, dual};
+  sensor.step = sensor.xt() ? 18 : 20;
+  const auto number = static_cast<std::size_t>(1e6 / sensor.period_us()) / sensor.firings();
+  std::vector<std::string> packets;
+  for (const MadeHesaiPacket& packet : hesai_packets(sensor, number, 0, 1, 0))
+    packets.push_back(hesai_bytes(sensor, packet));
+  return {pcap(packets), hesai_correction(channels), ".csv", 10};
+}
+
+// A HAP measures 452 000 points in a second.
+Capture livox_capture(unsigned type) {
+  std::vector<std::string> packets;
+  for (unsigned i = 0; i < 4'708; ++i)
+    packets.push_back(livox_packet(random_livox(type, 212'400U * std::uint64_t{i}, i)));
+  return {pcap(packets), "", ".json", 10};
+}
+
+// Gone with the process.
 class Captured {
  public:
-  explicit Captured(const std::string& profile)
+  explicit Captured(const Capture& capture)
       : path_(std::filesystem::temp_directory_path() /
-              ("pcl_bv_bench_" + std::to_string(::getpid()) + ".pcap")) {
-    const MadeOuster sensor = made_ouster(profile, 128, 1024);
-    std::vector<std::string> ip;
-    for (unsigned frame = 0; frame < 10; ++frame) {
-      const std::vector<MadeColumn> columns = random_columns(sensor, 100'000'000 * (frame + 1), frame);
-      for (const std::string& packet : packets_of_frame(sensor, frame, columns)) {
-        for (const std::string& fragment : fragments_of(udp(packet), identification_++))
-          ip.push_back(fragment);
-      }
-    }
-    std::ofstream(path_, std::ios::binary) << pcap_of_ip(ip);
-    std::ofstream(metadata()) << nested_metadata(sensor);
+              ("pcl_bv_bench_" + std::to_string(::getpid()) + ".pcap")),
+        metadata_(std::filesystem::path(path_).replace_extension(capture.extension)) {
+    std::ofstream(path_, std::ios::binary) << capture.packets;
+    std::ofstream(metadata_) << capture.metadata;
   }
   ~Captured() {
     std::filesystem::remove(path_);
-    std::filesystem::remove(metadata());
+    std::filesystem::remove(metadata_);
   }
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::filesystem::path metadata() const { return std::filesystem::path(path_).replace_extension(".json"); }
-
-  std::filesystem::path path_;
-  unsigned identification_ = 0;
+  std::filesystem::path path_, metadata_;
 };
 
-void add_packets(const std::string& profile) {
-  add_turns("packets/" + profile, 10, [=](benchmark::State& state) {
-    const Captured captured(profile);
+void add_packets(const std::string& name, const std::function<Capture()>& make) {
+  add_turns("packets/" + name, 10, [=](benchmark::State& state) {
+    const Capture capture = make();
+    const Captured captured(capture);
     std::vector<std::byte> block(1U << 20U);
     const auto plain = [&] {
       const InputFile file(captured.path());
@@ -133,7 +168,7 @@ void add_packets(const std::string& profile) {
       std::size_t count = 0;
       for (SensorSweep sweep; reader.next(sweep); ++count)
         benchmark::DoNotOptimize(sweep.points.data());
-      if (count != 10) throw std::logic_error("other sweeps");
+      if (count != capture.sweeps) throw std::logic_error("other sweeps");
     };
     compare(state, plain, sweeps);
     state.counters["MB"] = static_cast<double>(std::filesystem::file_size(captured.path())) / 1e6;
@@ -173,6 +208,12 @@ int main(int argc, char** argv) {
   add_view();
   for (const char* profile :
        {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL", "RNG15_RFL8_NIR8"})
-    add_packets(profile);
+    add_packets(profile, [=] { return ouster_capture(profile); });
+  add_packets("PandarXT-32", [] { return hesai_capture(32, false); });
+  add_packets("PandarXT-32-dual", [] { return hesai_capture(32, true); });
+  add_packets("Pandar64", [] { return hesai_capture(64, false); });
+  add_packets("Pandar64-dual", [] { return hesai_capture(64, true); });
+  add_packets("Livox-HAP", [] { return livox_capture(1); });
+  add_packets("Livox-HAP-spherical", [] { return livox_capture(3); });
   return run_program(argc, argv);
 }

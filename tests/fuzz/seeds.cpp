@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../recording/made_hesai.h"
+#include "../recording/made_livox.h"
 #include "../recording/made_ouster.h"
 #include "../recording/made_packets.h"
 #include "codecs.h"
@@ -235,6 +237,16 @@ void write_recordings(const fs::path& folder) {
                  inside));
   write(folder / "packets" / "vlp16", pcap({packet(9000, 40, 0x37, 0x22)}));
   write(folder / "packets" / "hdl32", pcap({packet(35'900, 40, 0x39, 0x21, 3)}, 113, true));
+  for (const std::size_t channels : {16U, 32U}) {
+    const MadeHesai sensor{channels, channels == 32};
+    write(folder / "packets" / ("hesai" + std::to_string(channels)),
+          pcap({hesai_bytes(sensor, random_hesai(sensor, 35'950, 0, 1))}));
+  }
+  for (const unsigned type : {1U, 2U, 3U}) {
+    write(folder / "packets" / ("livox" + std::to_string(type)),
+          pcap({livox_packet(random_livox(type, 99'900'000, 1, 5)),
+                livox_packet(random_livox(type, 100'000'000, 2, 5))}));
+  }
 }
 
 // Metadata, a zero byte and a capture, as fuzz_ouster wants them.
@@ -256,13 +268,27 @@ void write_ouster(const fs::path& folder) {
   }
 }
 
+// An angle correction file, a zero byte and a capture, as fuzz_hesai wants them.
+void write_hesai(const fs::path& folder) {
+  for (const std::size_t channels : {16U, 40U, 64U}) {
+    for (const bool dual : {false, true}) {
+      const MadeHesai sensor{channels, dual, dual, 360};
+      std::vector<std::string> packets;
+      for (const MadeHesaiPacket& packet : hesai_packets(sensor, 3, 35'900, 1))
+        packets.push_back(hesai_bytes(sensor, packet));
+      write(folder / "hesai" / (std::to_string(channels) + (dual ? "_dual" : "")),
+            hesai_correction(channels) + '\0' + pcap(packets));
+    }
+  }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
   for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "ouster",
-                           "partial", "cloud", "compressed", "live", "nested", "transforms", "urdf"})
+                           "hesai", "partial", "cloud", "compressed", "live", "nested", "transforms", "urdf"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -272,6 +298,7 @@ int main(int count, char** arguments) {
   write_nested(folder);
   write_recordings(folder);
   write_ouster(folder);
+  write_hesai(folder);
   write_partials(folder);
   write_transforms(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));

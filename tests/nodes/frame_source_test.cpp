@@ -327,7 +327,7 @@ TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
 TEST(SourceKinds, AreListedForUsers) {
   EXPECT_EQ(source_syntax(),
             "A folder of clouds, one file\nor a recording (.mcap, .bag, .db3 or its folder)\nor packets of a "
-            "Velodyne or Ouster (.pcap, .pcapng)\nor dds:TOPIC of ROS 2 with clouds\nor "
+            "Velodyne, Hesai, Livox or Ouster (.pcap, .pcapng)\nor dds:TOPIC of ROS 2 with clouds\nor "
             "synth:street-sequence[:FRAMES[:SEED]]\n"
             "or synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]");
 }

@@ -172,7 +172,7 @@ TEST_F(DamagedCapture, ManySensorsAreNamedInOneLine) {
   EXPECT_THAT(warnings_,
               testing::ElementsAre(
                   "packets of 100 sensors (10.1.1.1:2368, 10.1.1.2:2368, 10.1.1.3:2368, 10.1.1.4:2368, "
-                  "10.1.1.5:2368 and 95 others): each frame is a revolution of one of them, "
+                  "10.1.1.5:2368 and 95 others): each frame is from one of them, "
                   "--topic chooses one"));
 }
 
@@ -186,9 +186,8 @@ TEST_F(DamagedCapture, AChosenAddressIsTheOnlyOneNamed) {
   for (std::size_t i = 2; i < 300; i += 3)
     file.replace(header(file, 300, i) + kPacketHeader + 14 + 12, 4, "\x0A\1\1\1");
   EXPECT_EQ(points_of(file, "0.0.0.0:2368").size(), 2U);
-  EXPECT_THAT(
-      warnings_,
-      testing::ElementsAre("packets of 2 sensors (0.0.0.0:2368): each frame is a revolution of one of them"));
+  EXPECT_THAT(warnings_,
+              testing::ElementsAre("packets of 2 sensors (0.0.0.0:2368): each frame is from one of them"));
 }
 
 }  // namespace

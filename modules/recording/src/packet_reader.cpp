@@ -81,17 +81,26 @@ struct OtherPackets {
 
 RawCloud raw_cloud_of(const SensorSweep& sweep) {
   RawCloud cloud;
-  cloud.fields = {{"x", 'F', 4, 1, 0},          {"y", 'F', 4, 1, 4},     {"z", 'F', 4, 1, 8},
-                  {"intensity", 'F', 4, 1, 12}, {"ring", 'U', 4, 1, 16}, {"time_ns", 'U', 4, 1, 20}};
-  if (sweep.has_reflectivity) cloud.fields.push_back({"reflectivity", 'U', 4, 1, 24});
+  cloud.fields = {
+      {"x", 'F', 4, 1, 0}, {"y", 'F', 4, 1, 4}, {"z", 'F', 4, 1, 8}, {"intensity", 'F', 4, 1, 12}};
+  std::size_t size = 16;
+  const auto add_field = [&](const char* name) {
+    cloud.fields.push_back({name, 'U', 4, 1, size});
+    size += 4;
+  };
+  if (sweep.has_ring) add_field("ring");
+  add_field("time_ns");
+  if (sweep.has_reflectivity) add_field("reflectivity");
   static_assert(sizeof(SensorPoint) == 28);
-  cloud.point_step = sweep.has_reflectivity ? 28 : 24;
+  cloud.point_step = size;
   cloud.width = sweep.points.size();
-  cloud.data.resize(cloud.width * cloud.point_step);
+  cloud.data.resize(cloud.width * size);
   std::byte* to = cloud.data.data();
+  const std::size_t skipped = sweep.has_ring ? 16 : 20;  // where the members after `intensity` begin
   for (const SensorPoint& point : sweep.points) {
-    std::memcpy(to, &point, cloud.point_step);
-    to += cloud.point_step;
+    std::memcpy(to, &point, 16);
+    std::memcpy(to + 16, reinterpret_cast<const std::byte*>(&point) + skipped, size - 16);
+    to += size;
   }
   return cloud;
 }
@@ -179,7 +188,7 @@ struct PacketReader::State {
     const std::size_t others = addresses.size() - names.size();
     sensors_note = "packets of " + std::to_string(queue.sensors) + " sensors (" + listed(names) +
                    (others > 0 ? " and " + std::to_string(others) + " others" : "") +
-                   "): each frame is a revolution of one of them" +
+                   "): each frame is from one of them" +
                    (addresses.size() > 1 ? ", --topic chooses one" : "");
   }
 

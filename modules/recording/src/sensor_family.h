@@ -46,7 +46,8 @@ class SensorFamily {
   /// Returns what a packet is that belongs to the family but cannot be decoded, such as "Velodyne's product
   /// 161". Returns an empty text for packets of other families.
   virtual std::string undecodable(const Payload& packet) const = 0;
-  /// Returns what is missing to decode such packets, as the end of a message. Empty if nothing helps.
+  /// Returns what is missing to decode such packets as the last one that undecodable() has named, as the end
+  /// of a message. Empty if nothing helps.
   virtual std::string requirement() const { return {}; }
 };
 
@@ -62,6 +63,8 @@ struct SensorFamilyRow {
 const std::vector<SensorFamilyRow>& sensor_families();
 
 std::unique_ptr<SensorFamily> open_velodyne(const std::filesystem::path& capture);
+std::unique_ptr<SensorFamily> open_hesai(const std::filesystem::path& capture);
+std::unique_ptr<SensorFamily> open_livox(const std::filesystem::path& capture);
 std::unique_ptr<SensorFamily> open_ouster(const std::filesystem::path& capture);
 
 }  // namespace pcl_bv::detail

@@ -113,7 +113,7 @@ double rotation_within(const Payload& packet) {
 }  // namespace
 
 int velodyne_product(const Payload& packet) {
-  if (packet.size < kVelodynePacket || word(packet.data) != 0xEEFF) return -1;
+  if (packet.size != kVelodynePacket || word(packet.data) != 0xEEFF) return -1;
   return std::to_integer<int>(packet.data[kVelodynePacket - 1]);
 }
 

@@ -98,7 +98,7 @@ std::unique_ptr<FrameSource> open_recorded(const std::string& name, const Replay
 }  // namespace
 
 std::vector<SourceKind> recording_kinds() {
-  return {{"packets of a Velodyne or Ouster (.pcap, .pcapng)", FrameTimes::messages,
+  return {{"packets of a Velodyne, Hesai, Livox or Ouster (.pcap, .pcapng)", FrameTimes::messages,
            [](const std::string& name) { return is_capture(name); }, open_packets},
           {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
            [](const std::string& name) { return is_recording(name); }, open_recorded}};

@@ -119,7 +119,7 @@ std::string source_syntax();
 /// Opens a source by its name:
 /// - a folder of clouds, in natural order, or one file;
 /// - a recording (open_recording()) with messages sensor_msgs/msg/PointCloud2;
-/// - a capture of the packets of Velodyne or Ouster sensors;
+/// - a capture of the packets of Velodyne, Hesai, Livox or Ouster sensors;
 /// - `dds:TOPIC` (middleware()), which never ends;
 /// - `synth:street-sequence[:FRAMES[:SEED]]` and other synthetic sequences, generated frame by frame.
 ///

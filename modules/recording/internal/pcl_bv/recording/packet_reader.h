@@ -21,7 +21,7 @@ namespace [[gnu::visibility("default")]] detail {
 struct SensorPoint {
   float x, y, z;
   float intensity;
-  std::uint32_t ring;          ///< Number of the beam; each family of sensors has its own order.
+  std::uint32_t ring;          ///< Number of the beam; 0 without SensorSweep::has_ring.
   std::uint32_t time_ns;       ///< Nanoseconds since the sweep's stamp.
   std::uint32_t reflectivity;  ///< 0 if the sensor does not measure it (SensorSweep::has_reflectivity).
 };
@@ -29,17 +29,18 @@ struct SensorPoint {
 /// Points of a sweep. resize() leaves the new points uninitialised. Write them before reading them.
 using SensorPoints = std::vector<SensorPoint, BufferAllocator<SensorPoint>>;
 
-/// The points of one revolution of a sensor.
+/// The points of one revolution of a sensor, or of 100 ms for sensors without revolution.
 struct SensorSweep {
   std::int64_t stamp_ns = 0;  ///< Capture time of the first packet, nanoseconds since 1970.
   SensorPoints points;
   std::size_t sensor = 0;  ///< Number of the sensor, from 0, in the order of the sensors' first packets.
+  bool has_ring = true;    ///< Each family of sensors has its own order of rings.
   bool has_reflectivity = false;
   std::string_view frame_id;  ///< Default frame of the family's ROS driver, such as "velodyne". A literal.
 };
 
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns, and reflectivity if the
-/// sensor measures it.
+/// sensor measures it. Without SensorSweep::has_ring, there is no field ring.
 RawCloud raw_cloud_of(const SensorSweep& sweep);
 
 /// Returns whether the first bytes of the file are those of a capture of packets (.pcap, .pcapng).
@@ -54,9 +55,15 @@ bool is_capture(const std::filesystem::path& file);
 /// - Ouster (OS-0, OS-1, OS-2), with the sensor's metadata in a .json file next to the capture. Ring 0 is the
 ///   highest beam. The intensity is the signal. A frame id is a sweep. Source:
 ///   the firmware user manual.
+/// - Hesai (PandarXT-32, PandarXT-16, Pandar64, Pandar40P, Pandar40M). Ring 0 is channel 1, the highest
+///   beam. y is at azimuth 0, x at azimuth 90 degrees. The intensity is the reflectivity, 0 to 255. The angles
+///   of the channels are in a correction file next to the capture; those of the PandarXT are known without
+///   it. Two identical dual returns give one point. Sources: the sensors' manuals and Hesai's SDK.
+/// - Livox (Mid-360, HAP). Sweeps have 100 ms of the sensor's clock and no ring. The intensity is the
+///   reflectivity, 0 to 255. Source: the communication protocols of both sensors.
 ///
-/// A sweep is one revolution. The first and the last sweep may be incomplete. Late packets go to the
-/// revolution in which they were measured. Lost packets are tolerated.
+/// A sweep is one revolution if the sensor has revolutions. The first and the last sweep may be incomplete.
+/// Late packets go to the revolution in which they were measured. Lost packets are tolerated.
 ///
 /// Each sensor has its own sweeps. The sweeps of all sensors come in the order in which they are completed.
 /// Sensors are distinguished by source address, destination port and model. If several Velodyne sensors have
@@ -91,5 +98,5 @@ class PacketReader {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

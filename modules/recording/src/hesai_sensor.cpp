@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "hesai_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr double kHesaiDegree = 3.14159265358979323846 / 180;
+constexpr std::size_t kHesaiCircle = 36'000;           // hundredths of a degree
+constexpr std::int64_t kHesaiSecond = 1'000'000'000;   // nanoseconds
+constexpr std::int64_t kMaxHesaiPause = 300'000'000;   // nanoseconds; no prediction over longer pauses
+constexpr std::int64_t kMaxHesaiTime = 4'000'000'000;  // nanoseconds, limit of SensorPoint::time_ns
+constexpr unsigned kLateHesaiPackets = 8;              // a complete sweep waits this number of packets
+constexpr unsigned kHesaiRestart = 8;                  // late packets in succession before a restart
+constexpr std::size_t kMaxHesaiPoints = std::size_t{1} << 20;  // of a sweep; a Pandar64 measures 460 800
+
+struct HesaiRotation {
+  double sine, cosine;
+};
+
+const std::vector<HesaiRotation>& hesai_rotations() {
+  static const auto all = [] {
+    std::vector<HesaiRotation> table(kHesaiCircle);
+    for (std::size_t i = 0; i < kHesaiCircle; ++i) {
+      const double angle = static_cast<double>(i) / 100 * kHesaiDegree;
+      table[i] = {std::sin(angle), std::cos(angle)};
+    }
+    return table;
+  }();
+  return all;
+}
+
+template <class T>
+T hesai_number(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);  // the host is little-endian, as elsewhere in this module
+  return value;
+}
+
+// The sensor's time within its second, microseconds.
+std::uint32_t microseconds(const Payload& packet, const HesaiModel& model) {
+  return hesai_number<std::uint32_t>(packet.data + model.tail_at() + model.timestamp) % 1'000'000;
+}
+
+// Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
+double rotation_between(double from, double to) {
+  return std::remainder(to - from, static_cast<double>(kHesaiCircle));
+}
+
+std::int64_t revolution_of(double unwrapped) {
+  return static_cast<std::int64_t>(std::floor(unwrapped / static_cast<double>(kHesaiCircle)));
+}
+
+// Returns the difference of two times of which only the position in their second is known.
+std::int64_t wrapped(std::int64_t nanoseconds) {
+  const std::int64_t within = ((nanoseconds % kHesaiSecond) + kHesaiSecond) % kHesaiSecond;
+  return within >= kHesaiSecond / 2 ? within - kHesaiSecond : within;
+}
+
+void warn_of_dropped(std::uint64_t number, std::uint64_t& warned, const char* which, SweepQueue& queue) {
+  if (number > std::exchange(warned, number))
+    queue.warnings.add("dropped " + std::to_string(number) + " Hesai packets " + which);
+}
+
+}  // namespace
+
+HesaiGeometry::HesaiGeometry(const HesaiModel& sensor, const std::vector<HesaiAngles>& angles)
+    : model(&sensor), firing_ns(hesai_firing_times(sensor)) {
+  constexpr double unit = 0.004;  // metres
+  for (const HesaiAngles& channel : angles) {
+    const double elevation = channel.elevation * kHesaiDegree, azimuth = channel.azimuth * kHesaiDegree;
+    x.push_back(unit * std::cos(elevation) * std::sin(azimuth));
+    y.push_back(unit * std::cos(elevation) * std::cos(azimuth));
+    z.push_back(unit * std::sin(elevation));
+  }
+}
+
+void HesaiSensor::pass_on(Frame& frame, SweepQueue& queue) {
+  if (!frame.sweep.points.empty()) queue.whole.push_back(std::move(frame.sweep));
+  frame = Frame();
+}
+
+void HesaiSensor::finish(SweepQueue& queue) {
+  pass_on(previous_, queue);
+  pass_on(current_, queue);
+  started_ = false;
+  late_in_succession_ = 0;
+  warn_of_dropped(late_, late_warned_, "that came after their revolution", queue);
+  warn_of_dropped(excess_, excess_warned_, "of revolutions with more than 1048576 points", queue);
+}
+
+// Returns the azimuth of the first block plus whole revolutions. Updates the direction of rotation.
+double HesaiSensor::unwrapped_azimuth(const Payload& packet) {
+  const HesaiModel& model = *geometry_->model;
+  const std::size_t step = model.blocks_per_firing(packet);
+  const double first = model.azimuth(packet, 0);
+  const double within = rotation_between(first, model.azimuth(packet, step));
+  if (within != 0) forward_ = within < 0 ? -1 : 1;
+  if (!started_) return first;
+  const double rpm = hesai_number<std::uint16_t>(packet.data + model.tail_at() + model.motor_speed);
+  const double per_ns =  // hundredths of a degree for each nanosecond
+      rpm > 0 ? forward_ * rpm * static_cast<double>(kHesaiCircle) / 60e9
+              : within / static_cast<double>(model.firing_ns);
+  const auto passed_us = static_cast<std::int64_t>(microseconds(packet, model)) - std::int64_t{last_us_};
+  const double expected = azimuth_ + per_ns * static_cast<double>(wrapped(1000 * passed_us));
+  return expected + rotation_between(expected, first);
+}
+
+bool HesaiSensor::is_too_late(std::int64_t revolution) const {
+  const bool before = forward_ * static_cast<double>(revolution - current_.revolution) < 0;
+  return current_.active && before && !(previous_.active && revolution == previous_.revolution);
+}
+
+HesaiSensor::Frame& HesaiSensor::frame_of(std::int64_t revolution, SweepQueue& queue) {
+  if (previous_.active && revolution == previous_.revolution) return previous_;
+  if (current_.active && forward_ * static_cast<double>(revolution - current_.revolution) <= 0)
+    return current_;
+  pass_on(previous_, queue);
+  previous_ = std::exchange(current_, Frame());
+  current_.active = true;
+  current_.revolution = revolution;
+  current_.sweep.sensor = *number_;
+  current_.sweep.frame_id = "hesai_lidar";
+  const std::size_t expected = previous_.sweep.points.size();
+  current_.sweep.points.reserve(expected + expected / 8);
+  packets_in_frame_ = 0;
+  return current_;
+}
+
+void HesaiSensor::add(const Payload& packet, SweepQueue& queue) {
+  const HesaiModel& model = *geometry_->model;
+  if (!number_) number_ = queue.sensors++;
+  const std::int64_t pause = packet.time_ns - last_time_ns_;
+  if (started_ && (pause > kMaxHesaiPause || pause < -kMaxHesaiPause)) finish(queue);
+  last_time_ns_ = packet.time_ns;
+  double azimuth = unwrapped_azimuth(packet);
+  if (is_too_late(revolution_of(azimuth))) {
+    if (++late_in_succession_ < kHesaiRestart) {
+      ++late_;
+      return;
+    }
+    finish(queue);
+    azimuth = unwrapped_azimuth(packet);
+  }
+  late_in_succession_ = 0;
+  const std::uint32_t us = microseconds(packet, model);
+  if (!started_ || forward_ * (azimuth - azimuth_) > 0) {
+    azimuth_ = azimuth;
+    last_us_ = us;
+  }
+  started_ = true;
+  Frame& frame = frame_of(revolution_of(azimuth), queue);
+  const auto first = static_cast<std::uint64_t>(model.azimuth(packet, 0));
+  if (frame.sweep.points.size() + model.blocks * model.channels > kMaxHesaiPoints) {
+    ++excess_;
+  } else if (frame.packets.insert(std::uint64_t{us} << 16U | first).second) {
+    add_firings(packet, azimuth, queue);
+  }
+  if (++packets_in_frame_ >= kLateHesaiPackets && previous_.active) pass_on(previous_, queue);
+}
+
+void HesaiSensor::add_firings(const Payload& packet, double azimuth, SweepQueue& queue) {
+  const HesaiModel& model = *geometry_->model;
+  const std::size_t step = model.blocks_per_firing(packet);
+  const std::int64_t packet_ns = std::int64_t{1000} * microseconds(packet, model);
+  for (std::size_t i = 0; i < model.blocks; i += step) {
+    if (i > 0) azimuth += rotation_between(model.azimuth(packet, i - step), model.azimuth(packet, i));
+    Frame& frame = frame_of(revolution_of(azimuth), queue);
+    const std::int64_t firing_ns = packet_ns + static_cast<std::int64_t>(i / step) * model.firing_ns;
+    const std::int64_t time_ns = time_in_sweep(firing_ns, packet.time_ns, frame);
+    add_points(model.block(packet, i), step, model.azimuth(packet, i), time_ns, frame.sweep.points);
+  }
+}
+
+// Returns the time of a firing after the sweep's stamp. Stamps the sweep, or moves its stamp back.
+std::int64_t HesaiSensor::time_in_sweep(std::int64_t firing_ns, std::int64_t packet_time_ns,
+                                        Frame& frame) const {
+  SensorSweep& sweep = frame.sweep;
+  if (!std::exchange(frame.stamped, true)) {
+    sweep.stamp_ns = packet_time_ns;
+    frame.first_ns = firing_ns;
+  }
+  const std::int64_t since_stamp = wrapped(firing_ns - frame.first_ns);
+  if (since_stamp >= 0) return since_stamp;
+  for (SensorPoint& point : sweep.points)
+    point.time_ns = static_cast<std::uint32_t>(std::min(point.time_ns - since_stamp, kMaxHesaiTime));
+  sweep.stamp_ns += since_stamp;
+  frame.first_ns += since_stamp;
+  return 0;
+}
+
+// Appends the returns of a firing. Each return is written, and the next one overwrites it if it is no point,
+// because the processor cannot predict which channels have a return.
+void HesaiSensor::add_points(const std::byte* block, std::size_t returns, double azimuth,
+                             std::int64_t time_ns, SensorPoints& points) const {
+  const HesaiGeometry& geometry = *geometry_;
+  const HesaiModel& model = *geometry.model;
+  const auto [sine, cosine] = hesai_rotations()[static_cast<std::size_t>(azimuth) % kHesaiCircle];
+  const std::size_t before = points.size(), most = returns * model.channels;
+  if (points.capacity() < before + most) points.reserve(2 * before + most);
+  points.resize(before + most);
+  SensorPoint* to = points.data() + before;
+  const std::byte* channel = block + model.block_header;
+  for (std::size_t i = 0; i < model.channels; ++i, channel += model.channel) {
+    const double x = geometry.y[i] * sine + geometry.x[i] * cosine;
+    const double y = geometry.y[i] * cosine - geometry.x[i] * sine;
+    const auto time = static_cast<std::uint32_t>(time_ns + geometry.firing_ns[i]);
+    for (std::size_t which = 0; which < returns; ++which) {
+      const std::byte* const at = channel + which * model.block_size();
+      const double distance = hesai_number<std::uint16_t>(at);
+      *to = {static_cast<float>(distance * x),
+             static_cast<float>(distance * y),
+             static_cast<float>(distance * geometry.z[i]),
+             static_cast<float>(std::to_integer<int>(at[2])),
+             static_cast<std::uint32_t>(i),
+             time,
+             0};
+      const bool repeated = which > 0 && std::memcmp(channel, at, 3) == 0;
+      to += distance > 0 && !repeated ? 1 : 0;
+    }
+  }
+  points.resize(static_cast<std::size_t>(to - points.data()));
+}
+
+}  // namespace pcl_bv::detail
