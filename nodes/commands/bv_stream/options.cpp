@@ -36,7 +36,7 @@ struct Texts {
 
 void declare_frames(CommandLine& line, Texts& t) {
   line.option("--source", t.sources, "SOURCE",
-              source_syntax() + "; repeatable with\n--target-frame, which merges the clouds of all sensors");
+              source_syntax() + "\nRepeatable: --target-frame merges the clouds of all sensors");
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option("--topic", t.topic, "NAME",
               "The topic of a recording, where several have clouds;\nof packets ADDRESS:PORT of a sensor");

@@ -213,7 +213,7 @@ std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
 /// Returns a text of any characters as YAML quotes it.
-std::string in_quotes(const std::string& name);
+std::string yaml_quoted(const std::string& name);
 std::string to_text(const std::vector<std::string>& names);  ///< Joined by ", ".
 /// Return rows in the syntax of the setting's unit, without [] and without unset fields.
 std::string to_text(const std::vector<RegionConfig>& regions);

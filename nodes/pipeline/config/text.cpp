@@ -70,10 +70,10 @@ std::string text_of_field(const std::optional<T>& value) {
   return value ? to_text(*value) : "";
 }
 std::string text_of_field(const std::filesystem::path& file) {
-  return in_quotes(file.string());
+  return yaml_quoted(file.string());
 }
 std::string text_of_field(const std::string& text) {
-  return text.empty() ? "" : in_quotes(text);
+  return text.empty() ? "" : yaml_quoted(text);
 }
 std::string text_of_field(const std::vector<double>& numbers) {
   std::string list;
@@ -121,7 +121,7 @@ std::string to_text(const Eigen::Vector3d& direction) {
 std::string to_text(const std::string& name) {
   return name;
 }
-std::string in_quotes(const std::string& name) {
+std::string yaml_quoted(const std::string& name) {
   constexpr char digits[] = "0123456789abcdef";
   std::string text = "\"";
   for (const char c : name) {
@@ -152,7 +152,7 @@ std::string to_text(GroundMethod method) {
   return find_name(kGroundMethods, method);
 }
 std::string to_text(const FieldName& field) {
-  return in_quotes(field.name);
+  return yaml_quoted(field.name);
 }
 std::string to_text(const UprightSize& size) {
   std::string list;

@@ -258,7 +258,7 @@ class Writer {
     std::string text = to_text(value);
     // Frame ids and file names may have any characters; names of instruction sets need no quotes.
     if constexpr (std::is_same_v<T, std::string>)
-      if (setting.key != "isa") text = value.empty() ? "null" : in_quotes(value);
+      if (setting.key != "isa") text = value.empty() ? "null" : yaml_quoted(value);
     if (text == "inf") text = ".inf";
     std::string comment(setting.unit);
     if (!setting.unset.empty()) comment.append(text.empty() ? "; []: " : "; null: ").append(setting.unset);
