@@ -56,9 +56,9 @@ bool is_capture(const std::filesystem::path& file);
 ///   highest beam. The intensity is the signal. A frame id is a sweep. Source:
 ///   the firmware user manual.
 /// - Hesai (PandarXT-32, PandarXT-16, Pandar64, Pandar40P, Pandar40M). Ring 0 is channel 1, the highest
-///   beam. y is at azimuth 0, x at azimuth 90 degrees. The intensity is the reflectivity, 0 to 255. The angles
-///   of the channels are in a correction file next to the capture; those of the PandarXT are known without
-///   it. Two identical dual returns give one point. Sources: the sensors' manuals and Hesai's SDK.
+///   beam. y is at azimuth 0, x at azimuth 90 degrees. The intensity is the reflectivity, 0 to 255. The
+///   angles of the channels are in a correction file next to the capture; those of the PandarXT are known
+///   without it. Two identical dual returns give one point. Sources: the sensors' manuals and Hesai's SDK.
 /// - Livox (Mid-360, HAP). Sweeps have 100 ms of the sensor's clock and no ring. The intensity is the
 ///   reflectivity, 0 to 255. Source: the communication protocols of both sensors.
 ///
