@@ -223,6 +223,16 @@ TEST(Rig, NeverMergesCloudsOfClocksThatDiffer) {
   EXPECT_EQ(lost, 4U);
 }
 
+TEST(Rig, MergesCloudsOfSimulatedTimeThatRunsFaster) {
+  std::vector<Step> front, rear;
+  for (int i = 0; i < 30; ++i) {
+    front.emplace_back(Cloud{2000 * i, {1, 0, 0}, 1000 + 100 * i});
+    rear.emplace_back(Cloud{2000 * i, {1, 0, 0}, 1010 + 100 * i});
+  }
+  RigSource source(two_sensors(front, rear), rig(), stamped());
+  EXPECT_THAT(frames_of(source), testing::SizeIs(30));
+}
+
 // The clouds of a sensor in real time: one for each period, but none for a while.
 class PacedSensor final : public FrameSource {
  public:

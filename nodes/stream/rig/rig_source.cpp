@@ -69,7 +69,7 @@ void RigSource::drop_late(Sensor& sensor, const Frame& cloud) {
 // A recording that is sent again begins at its first stamp. The waiting clouds are from its end.
 void RigSource::begin_repetition() {
   last_stamp_.reset();
-  clock_ahead_.reset();
+  clock_.reset();
   for (Sensor& sensor : sensors_) {
     sensor.head.reset();
     sensor.last.reset();
@@ -91,13 +91,15 @@ void RigSource::check_clock(Sensor& sensor, const Frame& cloud) {
   const std::int64_t measured =
       live ? std::chrono::nanoseconds(cloud.taken.time_since_epoch()).count() : cloud.recorded_ns;
   const std::int64_t ahead = cloud.header.stamp_ns - measured;
-  if (!clock_ahead_) {
-    clock_ahead_ = ahead;
-    clock_owner_ = sensor.input.name;
-  }
-  if (std::abs(ahead - *clock_ahead_) <= kSecond) return;
+  // Simulated time may run faster or slower than real time, so each cloud is compared with the latest one of
+  // the sensor whose clock decides. If that sensor is silent, another one takes its part.
+  constexpr std::uint64_t max_clouds_of_others = 20;
+  if (!clock_ || clock_->owner == &sensor || ++clock_->clouds_of_others > max_clouds_of_others)
+    clock_ = SensorClock{&sensor, ahead, 0};
+  const std::int64_t difference = ahead - clock_->ahead;
+  if (std::abs(difference) <= kSecond) return;
   lose(sensor, cloud,
-       "its clock is " + seconds_of(ahead - *clock_ahead_) + " ahead of that of " + clock_owner_ +
+       "its clock is " + seconds_of(difference) + " ahead of that of " + clock_->owner->input.name +
            "; the clouds can be merged when the clocks are synchronized");
 }
 

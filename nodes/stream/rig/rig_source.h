@@ -63,6 +63,13 @@ class RigSource final : public FrameSource {
     std::string problem;  // of its last cloud that was lost
   };
 
+  // By how much the stamp of a cloud was ahead of the time at which it was recorded or came.
+  struct SensorClock {
+    const Sensor* owner = nullptr;
+    std::int64_t ahead = 0;
+    std::uint64_t clouds_of_others = 0;  // since the owner's last one
+  };
+
   void read_head(Sensor& sensor, std::chrono::milliseconds timeout);
   void read_heads(Clock::time_point until);
   bool is_late(const Sensor& sensor, const Frame& cloud) const;
@@ -94,8 +101,7 @@ class RigSource final : public FrameSource {
   std::optional<std::int64_t> last_stamp_;  // of the last frame
   std::uint64_t seq_ = 0;
   bool live_ = false;                        // some source has had no cloud yet
-  std::optional<std::int64_t> clock_ahead_;  // of the sensors' clock, of the clock of recording or arrival
-  std::string clock_owner_;                  // sensor whose cloud gave `clock_ahead_`
+  std::optional<SensorClock> clock_;
   std::vector<std::string> warnings_;
 };
 
