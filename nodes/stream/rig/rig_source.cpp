@@ -263,7 +263,10 @@ void RigSource::merge(Frame& frame) {
     const bool earlier = frame.taken == Clock::time_point() || cloud.taken < frame.taken;
     if (earlier) frame.taken = cloud.taken;
     if (!cloud.note.empty())
-      frame.note += (frame.note.empty() ? "" : "; ") + sensor.input.name + ": " + cloud.note;
+      frame.note.append(frame.note.empty() ? "" : "; ")
+          .append(sensor.input.name)
+          .append(": ")
+          .append(cloud.note);
     sensor.head.reset();
   }
   frame.pose = find_pose_of_rig(stamp, frame.recorded_ns).pose;
@@ -304,7 +307,8 @@ std::vector<std::string> RigSource::take_warnings() {
   std::set<std::string> known;
   const auto append = [&](const std::vector<std::string>& lines, const std::string& prefix) {
     for (const std::string& line : lines)
-      if (known.insert(line).second) all.push_back(prefix.empty() ? line : prefix + ": " + line);
+      if (known.insert(line).second)
+        all.push_back(std::string(prefix).append(prefix.empty() ? "" : ": ").append(line));
   };
   for (Sensor& sensor : sensors_)
     append(sensor.input.source->take_warnings(), sensor.input.name);
