@@ -59,7 +59,7 @@ struct SensorFamilyRow {
   std::unique_ptr<SensorFamily> (*open)(const std::filesystem::path& capture);
 };
 
-/// All families, in the order in which they are asked for a packet.
+/// All families, in the order in which a packet is offered to them.
 const std::vector<SensorFamilyRow>& sensor_families();
 
 std::unique_ptr<SensorFamily> open_velodyne(const std::filesystem::path& capture);

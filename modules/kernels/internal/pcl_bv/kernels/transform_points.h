@@ -18,8 +18,8 @@ using RigidTransform = std::array<std::array<double, 4>, 3>;
 
 /// Writes the transformed position of each point. `xyz` gets x, y and z of all points without gaps, in the
 /// scalar type of the points. Points at (0, 0, 0) have no return. They become NaN, as do points that are not
-/// valid before or after the transform: at the place of the sensor in the new frame, a point without a return
-/// could not be distinguished from a measured one.
+/// valid before or after the transform. Otherwise a point without a return would be at the position of the
+/// sensor in the new frame, and could not be distinguished from a measured one.
 ///
 /// The bits are the same for every `isa`: each operation is rounded to the scalar type. The caller must hold
 /// a FloatEnvironment. O(points). Throws std::invalid_argument if the points are not in memory.
