@@ -27,13 +27,7 @@ template <class Cloud>
 void look_at_both_encodings(const std::byte* bytes, std::size_t size) {
   for (const bool ros1 : {false, true}) {
     try {
-      Cloud cloud;
-      if (ros1) {
-        read_ros1(bytes, size, cloud);
-      } else {
-        read_cdr(bytes, size, cloud);
-      }
-      look(cloud);
+      look(read_message<Cloud>(bytes, size, ros1));
     } catch (const MessageError&) {
     }
   }

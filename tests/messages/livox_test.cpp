@@ -19,13 +19,7 @@ using test::Encoding;
 using Bytes = std::vector<std::byte>;
 
 msg::CustomMsg parse(const std::byte* data, std::size_t size, Encoding encoding) {
-  msg::CustomMsg message;
-  if (encoding == Encoding::ros1) {
-    read_ros1(data, size, message);
-  } else {
-    read_cdr(data, size, message);
-  }
-  return message;
+  return read_message<msg::CustomMsg>(data, size, encoding == Encoding::ros1);
 }
 msg::CustomMsg parse(const Bytes& bytes, Encoding encoding) {
   return parse(bytes.data(), bytes.size(), encoding);

@@ -11,17 +11,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-template <class Message>
-Message read_message(const TransformMessage& bytes) {
-  Message message;
-  if (bytes.ros1) {
-    read_ros1(bytes.data, bytes.size, message);
-  } else {
-    read_cdr(bytes.data, bytes.size, message);
-  }
-  return message;
-}
-
 std::optional<Pose> pose_of(const msg::Point& position, const msg::Quaternion& q) {
   return pose_of_quaternion({position.x, position.y, position.z}, {q.w, q.x, q.y, q.z});
 }
@@ -40,11 +29,12 @@ std::string add_transforms(const TransformMessage& bytes, Transforms& to) {
     }
   };
   if (bytes.odometry) {
-    const auto message = read_message<msg::Odometry>(bytes);
+    const auto message = read_message<msg::Odometry>(bytes.data, bytes.size, bytes.ros1);
     const msg::Pose& pose = message.pose.pose;
     add(message.header, message.child_frame_id, pose_of(pose.position, pose.orientation));
   } else {
-    for (const msg::TransformStamped& step : read_message<msg::TFMessage>(bytes).transforms)
+    const auto message = read_message<msg::TFMessage>(bytes.data, bytes.size, bytes.ros1);
+    for (const msg::TransformStamped& step : message.transforms)
       add(step.header, step.child_frame_id, pose_of(step.transform.translation, step.transform.rotation));
   }
   return warning;

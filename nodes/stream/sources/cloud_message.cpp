@@ -25,13 +25,7 @@ constexpr std::pair<const char*, CloudType> kCloudTypes[]{
 
 template <class Cloud>
 Cloud parse(const CloudMessage& message) {
-  Cloud cloud;
-  if (message.ros1) {
-    read_ros1(message.data, message.size, cloud);
-  } else {
-    read_cdr(message.data, message.size, cloud);
-  }
-  return cloud;
+  return read_message<Cloud>(message.data, message.size, message.ros1);
 }
 
 DecompressedCloud decompressed(const CloudMessage& message) {

@@ -224,5 +224,16 @@ void read_ros1(const std::byte* data, std::size_t size, Message& message) {
   reader(message);
   reader.finish();
 }
+/// Returns the message in ROS 1's encoding or in CDR. Otherwise like read_cdr().
+template <class Message>
+Message read_message(const std::byte* data, std::size_t size, bool ros1) {
+  Message message;
+  if (ros1) {
+    read_ros1(data, size, message);
+  } else {
+    read_cdr(data, size, message);
+  }
+  return message;
+}
 
 }  // namespace pcl_bv
