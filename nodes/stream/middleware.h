@@ -60,11 +60,12 @@ class MessageSender {
 
 /// A message and the time of its sending.
 struct ReceivedMessage {
-  const std::byte* data = nullptr;  ///< Plain CDR with its encapsulation header.
+  const std::byte* data = nullptr;  ///< Plain CDR with its encapsulation header, or ROS 1's encoding.
   std::size_t size = 0;
   std::shared_ptr<const void> owner;  ///< Keeps the bytes alive.
   std::int64_t sent_ns = 0;           ///< Time of sending, nanoseconds of the sender's system clock.
   std::size_t type = 0;               ///< Index of the message's type in the types of the receiver.
+  bool ros1 = false;                  ///< The encoding is that of ROS 1, not CDR.
 };
 
 /// Receives the messages of one topic. Called by one thread.

@@ -112,6 +112,10 @@ TEST_F(Rig, RejectsWhatCannotBeMerged) {
           "--self-filter: needs --urdf");
   refused({"--source", recording, "--config", file("r.yaml", "rig: {frame: a, sensors: [{topic: /none}]}\n")},
           "rig.sensors: no source has the topic /none");
+  refused({"--source", recording, "--target-frame", "a", "--odometry", "/odom"},
+          "--odometry: needs --fixed-frame");
+  refused({"--source", recording, "--target-frame", "a", "--fixed-frame", "b", "--odometry", "/tf"},
+          "rig.odometry: no recording has the topic /tf of type nav_msgs/msg/Odometry");
   refused({"--source", recording, "--config",
            file("p.yaml", "rig: {frame: a, sensors: [{topic: /x, pose: [1, 2]}]}\n")},
           "line 1: rig.sensors: the pose of /x is not x, y, z, roll, pitch, yaw");

@@ -14,9 +14,11 @@
 #include "dds_test.h"
 #include "message_bytes.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/messages/odometry.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 #include "stream/middleware.h"
+#include "stream/rig/transform_feed.h"
 
 namespace pcl_bv::test {
 using namespace detail;
@@ -177,6 +179,49 @@ TEST_F(Dds, TheCloudsOfTwoSensorsBecomeOneInTheFrameOfTheRobot) {
     EXPECT_NEAR(std::min(left[0], left[1]), 1, 1e-5);
     return;
   }
+}
+
+// The robot is at x = 100 + 10 t by its odometry, and 900 m further by /tf, which is ignored.
+TEST_F(Dds, TheRobotsPosesComeFromItsTopicOfOdometry) {
+  const auto carrier = middleware("dds").carrier("");
+  const std::size_t tf = carrier->add_topic({"/tf", msg::TFMessage::ros_type}),
+                    odometry = carrier->add_topic({"/odom", msg::Odometry::ros_type}),
+                    points = carrier->add_topic({"/points", kCloud});
+  BvStream node(at("err"), {"--source", "dds:/points", "--target-frame", "base", "--fixed-frame", "odom",
+                            "--odometry", "/odom", "--sync", "500", "--ground", "none", "--volume", "aabb",
+                            "--sink", "jsonl:" + at("lines"), "--sink", "mcap:" + at("out.mcap")});
+  ASSERT_TRUE(wait_for([&] {
+    return carrier->has_subscribers(points) && carrier->has_subscribers(odometry) &&
+           carrier->has_subscribers(tf);
+  })) << node.errors();
+  std::int32_t seconds = 17;
+  const auto send_pose = [&](std::uint32_t nanoseconds, double x) {
+    msg::Odometry message;
+    message.header = {{seconds, nanoseconds}, "odom"};
+    message.child_frame_id = "base";
+    message.pose.pose.position.x = x;
+    message.pose.pose.orientation.w = 1;
+    carrier->send(odometry, 0, cdr_of(message));
+    carrier->send(tf, 0, cdr_of(msg::TFMessage{{step_from("odom", "base", x + 900, seconds)}}));
+  };
+  // A pose before and one after the cloud, so that it is interpolated.
+  ASSERT_TRUE(wait_for([&] {
+    ++seconds;
+    send_pose(0, 10 * seconds);
+    carrier->send(points, 0, cube({{seconds, 200'000'000}, "base"}));
+    send_pose(400'000'000, 10 * seconds + 4);
+    return text_of(at("lines")).find("\"points\":1000") != std::string::npos;
+  })) << node.errors();
+  EXPECT_EQ(node.end(SIGINT), 0) << node.errors();
+  const nlohmann::json frame = nlohmann::json::parse(text_of(at("lines")).substr(0, text_of(at("lines")).find('\n')));
+  const std::int64_t stamp = frame["stamp_ns"];
+  Transforms written;
+  const auto feed = recorded_transforms(at("out.mcap"), "");
+  ASSERT_NE(feed, nullptr) << "no frame has a pose: " << node.errors();
+  feed->read(stamp, written);
+  const FoundTransform found = written.find("odom", "base", stamp);
+  ASSERT_TRUE(found.pose) << found.problem;
+  EXPECT_NEAR(found.pose->translation().x(), 1e-8 * static_cast<double>(stamp), 1e-6);
 }
 
 TEST_F(Dds, AStoppedReaderHoldsNothingUp) {

@@ -64,6 +64,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.runner = {7, QueuePolicy::block, 12.5, 3};
   config.rig.frame = "base \"link\"";
   config.rig.fixed_frame = "odom";
+  config.rig.odometry = "/odom";
   config.rig.sync_ms = 1.0 / 3;
   config.rig.urdf = "my robot: a.urdf";
   config.rig.self_filter = 0.05;
@@ -72,6 +73,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   const StreamConfig read = parse_stream_config(printed, "");
   EXPECT_EQ(to_yaml(read), printed);
   EXPECT_EQ(read.rig.frame, config.rig.frame);
+  EXPECT_EQ(read.rig.odometry, config.rig.odometry);
   EXPECT_EQ(read.rig.urdf, config.rig.urdf);
   ASSERT_EQ(read.rig.sensors.size(), 2U);
   EXPECT_EQ(read.rig.sensors[0].pose, config.rig.sensors[0].pose);

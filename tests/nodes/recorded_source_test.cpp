@@ -12,9 +12,11 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/schema.h"
+#include "pcl_bv/messages/odometry.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/recording/mcap_writer.h"
+#include "stream/rig/transform_feed.h"
 #include "stream/sources/recorded_clouds.h"
 #include "stream/sources/sources.h"
 
@@ -322,6 +324,62 @@ TEST_F(RecordedSource, ACloudBeyondTheNumberedPosesHasNone) {
   EXPECT_TRUE(two.at(1, 0).has_value());
   EXPECT_FALSE(two.at(2, 0).has_value());
   EXPECT_FALSE(two.at(std::size_t{1} << 60U, 0).has_value());
+}
+
+// A recording with two topics of odometry, /a (the robot is at x = 1) and /b (x = 2), and /tf (x = 3) or not.
+class RecordedTransformsTest : public Folder {
+ protected:
+  std::string record(bool with_tf) const {
+    const std::string file = (path_ / (with_tf ? "tf.mcap" : "odometry.mcap")).string();
+    McapWriter writer(file);
+    msg::Odometry odometry;
+    odometry.header.frame_id = "odom";
+    odometry.child_frame_id = "base";
+    odometry.pose.pose.orientation.w = 1;
+    for (const char* topic : {"/a", "/b"}) {
+      odometry.pose.pose.position.x += 1;
+      write(writer, topic, odometry);
+    }
+    msg::TransformStamped step;
+    step.header.frame_id = "odom";
+    step.child_frame_id = "base";
+    step.transform.translation.x = 3;
+    if (with_tf) write(writer, "/tf", msg::TFMessage{{step}});
+    writer.close();
+    return file;
+  }
+
+  static double x_of(const std::string& recording, const std::string& odometry) {
+    Transforms transforms;
+    recorded_transforms(recording, odometry)->read(0, transforms);
+    const FoundTransform found = transforms.find("odom", "base", 0);
+    return found.pose ? found.pose->translation().x() : -1;
+  }
+
+ private:
+  template <class Message>
+  static void write(McapWriter& writer, const std::string& topic, const Message& message) {
+    std::vector<std::byte> bytes;
+    write_cdr(message, bytes);
+    const std::size_t number = writer.add_topic({topic, Message::ros_type, "", {}});
+    writer.write(number, 0, 0, bytes.data(), bytes.size());
+  }
+};
+
+TEST_F(RecordedTransformsTest, AreThoseOfTfUnlessATopicOfOdometryIsNamed) {
+  const std::string recording = record(true);
+  EXPECT_EQ(x_of(recording, ""), 3);
+  EXPECT_EQ(x_of(recording, "/a"), 1);
+  EXPECT_EQ(x_of(recording, "/b"), 2);
+  EXPECT_EQ(x_of(recording, "/c"), 3);
+}
+
+TEST_F(RecordedTransformsTest, AreThoseOfTheFirstOrTheNamedTopicOfOdometryWithoutTf) {
+  const std::string recording = record(false);
+  EXPECT_EQ(x_of(recording, ""), 1);
+  EXPECT_EQ(x_of(recording, "/b"), 2);
+  EXPECT_EQ(recorded_transforms(recording, "/c"), nullptr);
+  EXPECT_THAT(recorded_odometry_topics(recording), testing::ElementsAre("/a", "/b"));
 }
 
 }  // namespace

@@ -129,6 +129,33 @@ TEST(Transforms, ThatAreFinalStayAndOthersGiveAWarningIfTheyDiffer) {
   EXPECT_THAT(transforms.take_warnings(), testing::ElementsAre(HasSubstr("frame b: has another pose")));
 }
 
+TEST(Transforms, ThatArePreferredReplaceTheOthersOfTheirFrame) {
+  const auto at_x = [](double x) { return pose_of_angles({x, 0, 0}, {0, 0, 0}); };
+  for (const bool preferred_first : {false, true}) {
+    Transforms transforms;
+    if (preferred_first) transforms.add("odom", "base", 0, at_x(1), true);
+    transforms.add("other", "base", 0, at_x(5));
+    transforms.add("odom", "base", 100 * kMs, at_x(6), true);
+    transforms.add("odom", "base", 50 * kMs, at_x(7));
+    transforms.add("base", "wheel", 100 * kMs, at_x(1));
+    const FoundTransform found = transforms.find("odom", "wheel", 100 * kMs);
+    ASSERT_TRUE(found.pose) << found.problem;
+    EXPECT_EQ(found.pose->translation().x(), 7);
+    EXPECT_EQ(transforms.find("odom", "base", 50 * kMs).pose.has_value(), preferred_first);
+  }
+}
+
+TEST(Transforms, ThatArePreferredDropNothingIfTheyAreIgnored) {
+  Transforms transforms;
+  transforms.add_fixed("map", "odom", Pose::Identity());
+  transforms.add("odom", "base", 0, Pose::Identity());
+  transforms.add("base", "base", 0, Pose::Identity(), true);  // a cycle
+  transforms.add("", "base", 0, Pose::Identity(), true);
+  transforms.add("base", "", 0, Pose::Identity(), true);
+  transforms.add("base", "odom", 0, Pose::Identity(), true);  // fixed
+  EXPECT_TRUE(transforms.find("map", "base", 0).pose);
+}
+
 TEST(Transforms, OfMoreThanTenThousandFramesAreIgnoredWithAWarning) {
   Transforms transforms;
   for (int i = 0; i < 20'000; ++i)

@@ -88,6 +88,7 @@ class Receiver final : public MessageReceiver {
     dds_get_instance_handle(participant_->get(), &own_handle_);
     dds_waitset_attach(waitset_.get(), publisher_condition_.get(), 0);
     subscribe(0);
+    if (delivery != Delivery::newest) return;  // transforms are small
     if (std::string warning = receive_buffer_warning(); !warning.empty())
       pending_warnings_.push_back(std::move(warning));
   }

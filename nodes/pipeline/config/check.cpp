@@ -248,6 +248,7 @@ std::vector<ConfigProblem> detail::problems_of(const RigConfig& rig, const Setti
   };
   const bool merges = !rig.frame.empty();
   need("rig.fixed_frame", !rig.fixed_frame.empty(), merges, "rig.frame");
+  need("rig.odometry", !rig.odometry.empty(), !rig.fixed_frame.empty(), "rig.fixed_frame");
   need("rig.urdf", !rig.urdf.empty(), merges, "rig.frame");
   need("rig.sensors", !rig.sensors.empty(), merges, "rig.frame");
   need("rig.self_filter", rig.self_filter.has_value(), !rig.urdf.empty(), "rig.urdf");

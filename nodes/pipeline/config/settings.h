@@ -155,6 +155,8 @@ void visit_rig(Rig& c, Visit&& visit) {
           {}, "one sensor, in its own frame", "--target-frame", "NAME"}, c.frame);
   visit(S{"rig.fixed_frame", "frame id", "Frame that does not move, such as odom: /tf has the poses of the robot",
           {}, "no poses from /tf", "--fixed-frame", "NAME"}, c.fixed_frame);
+  visit(S{"rig.odometry", "topic", "Topic of nav_msgs/Odometry with the poses of the robot, instead of /tf",
+          {}, "/tf, or the recording's first such topic without /tf", "--odometry", "TOPIC"}, c.odometry);
   visit(S{"rig.sync_ms", "ms", "Clouds of one frame differ by less than this",
           {0, 1000, false}, {}, "--sync", "MS"}, c.sync_ms);
   visit(S{"rig.urdf", "file", "URDF of the robot: its fixed joints are transforms",

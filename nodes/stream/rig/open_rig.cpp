@@ -11,6 +11,7 @@
 #include "pcl_bv/io/untrusted_text.h"
 #include "pipeline/config/check.h"
 #include "rig_source.h"
+#include "stream/middleware.h"
 #include "urdf.h"
 
 namespace pcl_bv {
@@ -83,18 +84,33 @@ void check_sensors_have_sources(const RigConfig& rig, const std::vector<NamedTop
   }
 }
 
+void check_recorded_odometry(const std::vector<std::string>& sources, const std::string& odometry) {
+  std::string known;
+  for (const std::string& source : sources) {
+    for (const std::string& topic : recorded_odometry_topics(source)) {
+      if (topic == odometry) return;
+      known.append(known.empty() ? "; there are " : ", ").append(topic);
+    }
+  }
+  throw std::invalid_argument(printable("rig.odometry: no recording has the topic " + odometry +
+                                        " of type nav_msgs/msg/Odometry" + known));
+}
+
 // Adds the fixed joints of the URDF and the transforms of recordings and live topics.
 void add_transforms_of(const std::vector<std::string>& sources, const RigConfig& rig, RigInputs& inputs) {
   if (!rig.urdf.empty()) read_urdf(rig.urdf).add_joints(inputs.transforms);
   bool live = false;
+  std::vector<std::string> recordings;
   for (const std::string& source : sources) {
     if (source.starts_with(kDdsPrefix)) {
       live = true;
     } else if (is_recorded(source)) {
-      if (auto feed = recorded_transforms(source)) inputs.feeds.push_back(std::move(feed));
+      recordings.push_back(source);
+      if (auto feed = recorded_transforms(source, rig.odometry)) inputs.feeds.push_back(std::move(feed));
     }
   }
-  if (live) inputs.feeds.push_back(live_transforms());
+  if (live) inputs.feeds.push_back(live_transforms(middleware("dds"), rig.odometry));
+  if (!live && !rig.odometry.empty()) check_recorded_odometry(recordings, rig.odometry);
 }
 
 }  // namespace

@@ -115,14 +115,26 @@ class RecordedTransforms final : public TransformFeed {
 
 }  // namespace
 
-std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording) {
+std::vector<std::string> recorded_odometry_topics(const std::string& recording) {
+  std::vector<std::string> names;
+  if (!is_recording(recording)) return names;
+  const std::unique_ptr<RecordingReader> reader = open_recording(recording);
+  for (const std::size_t topic : topics_that(reader->topics(), has_odometry))
+    names.push_back(reader->topics()[topic].name);
+  return names;
+}
+
+std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording,
+                                                   const std::string& odometry) {
   if (!is_recording(recording)) return nullptr;  // a capture of packets
   std::unique_ptr<RecordingReader> reader = open_recording(recording);
   const std::vector<RecordedTopic>& topics = reader->topics();
   std::vector<std::size_t> fixed = topics_that(topics, is_fixed), changing = topics_that(topics, is_changing);
   // Two topics of odometry are two estimates of the same pose, which must not be mixed.
-  if (changing.empty()) changing = topics_that(topics, has_odometry);
-  if (changing.size() > 1 && has_odometry(topics[changing.front()])) changing.resize(1);
+  const std::vector<std::size_t> estimates = topics_that(topics, [&](const RecordedTopic& topic) {
+    return has_odometry(topic) && (odometry.empty() || topic.name == odometry);
+  });
+  if (!estimates.empty() && (changing.empty() || !odometry.empty())) changing.push_back(estimates.front());
   if (fixed.empty() && changing.empty()) return nullptr;
   return std::make_unique<RecordedTransforms>(std::move(reader), std::move(fixed), std::move(changing));
 }

@@ -19,13 +19,15 @@ std::optional<Pose> pose_of(const msg::Point& position, const msg::Quaternion& q
 
 std::string add_transforms(const TransformMessage& bytes, Transforms& to) {
   std::string warning;
+  // Without a topic of odometry in the settings, odometry is read only if nothing else gives its poses.
+  const bool preferred = bytes.odometry;
   const auto add = [&](const msg::Header& header, const std::string& child, const std::optional<Pose>& pose) {
     if (!pose) {
       warning = "the transform from " + child + " to " + header.frame_id + " is not rigid; it is ignored";
     } else if (bytes.fixed) {
       to.add_fixed(header.frame_id, child, *pose);
     } else {
-      to.add(header.frame_id, child, msg::nanoseconds_of(header.stamp), *pose);
+      to.add(header.frame_id, child, msg::nanoseconds_of(header.stamp), *pose, preferred);
     }
   };
   if (bytes.odometry) {

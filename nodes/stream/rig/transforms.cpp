@@ -54,7 +54,7 @@ std::optional<std::size_t> Transforms::index_of(const std::string& name) const {
 std::optional<std::size_t> Transforms::make_node(const std::string& name) {
   if (const auto known = index_of(name)) return known;
   if (nodes_.size() >= kMaxFrames) return std::nullopt;
-  nodes_.push_back({without_slash(name), {}, {}, {}, false, false});
+  nodes_.push_back({without_slash(name), {}, {}, {}, false, false, false});
   return numbers_.emplace(nodes_.back().name, nodes_.size() - 1).first->second;
 }
 
@@ -111,10 +111,24 @@ void Transforms::add_fixed(const std::string& parent, const std::string& child, 
   node->timed.clear();
 }
 
+// Drops what is known of the pose of `child`, unless it is fixed or already from a preferred source.
+void Transforms::prefer(const std::string& parent, const std::string& child) {
+  const auto made = without_slash(child).empty() ? std::nullopt : make_node(child);
+  if (!made || nodes_[*made].fixed || nodes_[*made].preferred) return;
+  const auto old_parent = std::exchange(nodes_[*made].parent, std::nullopt);
+  if (Node* const node = edge(parent, child)) {
+    node->preferred = true;
+    node->timed.clear();
+  } else {
+    nodes_[*made].parent = old_parent;
+  }
+}
+
 void Transforms::add(const std::string& parent, const std::string& child, std::int64_t stamp_ns,
-                     const Pose& pose) {
+                     const Pose& pose, bool preferred) {
+  if (preferred) prefer(parent, child);
   Node* const node = edge(parent, child);
-  if (node == nullptr || node->fixed) return;
+  if (node == nullptr || node->fixed || node->preferred != preferred) return;
   std::vector<StampedPose>& poses = node->timed;
   if (!poses.empty() && stamp_ns < poses.back().first - kStoredTransforms) poses.clear();
   const auto at = std::lower_bound(poses.begin(), poses.end(), stamp_ns, is_earlier);

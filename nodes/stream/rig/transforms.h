@@ -42,8 +42,9 @@ class Transforms {
 
   /// Adds the pose of `child` in `parent` at a time. Otherwise like add_fixed(). Poses more than 10 s older
   /// than the newest one are forgotten. A pose that is itself so old begins anew, as a recording does that is
-  /// repeated.
-  void add(const std::string& parent, const std::string& child, std::int64_t stamp_ns, const Pose& pose);
+  /// repeated. After the first `preferred` pose of `child`, its other poses and its other parent are dropped.
+  void add(const std::string& parent, const std::string& child, std::int64_t stamp_ns, const Pose& pose,
+           bool preferred = false);
 
   /// Returns the pose of the frame `source` in the frame `target` at a time: a point p of `source` is at
   /// pose * p in `target`. O(depth of the tree).
@@ -58,12 +59,13 @@ class Transforms {
     std::optional<std::size_t> parent;
     std::optional<Pose> fixed;
     std::vector<StampedPose> timed;
-    bool final = false, warned = false;
+    bool final = false, warned = false, preferred = false;
   };
 
   Node* edge(const std::string& parent, const std::string& child);
   std::optional<std::size_t> index_of(const std::string& name) const;
   std::optional<std::size_t> make_node(const std::string& name);
+  void prefer(const std::string& parent, const std::string& child);
   void warn(Node& node, const std::string& what);
   std::vector<std::size_t> ancestors(std::size_t node) const;
   std::optional<Pose> pose_in(const std::vector<std::size_t>& chain, std::size_t ancestor,

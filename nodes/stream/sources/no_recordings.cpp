@@ -25,8 +25,12 @@ std::vector<std::string> recorded_cloud_topics(const std::string&) {
   return {};
 }
 
-std::unique_ptr<TransformFeed> recorded_transforms(const std::string&) {
+std::unique_ptr<TransformFeed> recorded_transforms(const std::string&, const std::string&) {
   return nullptr;
+}
+
+std::vector<std::string> recorded_odometry_topics(const std::string&) {
+  return {};
 }
 
 DecompressedCloud decompress(const msg::CompressedPointCloud2& /*message*/) {

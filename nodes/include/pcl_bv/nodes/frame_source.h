@@ -148,6 +148,9 @@ struct RigConfig {
   std::string frame{};
   /// Frame that does not move, such as "odom". If given, the pose of `frame` in it comes from transforms.
   std::string fixed_frame{};
+  /// Topic of type nav_msgs/Odometry, recorded or live, whose poses replace those of /tf for the frame that it
+  /// names as its child. If empty: /tf, or in a recording without /tf the first topic of this type.
+  std::string odometry{};
   /// Clouds whose stamps differ by less than this belong to one frame, milliseconds, above 0, at most 1000.
   /// Live sources also wait for a late cloud for this time.
   double sync_ms = 50;
@@ -162,9 +165,10 @@ struct RigConfig {
 
 /// Opens several sources as one, whose frames have the clouds of all sensors in the frame `rig.frame`.
 ///
-/// Transforms between frames come from RigSensor::pose, from the URDF, and from the topics /tf and /tf_static
-/// of recordings and of ROS 2. Between two transforms of /tf, which are at most 0.5 s apart, poses are
-/// interpolated. A cloud without a transform to `rig.frame` gives a FrameError; it is never used without one.
+/// Transforms between frames come from RigSensor::pose, from the URDF, and from the topics /tf, /tf_static and
+/// RigConfig::odometry of recordings and of ROS 2. Between two transforms of a topic, which are at most 0.5 s
+/// apart, poses are interpolated. A cloud without a transform to `rig.frame` gives a FrameError; it is never
+/// used without one.
 ///
 /// Clouds belong to one frame if their stamps are less than `rig.sync_ms` after the first one, whose stamp
 /// the frame has. Frame::seconds has the time of each point, also of sensors without own times, so that
@@ -174,7 +178,8 @@ struct RigConfig {
 /// at (0, 0, 0), become NaN.
 ///
 /// Throws as open_source() for each source, std::invalid_argument if a sensor of `rig.sensors` has no source
-/// or the other way round, and IoError if the URDF cannot be read.
+/// or the other way round, or if no recording has the topic `rig.odometry`, and IoError if the URDF cannot be
+/// read.
 std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
                                       const ReplayOptions& options = {});
 
