@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "command.h"
+#include "devices.h"
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
@@ -58,14 +59,15 @@ TEST_F(PcdBv, WhatMayNotBeReadIsStatusOne) {
 }
 
 TEST_F(PcdBv, AFullDiskUnderAnyFileIsStatusOneAndTheReportIsStillMade) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const std::string full = device_in(at(""), Device::full).string();
+  if (full.empty()) GTEST_SKIP() << "no device can be made";
   const std::string cloud = ascii("c.pcd", {"0 0 0", "1 2 3"});
   for (const std::string option : {"--output", "--labels", "--mesh", "--image"}) {
     SCOPED_TRACE(option);
-    const Result result = run({option, "/dev/full", cloud});
+    const Result result = run({option, full, cloud});
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.error_lines(), 1U) << result.err;
-    EXPECT_THAT(result.err, StartsWith("pcd_bv: /dev/full: "));
+    EXPECT_THAT(result.err, StartsWith("pcd_bv: " + full + ": "));
     EXPECT_THAT(result.err, HasSubstr("no space left on device"));
     EXPECT_EQ(result.out.empty(), option == "--output");
   }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "devices.h"
 #include "files.h"
 #include "pcl_bv/io/raw_cloud.h"
 
@@ -166,6 +167,39 @@ TEST_F(AtomicFile, AnUnfinishedOneIsRemovedAndNoneIsWrittenAnyMore) {
   EXPECT_EXIT(write_and_end(), testing::ExitedWithCode(0), "");
 }
 
+TEST_F(AtomicFile, IsReplacedByWhatAFunctionWritesToAnotherPath) {
+  write_text(file("a"), "old");
+  fs::permissions(file("a"), static_cast<fs::perms>(0600));
+  replace_file_atomically(file("a"), [&](const fs::path& path) {
+    EXPECT_EQ(fs::file_size(path), 0U);
+    write_text(path, "new");
+    EXPECT_EQ(file_content(file("a")), "old");
+  });
+  EXPECT_EQ(file_content(file("a")), "new");
+  EXPECT_EQ(mode(file("a")), 0600U);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFile, StaysIfTheFunctionThatWritesItThrows) {
+  write_text(file("a"), "old");
+  const auto fail = [](const fs::path& path) {
+    write_text(path, "ne");
+    throw std::out_of_range("no more");
+  };
+  EXPECT_THROW(replace_file_atomically(file("a"), fail), std::out_of_range);
+  EXPECT_EQ(file_content(file("a")), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFile, IsWrittenByTheFunctionItselfIfItIsADevice) {
+  const fs::path null = test::device_in(folder(), test::Device::null);
+  if (null.empty()) GTEST_SKIP() << "no device can be made";
+  fs::path written;
+  replace_file_atomically(null, [&](const fs::path& path) { written = path; });
+  EXPECT_EQ(written, null);
+  EXPECT_TRUE(fs::is_character_file(null));
+}
+
 TEST_F(AtomicFile, ItsFoldersAreMadeWhereTheyAreMissing) {
   create_parent_folders(file("new/folder/a"));
   EXPECT_TRUE(fs::is_directory(file("new/folder")));
@@ -243,8 +277,10 @@ TEST_F(AtomicFile, ALinkStaysALinkAndItsTargetIsWritten) {
 }
 
 TEST_F(AtomicFile, ADeviceIsWrittenAndStaysADevice) {
-  write_file_atomically("/dev/null", "x");
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  const fs::path null = test::device_in(folder(), test::Device::null);
+  if (null.empty()) GTEST_SKIP() << "no device can be made";
+  write_file_atomically(null, "x");
+  EXPECT_TRUE(fs::is_character_file(null));
 }
 
 TEST_F(AtomicFile, APipeReceivesTheContent) {
@@ -258,7 +294,10 @@ TEST_F(AtomicFile, APipeReceivesTheContent) {
 }
 
 TEST_F(AtomicFile, AFullDeviceIsAnError) {
-  EXPECT_THAT(reason("/dev/full", "x"), HasSubstr("no space left on device"));
+  const fs::path full = test::device_in(folder(), test::Device::full);
+  if (full.empty()) GTEST_SKIP() << "no device can be made";
+  EXPECT_THAT(reason(full, "x"), HasSubstr("no space left on device"));
+  EXPECT_TRUE(fs::is_character_file(full));
 }
 
 TEST_F(AtomicFile, ALongNameIsNoObstacle) {

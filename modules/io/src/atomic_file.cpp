@@ -92,6 +92,8 @@ class TemporaryName {
   TemporaryName(const TemporaryName&) = delete;
   TemporaryName& operator=(const TemporaryName&) = delete;
 
+  const fs::path& path() const { return path_; }
+
   FileDescriptor create() const {
     const std::lock_guard lock(temporaries().mutex);
     temporaries().require_not_ended();
@@ -108,28 +110,18 @@ class TemporaryName {
   fs::path path_;
 };
 
-}  // namespace
-
-void write_file_atomically(const fs::path& path, std::string_view content) {
-  write_file_atomically(path, Pieces{content});
+// The target of /dev/stdout must not be replaced by rename(), although it may be a regular file.
+bool is_written_directly(const fs::path& path) {
+  if (path.native().starts_with("/dev/") || path.native().starts_with("/proc/")) return true;
+  struct stat old;
+  return ::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode);
 }
 
-void write_file_atomically(const fs::path& path, std::initializer_list<std::string_view> pieces) {
-  write_file_atomically(path, Pieces(pieces));
-}
-
-void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
-  // A symbolic link stays, and its target is replaced. The target of /dev/stdout must not be replaced by
-  // rename().
+// Replaces a regular file, or the target of a link. `write` gets the temporary file, open, and its path.
+template <class Write>
+void replace(const fs::path& link_or_file, const Write& write) {
   struct stat old;
   const bool exists = ::stat(link_or_file.c_str(), &old) == 0;
-  const bool special =
-      link_or_file.native().starts_with("/dev/") || link_or_file.native().starts_with("/proc/");
-  if (special || (exists && !S_ISREG(old.st_mode))) {
-    FileDescriptor direct(link_or_file, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
-    write_all(direct, pieces);
-    return require(direct.close());
-  }
   std::error_code unresolved;
   const fs::path resolved = fs::weakly_canonical(link_or_file, unresolved);
   const fs::path path = exists && !unresolved ? resolved : link_or_file;
@@ -142,11 +134,34 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   const TemporaryName name(folder / temporary_name());
   FileDescriptor file = name.create();
   if (exists) require(::fchmod(file.get(), old.st_mode & 0777) == 0);
-  write_all(file, pieces);
+  write(file, name.path());
   sync_to_disk(file);
   require(file.close());
   name.rename_to(path);
   sync_to_disk(folder_descriptor);
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  write_file_atomically(path, Pieces{content});
+}
+
+void write_file_atomically(const fs::path& path, std::initializer_list<std::string_view> pieces) {
+  write_file_atomically(path, Pieces(pieces));
+}
+
+void write_file_atomically(const fs::path& path, const Pieces& pieces) {
+  if (!is_written_directly(path))
+    return replace(path, [&](const FileDescriptor& file, const fs::path&) { write_all(file, pieces); });
+  FileDescriptor direct(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
+  write_all(direct, pieces);
+  require(direct.close());
+}
+
+void replace_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  if (is_written_directly(path)) return write(path);
+  replace(path, [&](const FileDescriptor&, const fs::path& temporary) { write(temporary); });
 }
 
 void create_parent_folders(const fs::path& file) {

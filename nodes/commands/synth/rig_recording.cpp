@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
@@ -129,9 +130,7 @@ void write_rig_recording(const RigSequence& spec, const std::filesystem::path& f
   RigDriveOptions options;
   options.seed = spec.seed;
   const RigDrive drive(options);
-  std::filesystem::path unfinished = file;
-  unfinished += ".part";
-  try {
+  replace_file_atomically(file, [&](const std::filesystem::path& unfinished) {
     Recorder recorder(unfinished);
     recorder.write_mountings();
     for (std::size_t number = 0; number < spec.frames; ++number)
@@ -139,12 +138,7 @@ void write_rig_recording(const RigSequence& spec, const std::filesystem::path& f
         recorder.write_sweep(drive, sensor, number);
     recorder.write_poses(drive, kRigSweepSeconds * static_cast<double>(spec.frames) + 0.5);
     recorder.close();
-    std::filesystem::rename(unfinished, file);
-  } catch (...) {
-    std::error_code unknown;
-    std::filesystem::remove(unfinished, unknown);
-    throw;
-  }
+  });
 }
 
 }  // namespace pcl_bv::detail

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <string_view>
 #include <vector>
@@ -34,12 +35,18 @@ void write_file_atomically(const std::filesystem::path& path, std::initializer_l
 /// Like the overload for an initializer list.
 void write_file_atomically(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 
+/// Calls `write` with a path, where it writes the new content of the file. Otherwise like
+/// write_file_atomically(). The path is that of an empty temporary file or, if `path` is written directly,
+/// `path` itself. An exception of `write` is rethrown; the temporary file is then removed.
+void replace_file_atomically(const std::filesystem::path& path,
+                             const std::function<void(const std::filesystem::path&)>& write);
+
 /// Creates the missing parent folders of a file. Throws IoError with the reason.
 void create_parent_folders(const std::filesystem::path& file);
 
-/// Removes the temporary files of all write_file_atomically() calls that are running in other threads. Call
-/// it in a process that is about to end. Afterwards every write_file_atomically() of a regular file throws
-/// IoError and leaves the existing file unchanged.
+/// Removes the temporary files of all calls of write_file_atomically() and replace_file_atomically() that are
+/// running in other threads. Call it in a process that is about to end. Afterwards each such call for a
+/// regular file throws IoError and leaves the existing file unchanged.
 void remove_temporary_files() noexcept;
 
 }  // namespace detail
