@@ -6,6 +6,9 @@
 #include <string>
 
 namespace pcl_bv {
+
+struct StreamConfig;
+
 namespace [[gnu::visibility("default")]] detail {
 
 /// The settings of a running pipeline as JSON, for another process that shows and changes them. All member
@@ -30,6 +33,9 @@ class RemoteParameters {
   /// changed, changes none of them. Returns an empty text on success, otherwise a line that names, for each
   /// setting that cannot be changed, the key, the value and the allowed values.
   virtual std::string change(const std::string& object) = 0;
+
+  /// Returns the settings of the stream's runner and rig, which never change. `pipeline` is not set.
+  virtual const StreamConfig& stream() const = 0;
 };
 
 }  // namespace detail

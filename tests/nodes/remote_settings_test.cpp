@@ -49,6 +49,26 @@ TEST(RemoteParameters, DescribeEverySettingOfThePipelineAndHaveItsValue) {
   EXPECT_EQ(values["track.enabled"], false);
 }
 
+TEST(RemoteParameters, HaveTheSettingsOfARigWhichAreFixed) {
+  FramePipeline pipeline;
+  StreamConfig stream;
+  stream.runner.queue = 7;
+  stream.rig.frame = "base_link";
+  stream.rig.sensors = {{"/front", "", {}}};
+  const auto settings = remote_settings(pipeline, stream);
+  const Json values = Json::parse(settings->values());
+  EXPECT_EQ(values["rig.frame"], "base_link");
+  EXPECT_EQ(values["rig.fixed_frame"], "null");
+  EXPECT_EQ(values["rig.sync_ms"], 50);
+  EXPECT_THAT(values["rig.sensors"].get<std::string>(), HasSubstr("/front"));
+  std::size_t fixed = 0;
+  for (const Json& setting : Json::parse(settings->description()))
+    if (setting["key"].get<std::string>().starts_with("rig.")) fixed += setting["fixed"] == true;
+  EXPECT_EQ(fixed, 7U);
+  EXPECT_EQ(settings->change(R"({"rig.frame": "odom"})"), "rig.frame: cannot be changed while frames come");
+  EXPECT_EQ(settings->stream().runner.queue, 7U);
+}
+
 TEST(RemoteParameters, EveryValueThatTheyHaveCanBeSetAgain) {
   const Remote remote;
   const Json values = remote.values();

@@ -239,7 +239,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   SinkGroup sinks(report_problem);
   for (const SinkOptions& sink : options.sinks)
     parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });
-  sinks.offer_settings(remote_settings(pipeline));
+  sinks.offer_settings(remote_settings(pipeline, options.config));
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved_policy(config.policy, options.rate != Rate::max);

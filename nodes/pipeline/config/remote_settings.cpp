@@ -15,6 +15,7 @@
 #include "check.h"
 #include "pcl_bv/io/read_json.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/nodes/stream_runner.h"
 #include "pcl_bv/points/isa.h"
 #include "settings.h"
 #include "stream/remote_parameters.h"
@@ -28,7 +29,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, 3> kFixed{"filter.regions", "cluster.class_field", "cluster.classes"};
 
 bool is_fixed(std::string_view key) {
-  return std::find(kFixed.begin(), kFixed.end(), key) != kFixed.end();
+  return key.starts_with("rig.") || std::find(kFixed.begin(), kFixed.end(), key) != kFixed.end();
 }
 
 template <class T>
@@ -94,6 +95,9 @@ Json json_of(const Value& value) {
     if (value != std::numeric_limits<std::size_t>::max()) return value;
   return to_text(value);
 }
+Json json_of(const std::string& value) {
+  return value.empty() ? "null" : value;
+}
 template <class Value>
 Json json_of(const std::optional<Value>& value) {
   return value ? json_of(*value) : Json("null");
@@ -120,24 +124,24 @@ void set(const Setting&, const std::string& text, std::vector<std::string>& name
 
 class PipelineSettings final : public RemoteParameters {
  public:
-  explicit PipelineSettings(FramePipeline& pipeline) : pipeline_(pipeline) {}
+  PipelineSettings(FramePipeline& pipeline, const StreamConfig& stream)
+      : pipeline_(pipeline), stream_{{}, stream.runner, stream.rig} {}
 
   std::string description() const override {
     Json all = Json::array();
-    const PipelineConfig config;
-    visit_pipeline(
-        config, [&](const Setting& setting, const auto& value) { all.push_back(described(setting, value)); });
+    visit(PipelineConfig(),
+          [&](const Setting& setting, const auto& value) { all.push_back(described(setting, value)); });
     return all.dump();
   }
 
   std::string values() const override {
     Json all = Json::object();
-    const PipelineConfig config = pipeline_.config();
-    visit_pipeline(config, [&](const Setting& setting, const auto& value) {
-      all[std::string(setting.key)] = json_of(value);
-    });
+    visit(pipeline_.config(),
+          [&](const Setting& setting, const auto& value) { all[std::string(setting.key)] = json_of(value); });
     return all.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
+
+  const StreamConfig& stream() const override { return stream_; }
 
   std::string change(const std::string& object) override {
     UntrustedJson wanted;
@@ -162,6 +166,13 @@ class PipelineSettings final : public RemoteParameters {
   }
 
  private:
+  // The rig is shown only if there is one.
+  template <class Visit>
+  void visit(const PipelineConfig& pipeline, const Visit& show) const {
+    visit_pipeline(pipeline, show);
+    if (!stream_.rig.frame.empty()) visit_rig(stream_.rig, show);
+  }
+
   // Parses a value. Returns why it cannot be parsed; set_config() checks what it parsed.
   static std::string put(const std::string& key, const UntrustedJson& value, PipelineConfig& config) {
     if (is_fixed(key)) return key + ": cannot be changed while frames come";
@@ -179,13 +190,18 @@ class PipelineSettings final : public RemoteParameters {
   }
 
   FramePipeline& pipeline_;
+  const StreamConfig stream_;
   std::mutex mutex_;
 };
 
 }  // namespace
 
 std::shared_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline) {
-  return std::make_unique<PipelineSettings>(pipeline);
+  return remote_settings(pipeline, {});
+}
+
+std::shared_ptr<RemoteParameters> remote_settings(FramePipeline& pipeline, const StreamConfig& stream) {
+  return std::make_shared<PipelineSettings>(pipeline, stream);
 }
 
 }  // namespace pcl_bv

@@ -64,6 +64,7 @@ class MessageSink final : public FrameSink {
     if (has_subscribers(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
   void offer_settings(const std::shared_ptr<RemoteParameters>& settings) override {
+    settings_ = settings;
     carrier_->offer_settings(settings);
   }
   std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }
@@ -106,7 +107,7 @@ class MessageSink final : public FrameSink {
   void note_settings(const FrameResult& result, std::int64_t stamp_ns) {
     if (noted_ == result.config) return;
     noted_ = result.config;
-    StreamConfig config;
+    StreamConfig config = settings_ ? settings_->stream() : StreamConfig();
     config.pipeline = *result.config;
     // Volumes without a file, such as the robot's body, have no text.
     std::erase_if(config.pipeline.filter.regions,
@@ -132,6 +133,7 @@ class MessageSink final : public FrameSink {
   Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, frames_topic_,
       pose_topic_;
   std::shared_ptr<const PipelineConfig> noted_;
+  std::shared_ptr<RemoteParameters> settings_;  // null if none are offered
   msg::Detection3DArray objects_;
   msg::MarkerArray markers_;
   msg::SceneUpdate scene_;

@@ -20,6 +20,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 class FramePipeline;
+struct StreamConfig;
 namespace detail {
 class RemoteParameters;
 }
@@ -28,6 +29,10 @@ class RemoteParameters;
 /// pipeline must outlive the returned object. Settings that read files or need other input (filter.regions,
 /// cluster.class_field and cluster.classes) cannot be changed.
 std::shared_ptr<detail::RemoteParameters> remote_settings(FramePipeline& pipeline);
+/// Also has the settings of the stream's rig, which cannot be changed, and those of its runner, which only
+/// recordings note. `stream.pipeline` is not used.
+std::shared_ptr<detail::RemoteParameters> remote_settings(FramePipeline& pipeline,
+                                                          const StreamConfig& stream);
 
 /// Thrown if a pipe has no reader any more. A program that prints to this pipe should then end without
 /// reporting a failure.
