@@ -48,7 +48,11 @@ class Sensor final : public FrameSource {
     if (std::holds_alternative<Silence>(step)) return Next::timeout;
     frame = Frame();
     frame.header.frame_id = frame_;
-    if (std::holds_alternative<Broken>(step)) throw FrameError(frame, "cut off");
+    if (std::holds_alternative<Broken>(step)) {
+      frame.header.seq = 12;
+      frame.file = "sweeps/12.pcd";
+      throw FrameError(frame, "cut off");
+    }
     const auto cloud = std::make_shared<Cloud>(std::get<Cloud>(step));
     frame.header.stamp_ns = cloud->ms * kMs;
     if (cloud->recorded_ms >= 0) frame.recorded_ns = cloud->recorded_ms * kMs;
@@ -358,6 +362,31 @@ TEST(Rig, WaitsForThePoseOfALiveRobot) {
 TEST(Rig, ReportsAnUnreadableCloudAndGoesOn) {
   RigSource source(two_sensors({Cloud{0}, Broken{}, Cloud{100}}, {Cloud{0}, Cloud{100}}), rig(), {});
   EXPECT_THAT(frames_of(source), ElementsAre(Stamps{0, 0}, Stamps{}, Stamps{100, 100}));
+}
+
+TEST(Rig, NamesTheSensorAndTheNumberOfAnUnreadableCloudAndCountsItAsAFrame) {
+  RigSource source(two_sensors({Cloud{0}, Broken{}}, {Cloud{0}}), rig(), {});
+  Frame frame;
+  ASSERT_EQ(source.next(frame, 0ms), Next::frame);
+  try {
+    source.next(frame, 0ms);
+    FAIL() << "no error";
+  } catch (const FrameError& error) {
+    EXPECT_EQ(error.frame.file, "/front");
+    EXPECT_EQ(error.frame.header.seq, 1U);
+    EXPECT_EQ(error.reason, "cloud 12 (sweeps/12.pcd): cut off");
+  }
+}
+
+TEST(Rig, OfASensorWhoseCloudsAreAllUnreadableIsAnErrorAtTheEnd) {
+  RigSource source(two_sensors({Broken{}, Broken{}}, {Cloud{0}}), rig(), {});
+  std::string why;
+  try {
+    frames_of(source);
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+  }
+  EXPECT_EQ(why, "/front: none of its clouds was used: cloud 12 (sweeps/12.pcd): cut off");
 }
 
 TEST(Rig, PointsWithoutReturnBecomeNaNInsteadOfPointsAtTheSensor) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -18,37 +17,21 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-// A sensor that has sent nothing for three of its periods, and at least this time, is not waited for.
-constexpr std::int64_t kShortestSilence = 300'000'000;
 // A live cloud that no other sensor's clouds catch up with for this time is dropped.
 constexpr std::chrono::seconds kLongestWait{1};
 constexpr std::chrono::milliseconds kPollRigInterval{1};
-
-std::string seconds_of(std::int64_t nanoseconds) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3f s", 1e-9 * static_cast<double>(nanoseconds));
-  return text;
-}
-
-bool is_power_of_ten(std::uint64_t number) {
-  while (number % 10 == 0 && number > 0)
-    number /= 10;
-  return number == 1;
-}
 
 }  // namespace
 
 RigSource::RigSource(RigInputs inputs, const RigConfig& rig, const ReplayOptions& options)
     : rig_(rig),
-      feeds_(std::move(inputs.feeds)),
-      transforms_(std::move(inputs.transforms)),
+      poses_(std::move(inputs.feeds), std::move(inputs.transforms), rig, options),
       merger_(options.point_times),
       own_stamps_(options.own_stamps),
       sync_ns_(std::llround(1e6 * rig.sync_ms)) {
   throw_if_any(problems_of(rig));
   for (SensorInput& input : inputs.sensors)
     sensors_.emplace_back().input = std::move(input);
-  if (!options.poses.empty()) poses_ = Poses(options.poses, std::nullopt);
 }
 
 // Returns whether the cloud belongs to a frame that has been returned.
@@ -56,14 +39,14 @@ bool RigSource::is_late(const Sensor& sensor, const Frame& cloud) const {
   const std::int64_t stamp = cloud.header.stamp_ns;
   if (sensor.last && stamp <= *sensor.last) return true;
   if (!last_stamp_) return false;
-  return stamp <= *last_stamp_ || (live_ && !sensor.in_last_frame && stamp - *last_stamp_ < sync_ns_);
+  const bool was_absent = live_ && !sensor.presence.in_last_frame();
+  return stamp <= *last_stamp_ || (was_absent && stamp - *last_stamp_ < sync_ns_);
 }
 
 void RigSource::drop_late(Sensor& sensor, const Frame& cloud) {
   if (!is_power_of_ten(++sensor.late)) return;
-  warnings_.push_back(printable(sensor.input.name + ": " + std::to_string(sensor.late) +
-                                " late clouds dropped; the last one has the stamp " +
-                                seconds_of(cloud.header.stamp_ns)));
+  warn(sensor, std::to_string(sensor.late) + " late clouds dropped; the last one has the stamp " +
+                   seconds_text(cloud.header.stamp_ns));
 }
 
 // A recording that is sent again begins at its first stamp. The waiting clouds are from its end.
@@ -83,6 +66,15 @@ void RigSource::lose(Sensor& sensor, Frame cloud, const std::string& problem) {
   throw FrameError(std::move(cloud), sensor.problem);
 }
 
+// The number of the cloud in its source helps to find it; frames are numbered by the rig.
+void RigSource::lose_unreadable(Sensor& sensor, const FrameError& error) {
+  ++sensor.clouds;
+  const std::string& file = error.frame.file;
+  std::string name = "cloud " + std::to_string(error.frame.header.seq);
+  if (!file.empty() && !file.ends_with(sensor.input.name)) name += " (" + file + ")";
+  lose(sensor, error.frame, name + ": " + error.reason);
+}
+
 // Compares the stamp with the time of recording or arrival, which one machine has measured for all sensors.
 // Clouds of clocks that differ would be merged with clouds of another moment.
 void RigSource::check_clock(Sensor& sensor, const Frame& cloud) {
@@ -99,19 +91,22 @@ void RigSource::check_clock(Sensor& sensor, const Frame& cloud) {
   const std::int64_t difference = ahead - clock_->ahead;
   if (std::abs(difference) <= kSecond) return;
   lose(sensor, cloud,
-       "its clock is " + seconds_of(difference) + " ahead of that of " + clock_->owner->input.name +
+       "its clock is " + seconds_text(difference) + " ahead of that of " + clock_->owner->input.name +
            "; the clouds can be merged when the clocks are synchronized");
 }
 
-// From now on, the sensor is waited for.
-void RigSource::end_silence(Sensor& sensor, std::int64_t stamp_ns) {
-  if (std::exchange(sensor.silent, false) && is_power_of_ten(sensor.silences))
-    warnings_.push_back(printable(sensor.input.name + ": sends clouds again, at " + seconds_of(stamp_ns)));
+void RigSource::warn(const Sensor& sensor, const std::string& what) {
+  if (!what.empty()) warnings_.push_back(printable(sensor.input.name + ": " + what));
 }
 
 void RigSource::read_head(Sensor& sensor, std::chrono::milliseconds timeout) {
   Frame cloud;
-  const Next next = sensor.input.source->next(cloud, timeout);
+  Next next = Next::timeout;
+  try {
+    next = sensor.input.source->next(cloud, timeout);
+  } catch (const FrameError& error) {
+    lose_unreadable(sensor, error);
+  }
   sensor.ended = next == Next::end;
   live_ = live_ || next == Next::timeout;
   if (next != Next::frame) return;
@@ -119,12 +114,9 @@ void RigSource::read_head(Sensor& sensor, std::chrono::milliseconds timeout) {
   const std::int64_t stamp = cloud.header.stamp_ns;
   if (live_ && sensor.last && *sensor.last - stamp > kSecond) begin_repetition();
   check_clock(sensor, cloud);
-  if (live_) end_silence(sensor, stamp);
+  if (live_) warn(sensor, sensor.presence.end_silence(stamp));
   if (is_late(sensor, cloud)) return drop_late(sensor, cloud);
-  if (sensor.last) {
-    const std::int64_t gap = stamp - *sensor.last;
-    sensor.period_ns = sensor.period_ns == 0 ? gap : std::min(sensor.period_ns, gap);
-  }
+  if (sensor.last) sensor.presence.note_gap(stamp - *sensor.last);
   sensor.last = stamp;
   sensor.arrival = Clock::now();
   sensor.head = std::move(cloud);
@@ -169,7 +161,7 @@ bool RigSource::is_complete() const {
   bool missing = false;
   for (const Sensor& sensor : sensors_) {
     if (sensor.head && (!arrival || sensor.arrival < *arrival)) arrival = sensor.arrival;
-    missing = missing || (!sensor.head && !sensor.ended && !sensor.silent);
+    missing = missing || (!sensor.head && !sensor.ended && !sensor.presence.silent());
   }
   if (!arrival) return false;
   return !missing || Clock::now() - *arrival >= std::chrono::nanoseconds(sync_ns_);
@@ -189,46 +181,18 @@ void RigSource::drop_stuck_heads() {
 
 FoundTransform RigSource::find_pose(const Sensor& sensor) {
   if (sensor.input.pose) return {sensor.input.pose, {}, false};
-  const Frame& cloud = *sensor.head;
-  for (const std::unique_ptr<TransformFeed>& feed : feeds_)
-    feed->read(cloud.recorded_ns, transforms_);
-  const std::string& frame = sensor.input.frame.empty() ? cloud.header.frame_id : sensor.input.frame;
-  if (frame.empty()) {
-    return {{}, "its clouds have no frame id; give one as `frame` of the sensor in rig.sensors", false};
-  }
-  return transforms_.find(rig_.frame, frame, cloud.header.stamp_ns);
-}
-
-FoundTransform RigSource::find_pose_of_rig(std::int64_t stamp_ns, std::int64_t recorded_ns) {
-  if (const std::optional<Pose> pose = poses_.at(seq_, stamp_ns)) return {pose, {}, false};
-  if (rig_.fixed_frame.empty()) return {};
-  for (const std::unique_ptr<TransformFeed>& feed : feeds_)
-    feed->read(recorded_ns, transforms_);
-  return transforms_.find(rig_.fixed_frame, rig_.frame, stamp_ns);
+  return poses_.of_sensor(sensor.input.frame, *sensor.head);
 }
 
 // Returns whether the transforms of the next frame are there or are not waited for.
 bool RigSource::has_transforms() {
   if (!live_) return true;
   const std::int64_t stamp = first_stamp();
-  const bool robot_is_pending = find_pose_of_rig(stamp, 0).pending;
+  const bool robot_is_pending = poses_.of_rig(stamp, 0).pending;
   return std::all_of(sensors_.begin(), sensors_.end(), [&](Sensor& sensor) {
     if (!is_member(sensor, stamp) || !(robot_is_pending || find_pose(sensor).pending)) return true;
     return Clock::now() - sensor.arrival >= std::chrono::nanoseconds(sync_ns_);
   });
-}
-
-void RigSource::note_presence(Sensor& sensor, bool present, std::int64_t stamp_ns) {
-  sensor.in_last_frame = present;
-  if (present) end_silence(sensor, stamp_ns);
-  if (present || sensor.last_used_ns == 0) sensor.last_used_ns = stamp_ns;
-  const std::int64_t longest = std::max(kShortestSilence, 3 * sensor.period_ns);
-  if (present || sensor.silent || stamp_ns - sensor.last_used_ns < longest) return;
-  sensor.silent = true;
-  if (is_power_of_ten(++sensor.silences))
-    warnings_.push_back(printable(sensor.input.name + ": no clouds for " + seconds_of(longest) +
-                                  "; the frames from " + seconds_of(stamp_ns) +
-                                  " on have only the other sensors'"));
 }
 
 void RigSource::merge(Frame& frame) {
@@ -254,7 +218,7 @@ void RigSource::merge(Frame& frame) {
   for (std::size_t k = 0; k < sensors_.size(); ++k) {
     Sensor& sensor = sensors_[k];
     const bool present = clouds[k].frame != nullptr;
-    note_presence(sensor, present, stamp);
+    warn(sensor, sensor.presence.note_frame(present, stamp));
     if (!present) continue;
     const Frame& cloud = *sensor.head;
     ++sensor.used;
@@ -269,7 +233,7 @@ void RigSource::merge(Frame& frame) {
           .append(cloud.note);
     sensor.head.reset();
   }
-  frame.pose = find_pose_of_rig(stamp, frame.recorded_ns).pose;
+  frame.pose = poses_.of_rig(stamp, frame.recorded_ns).pose;
   frame.fixed_frame = rig_.fixed_frame;
   frame.decode_ms += std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   last_stamp_ = stamp;
@@ -312,9 +276,7 @@ std::vector<std::string> RigSource::take_warnings() {
   };
   for (Sensor& sensor : sensors_)
     append(sensor.input.source->take_warnings(), sensor.input.name);
-  for (const std::unique_ptr<TransformFeed>& feed : feeds_)
-    append(feed->take_warnings(), "");
-  append(transforms_.take_warnings(), "");
+  append(poses_.take_warnings(), "");
   append(merger_.take_warnings(), "");
   return all;
 }

@@ -14,9 +14,8 @@
 
 #include "merged_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "stream/sources/sources.h"
-#include "transform_feed.h"
-#include "transforms.h"
+#include "rig_poses.h"
+#include "sensor_presence.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -54,12 +53,9 @@ class RigSource final : public FrameSource {
     std::optional<Frame> head;         // its next cloud
     Clock::time_point arrival{};       // of `head`
     std::optional<std::int64_t> last;  // stamp of the cloud read last
-    std::int64_t period_ns = 0;        // shortest time between two of its clouds
-    std::int64_t last_used_ns = 0;     // stamp of the last frame with its cloud
-    bool in_last_frame = true;
+    SensorPresence presence;
     bool ended = false;
-    bool silent = false;  // not waited for
-    std::uint64_t clouds = 0, used = 0, late = 0, silences = 0;
+    std::uint64_t clouds = 0, used = 0, late = 0;
     std::string problem;  // of its last cloud that was lost
   };
 
@@ -75,9 +71,10 @@ class RigSource final : public FrameSource {
   bool is_late(const Sensor& sensor, const Frame& cloud) const;
   void drop_late(Sensor& sensor, const Frame& cloud);
   void begin_repetition();
-  void end_silence(Sensor& sensor, std::int64_t stamp_ns);
+  void warn(const Sensor& sensor, const std::string& what);
   void check_clock(Sensor& sensor, const Frame& cloud);
   [[noreturn]] void lose(Sensor& sensor, Frame cloud, const std::string& problem);
+  [[noreturn]] void lose_unreadable(Sensor& sensor, const FrameError& error);
   void drop_stuck_heads();
   bool all_ended() const;
   bool is_complete() const;
@@ -86,16 +83,12 @@ class RigSource final : public FrameSource {
   FoundTransform find_pose(const Sensor& sensor);
   bool has_transforms();
   void merge(Frame& frame);
-  FoundTransform find_pose_of_rig(std::int64_t stamp_ns, std::int64_t recorded_ns);
-  void note_presence(Sensor& sensor, bool present, std::int64_t stamp_ns);
   void report_unused() const;
 
   RigConfig rig_;
   std::vector<Sensor> sensors_;
-  std::vector<std::unique_ptr<TransformFeed>> feeds_;
-  Transforms transforms_;
+  RigPoses poses_;
   CloudMerger merger_;
-  Poses poses_;
   bool own_stamps_;  // stamps are those of the sensors
   std::int64_t sync_ns_;
   std::optional<std::int64_t> last_stamp_;  // of the last frame

@@ -23,13 +23,13 @@ bool is_earlier(const StampedPose& pose, std::int64_t stamp_ns) {
   return pose.first < stamp_ns;
 }
 
+}  // namespace
+
 std::string seconds_text(std::int64_t nanoseconds) {
   char text[40];
   std::snprintf(text, sizeof text, "%.3f s", 1e-9 * static_cast<double>(nanoseconds));
   return text;
 }
-
-}  // namespace
 
 std::optional<Pose> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns) {
   const auto after = std::lower_bound(poses.begin(), poses.end(), stamp_ns, is_earlier);

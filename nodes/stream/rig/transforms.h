@@ -24,6 +24,9 @@ using StampedPose = std::pair<std::int64_t, Pose>;
 /// time. Returns nullopt outside their times, and if the two poses are more than 0.5 s apart.
 std::optional<Pose> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns);
 
+/// Returns a time as "1.250 s".
+std::string seconds_text(std::int64_t nanoseconds);
+
 /// Result of Transforms::find().
 struct FoundTransform {
   std::optional<Pose> pose;
