@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "command.h"
@@ -28,7 +29,6 @@ class Rig : public PcdBv {
     surroundings.program = "synth";
     const Result made = run({"rig:" + std::to_string(frames), at("rig.mcap")}, surroundings);
     EXPECT_EQ(made.status, 0) << made.err;
-    EXPECT_FALSE(std::filesystem::exists(at("rig.mcap.part")));
     return at("rig.mcap");
   }
 
@@ -40,6 +40,19 @@ class Rig : public PcdBv {
     return all;
   }
 };
+
+TEST_F(Rig, IsRecordedWithoutAnyOtherFileAndOverAnOldOneOnlyAsAWhole) {
+  const std::string recording = drive(1);
+  const auto entries = [&] {
+    return std::distance(std::filesystem::directory_iterator(std::filesystem::path(recording).parent_path()),
+                         std::filesystem::directory_iterator());
+  };
+  const auto files = entries();
+  std::filesystem::resize_file(recording, 3);
+  drive(1);
+  EXPECT_GT(std::filesystem::file_size(recording), 1000U);
+  EXPECT_EQ(entries(), files);
+}
 
 TEST_F(Rig, MergesAllTopicsOfARecordingWithItsTransforms) {
   const Result result = stream({"--source", drive(), "--target-frame", "base_link", "--fixed-frame", "odom",
@@ -87,6 +100,19 @@ rig:
   const Result filtered = stream({"--source", recording, "--config", config, "--self-filter", "3"});
   EXPECT_EQ(lines(own)[1]["counts"]["inside"], 0);
   EXPECT_GT(lines(filtered)[1]["counts"]["inside"].get<int>(), 100);
+}
+
+TEST_F(Rig, IsNotedWithTheOtherSettingsInARecordingOfItsResults) {
+  const Result result = stream({"--source", drive(2), "--target-frame", "base_link", "--sync", "40",
+                                "--queue", "9", "--sink", "rosbag2:" + at("bag")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Result again = stream({"--source", at("rig.mcap"), "--config", at("bag/config.yaml")});
+  EXPECT_EQ(again.status, 0) << again.err;
+  ASSERT_EQ(lines(again).size(), 2U);
+  EXPECT_EQ(lines(again)[1]["frame_id"], "base_link");
+  const std::string noted = read_file(at("bag/config.yaml"));
+  EXPECT_THAT(noted, HasSubstr("sync_ms: 40"));
+  EXPECT_THAT(noted, HasSubstr("queue: 9"));
 }
 
 TEST_F(Rig, EndsWithStatus1IfASensorHasNoTransform) {

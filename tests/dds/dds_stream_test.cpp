@@ -213,7 +213,8 @@ TEST_F(Dds, TheRobotsPosesComeFromItsTopicOfOdometry) {
     return text_of(at("lines")).find("\"points\":1000") != std::string::npos;
   })) << node.errors();
   EXPECT_EQ(node.end(SIGINT), 0) << node.errors();
-  const nlohmann::json frame = nlohmann::json::parse(text_of(at("lines")).substr(0, text_of(at("lines")).find('\n')));
+  const nlohmann::json frame =
+      nlohmann::json::parse(text_of(at("lines")).substr(0, text_of(at("lines")).find('\n')));
   const std::int64_t stamp = frame["stamp_ns"];
   Transforms written;
   const auto feed = recorded_transforms(at("out.mcap"), "");

@@ -8,6 +8,8 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <exception>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "parameters.h"
@@ -17,12 +19,16 @@ using namespace detail;
 
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics) {
-  const StreamConfig config = config_of(parameters);
-  for (const std::string& line : config.pipeline.ineffective_settings())
+  StreamConfig config = config_of(parameters);
+  std::vector<std::string> warnings = config.pipeline.ineffective_settings();
+  if (std::optional<RegionConfig> body = robot_body(config.rig, warnings))
+    config.pipeline.filter.regions.push_back(*std::move(body));
+  for (const std::string& line : warnings)
     ROS_WARN_STREAM(name_ << ": " << line);
   if (const auto& field = config.pipeline.cluster.class_field) class_field_ = field->name;
   pipeline_ = FramePipeline(config.pipeline);
   runner_ = std::make_unique<StreamRunner>(callbacks(), config.runner);
+  if (!config.rig.frame.empty()) open_rig(config);
   const std::lock_guard lock(subscription_mutex_);
   const auto changed = [this](const ros::SingleSubscriberPublisher&) { update_subscription(); };
   markers_ = topics_.advertise<visualization_msgs::MarkerArray>("markers", 5, changed, changed);
@@ -34,16 +40,27 @@ ClusterVolumes::~ClusterVolumes() {
   markers_.shutdown();
   labels_.shutdown();
   points_.shutdown();
+  rig_.reset();
   runner_.reset();
+}
+
+void ClusterVolumes::open_rig(const StreamConfig& config) {
+  const auto warn = [this](const std::string& line) { ROS_WARN_STREAM(name_ << ": " << line); };
+  try {
+    rig_ = std::make_unique<RigReader>(topics_, config, *runner_, warn);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(name_ + ": rig: " + error.what());
+  }
 }
 
 StreamRunner::Callbacks ClusterVolumes::callbacks() {
   StreamRunner::Callbacks calls;
   calls.process = [this](const Frame& frame, FrameResult& result) { pipeline_.process(frame, result); };
   calls.on_result = [this](const Frame& frame, const FrameResult& result) { publish(frame, result); };
-  calls.on_lost = [this](const Frame&, Loss loss, const std::string& reason) {
+  calls.on_lost = [this](const Frame& frame, Loss loss, const std::string& reason) {
     health_.count_lost();
-    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": cloud lost: " << reason);
+    const std::string sensor = frame.file.empty() ? "" : frame.file + ": ";
+    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": cloud lost: " << sensor << reason);
   };
   calls.on_silence = [this](double seconds) {
     if (subscribed_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
@@ -56,7 +73,9 @@ void ClusterVolumes::update_subscription() {
   const bool wanted = markers_.getNumSubscribers() + labels_.getNumSubscribers() > 0;
   if (wanted == subscribed_) return;
   subscribed_ = wanted;
-  if (wanted) {
+  if (rig_) {
+    rig_->subscribe(wanted);
+  } else if (wanted) {
     points_ =
         topics_.subscribe("points", 2, &ClusterVolumes::receive, this, ros::TransportHints().tcpNoDelay());
   } else {

@@ -17,11 +17,13 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/stream_runner.h"
 #include "pcl_bv/nodes/topics.h"
+#include "rig_reader.h"
 
 namespace pcl_bv {
 using namespace detail;
 
-/// Subscribes to clouds on `points` while `markers` or `labels` has subscribers. Publishes:
+/// Subscribes to clouds on `points` while `markers` or `labels` has subscribers. If the parameters have a
+/// rig, merges the clouds of its topics instead (RigReader). Publishes:
 ///
 /// - `markers`: the objects of each cloud (visualization_msgs/MarkerArray);
 /// - `labels`: the points of each cloud with the ids of their objects;
@@ -30,8 +32,8 @@ using namespace detail;
 /// Counts the clouds that cannot be read, and logs a warning about them at most every ten seconds.
 class ClusterVolumes {
  public:
-  /// Throws ConfigError for invalid parameters (config_of()), and IoError if a file of regions cannot be
-  /// read.
+  /// Throws ConfigError for invalid parameters (config_of()), and IoError if a file of regions or the URDF of
+  /// the rig cannot be read.
   ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters);
   ~ClusterVolumes();
   ClusterVolumes(const ClusterVolumes&) = delete;
@@ -39,6 +41,7 @@ class ClusterVolumes {
 
  private:
   void update_subscription();
+  void open_rig(const StreamConfig& config);
   void receive(const sensor_msgs::PointCloud2ConstPtr& cloud);
   void publish(const Frame& frame, const FrameResult& result);
   StreamRunner::Callbacks callbacks();
@@ -54,6 +57,7 @@ class ClusterVolumes {
   MarkerLifetime lifetime_;
   StreamHealth health_;
   std::unique_ptr<StreamRunner> runner_;
+  std::unique_ptr<RigReader> rig_;  // null for the clouds of one sensor in their own frame
 };
 
 }  // namespace pcl_bv

@@ -8,10 +8,13 @@
 #include <utility>
 
 #include "mounting_pose.h"
+#include "open_live_rig.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pipeline/config/check.h"
 #include "rig_source.h"
 #include "stream/middleware.h"
+#include "stream/sources/cloud_message.h"
+#include "stream/sources/message_source.h"
 #include "urdf.h"
 
 namespace pcl_bv {
@@ -54,21 +57,30 @@ std::vector<NamedTopic> topics_of(const std::vector<std::string>& sources, const
   return all;
 }
 
-SensorInput open_sensor(const NamedTopic& named, const RigConfig& rig, ReplayOptions options) {
+// Returns the sensor without its source.
+SensorInput mounted(const RigSensor& sensor) {
   SensorInput input;
-  input.name = named.topic;
+  input.name = sensor.topic;
+  input.frame = sensor.frame;
+  if (!sensor.pose.empty()) input.pose = mounting_pose(sensor.pose);
+  return input;
+}
+
+SensorInput open_sensor(const NamedTopic& named, const RigConfig& rig, ReplayOptions options) {
   const auto sensor = std::find_if(rig.sensors.begin(), rig.sensors.end(),
                                    [&](const RigSensor& one) { return one.topic == named.topic; });
-  if (sensor != rig.sensors.end()) {
-    input.frame = sensor->frame;
-    if (!sensor->pose.empty()) input.pose = mounting_pose(sensor->pose);
-  } else if (!rig.sensors.empty()) {
+  if (sensor == rig.sensors.end() && !rig.sensors.empty())
     throw std::invalid_argument(named.topic + ": rig.sensors has no sensor with this topic");
-  }
+  SensorInput input = mounted(sensor == rig.sensors.end() ? RigSensor{named.topic} : *sensor);
   options.topic = is_recorded(named.source) && named.topic != named.source ? named.topic : "";
   options.poses.clear();
   input.source = open_source(named.source, options);
   return input;
+}
+
+void check_rig(const RigConfig& rig) {
+  throw_if_any(problems_of(rig));
+  if (rig.frame.empty()) throw std::invalid_argument("rig.frame is empty");
 }
 
 void check_sensors_have_sources(const RigConfig& rig, const std::vector<NamedTopic>& topics) {
@@ -133,8 +145,7 @@ std::optional<RegionConfig> robot_body(const RigConfig& rig, std::vector<std::st
 
 std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
                                       const ReplayOptions& options) {
-  throw_if_any(problems_of(rig));
-  if (rig.frame.empty()) throw std::invalid_argument("open_rig: rig.frame is empty");
+  check_rig(rig);
   if (options.loops > 1) throw std::invalid_argument("the sources of a rig cannot be repeated");
   const std::vector<NamedTopic> topics = topics_of(sources, rig, options);
   check_sensors_have_sources(rig, topics);
@@ -143,6 +154,24 @@ std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, c
   for (const NamedTopic& named : topics)
     inputs.sensors.push_back(open_sensor(named, rig, options));
   add_transforms_of(sources, rig, inputs);
+  return std::make_unique<RigSource>(std::move(inputs), rig, options);
+}
+
+std::unique_ptr<FrameSource> detail::open_live_rig(Middleware& middleware, const RigConfig& rig,
+                                                   const ReplayOptions& options) {
+  check_rig(rig);
+  if (rig.sensors.empty()) throw std::invalid_argument("rig.sensors is empty");
+  RigInputs inputs;
+  if (!rig.urdf.empty()) read_urdf(rig.urdf).add_joints(inputs.transforms);
+  inputs.feeds.push_back(live_transforms(middleware, rig.odometry));
+  ReplayOptions clouds;
+  clouds.class_field = options.class_field;
+  for (const RigSensor& sensor : rig.sensors) {
+    SensorInput input = mounted(sensor);
+    input.source =
+        make_message_source(middleware.receiver(sensor.topic, cloud_type_names()), sensor.topic, clouds);
+    inputs.sensors.push_back(std::move(input));
+  }
   return std::make_unique<RigSource>(std::move(inputs), rig, options);
 }
 

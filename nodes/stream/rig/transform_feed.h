@@ -44,8 +44,8 @@ std::string add_transforms(const TransformMessage& message, Transforms& to);
 
 /// Returns the transforms of a recording: the topics of type tf2_msgs/msg/TFMessage (/tf and /tf_static) and
 /// the topic `odometry` of type nav_msgs/msg/Odometry. If `odometry` is empty and there is no topic of
-/// changing transforms, the first topic of that type is used. Returns null if the recording has no such topic,
-/// and for a capture of packets. Throws as open_recording().
+/// changing transforms, the first topic of that type is used. Returns null if the recording has no such
+/// topic, and for a capture of packets. Throws as open_recording().
 std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording, const std::string& odometry);
 
 /// Returns the topics of type nav_msgs/msg/Odometry of a recording, none for a capture of packets. Throws as

@@ -37,7 +37,8 @@ class MessageSource final : public FrameSource {
     frame.header.stamp_ns = frame.recorded_ns = message.sent_ns;
     try {
       const CloudType type = cloud_type_of(cloud_type_names().at(message.type)).value();
-      read_cloud_message({message.data, message.size, message.owner, message.ros1, type}, class_field_, frame);
+      read_cloud_message({message.data, message.size, message.owner, message.ros1, type}, class_field_,
+                         frame);
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), error.what());
     }

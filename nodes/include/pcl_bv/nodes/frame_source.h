@@ -148,8 +148,8 @@ struct RigConfig {
   std::string frame{};
   /// Frame that does not move, such as "odom". If given, the pose of `frame` in it comes from transforms.
   std::string fixed_frame{};
-  /// Topic of type nav_msgs/Odometry, recorded or live, whose poses replace those of /tf for the frame that it
-  /// names as its child. If empty: /tf, or in a recording without /tf the first topic of this type.
+  /// Topic of type nav_msgs/Odometry, recorded or live, whose poses replace those of /tf for the frame that
+  /// it names as its child. If empty: /tf, or in a recording without /tf the first topic of this type.
   std::string odometry{};
   /// Clouds whose stamps differ by less than this belong to one frame, milliseconds, above 0, at most 1000.
   /// Live sources also wait for a late cloud for this time.
@@ -165,10 +165,10 @@ struct RigConfig {
 
 /// Opens several sources as one, whose frames have the clouds of all sensors in the frame `rig.frame`.
 ///
-/// Transforms between frames come from RigSensor::pose, from the URDF, and from the topics /tf, /tf_static and
-/// RigConfig::odometry of recordings and of ROS 2. Between two transforms of a topic, which are at most 0.5 s
-/// apart, poses are interpolated. A cloud without a transform to `rig.frame` gives a FrameError; it is never
-/// used without one.
+/// Transforms between frames come from RigSensor::pose, from the URDF, and from the topics /tf, /tf_static
+/// and RigConfig::odometry of recordings and of ROS 2. Between two transforms of a topic, which are at most
+/// 0.5 s apart, poses are interpolated. A cloud without a transform to `rig.frame` gives a FrameError; it is
+/// never used without one.
 ///
 /// Clouds belong to one frame if their stamps are less than `rig.sync_ms` after the first one, whose stamp
 /// the frame has. Frame::seconds has the time of each point, also of sensors without own times, so that

@@ -98,5 +98,5 @@ class PacketReader {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
