@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include <csignal>
+#include <fstream>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -172,7 +173,7 @@ TEST_F(AtomicFile, IsReplacedByWhatAFunctionWritesToAnotherPath) {
   fs::permissions(file("a"), static_cast<fs::perms>(0600));
   replace_file_atomically(file("a"), [&](const fs::path& path) {
     EXPECT_EQ(fs::file_size(path), 0U);
-    write_text(path, "new");
+    std::ofstream(path) << "new";
     EXPECT_EQ(file_content(file("a")), "old");
   });
   EXPECT_EQ(file_content(file("a")), "new");

@@ -35,9 +35,9 @@ void write_file_atomically(const std::filesystem::path& path, std::initializer_l
 /// Like the overload for an initializer list.
 void write_file_atomically(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 
-/// Calls `write` with a path, where it writes the new content of the file. Otherwise like
-/// write_file_atomically(). The path is that of an empty temporary file or, if `path` is written directly,
-/// `path` itself. An exception of `write` is rethrown; the temporary file is then removed.
+/// Calls `write` with the path of an empty temporary file, to which it writes the new content. Otherwise like
+/// write_file_atomically(). If `path` is written directly, `write` gets `path` itself. It opens the file that
+/// exists and does not replace it. An exception of `write` is rethrown after the temporary file is removed.
 void replace_file_atomically(const std::filesystem::path& path,
                              const std::function<void(const std::filesystem::path&)>& write);
 
