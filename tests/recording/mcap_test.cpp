@@ -59,6 +59,52 @@ TEST_F(Mcap, GivesWhatWasWrittenInTheOrderOfTheTimes) {
   }
 }
 
+TEST_F(Mcap, ReadersOfOneFileShareItsUnpackedChunks) {
+  for (const Compression compression : {Compression::lz4, Compression::zstd}) {
+    const std::vector<Sent> sent = record("a.mcap", compression);
+    auto one = open_recording(at("a.mcap"));
+    const auto other = open_recording(at("a.mcap"));
+    RecordedMessage a, b;
+    std::size_t shared = 0;
+    for (const Sent& expected : sent) {
+      ASSERT_TRUE(one->next(a) && other->next(b));
+      shared += a.data == b.data;
+      EXPECT_EQ(std::string(reinterpret_cast<const char*>(b.data), b.size), expected.data);
+    }
+    EXPECT_EQ(shared, sent.size());
+    one->select({0, 1});
+    ASSERT_TRUE(one->next(a));
+    const std::string last(reinterpret_cast<const char*>(b.data), b.size);
+    one.reset();
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(b.data), b.size), last) << "read by the other reader";
+  }
+}
+
+TEST_F(Mcap, ReadersOfOneFileGiveTheirOwnTopicsInTurn) {
+  for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
+    const std::vector<Sent> sent = record("a.mcap", compression);
+    const auto points = open_recording(at("a.mcap")), objects = open_recording(at("a.mcap"));
+    points->select({0});
+    objects->select({1});
+    for (const Sent& expected : sent) {
+      RecordedMessage message;
+      ASSERT_TRUE((expected.topic == "/points" ? points : objects)->next(message));
+      EXPECT_EQ(std::string(reinterpret_cast<const char*>(message.data), message.size), expected.data);
+    }
+  }
+}
+
+TEST_F(Mcap, AReaderOfAFileThatWasWrittenAgainHasNothingOfTheOldOne) {
+  record("a.mcap", Compression::zstd);
+  const auto old = open_recording(at("a.mcap")), old_too = open_recording(at("a.mcap"));
+  RecordedMessage message;
+  ASSERT_TRUE(old->next(message));
+  const std::vector<Sent> sent = record("a.mcap", Compression::zstd, 50);
+  const auto now = open_recording(at("a.mcap")), now_too = open_recording(at("a.mcap"));
+  EXPECT_EQ(all_of(*now), sent);
+  EXPECT_EQ(all_of(*now_too), sent);
+}
+
 TEST_F(Mcap, GivesTheTopicsAskedForFromTheBeginning) {
   std::vector<Sent> sent = record("a.mcap", Compression::zstd);
   const auto reader = open_recording(at("a.mcap"));

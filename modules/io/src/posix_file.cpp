@@ -78,6 +78,14 @@ void InputFile::require_unchanged() const {
   throw IoError(kChangedWhileRead);
 }
 
+FileIdentity InputFile::identity() const {
+  const auto number = [](auto value) { return static_cast<std::int64_t>(value); };
+  const struct stat& s = opened_;
+  return {number(s.st_dev),         number(s.st_ino),          number(s.st_size),
+          number(s.st_mtim.tv_sec), number(s.st_mtim.tv_nsec), number(s.st_ctim.tv_sec),
+          number(s.st_ctim.tv_nsec)};
+}
+
 void InputFile::prefetch(std::size_t offset, std::size_t bytes) const {
   ::posix_fadvise(file_.get(), static_cast<off_t>(offset), static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
 }

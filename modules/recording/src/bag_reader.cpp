@@ -253,7 +253,10 @@ class BagReader final : public ChunkedReader {
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
     if (next != offsets_.end() && location->data + location->size > *next)
       throw IoError("the chunk overlaps the next one");
-    BagBytes records = unpack(*location, buffers.decompressor, buffers.raw, buffers.unpacked);
+    file_.require_unchanged();
+    auto records = unpack_shared<BagBytes>(
+        cache_, part_offset(part), buffers.shared, buffers.unpacked,
+        [&](auto& to) { return unpack(*location, buffers.decompressor, buffers.raw, to); });
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() != BagOp::message) continue;
@@ -265,6 +268,7 @@ class BagReader final : public ChunkedReader {
   }
 
   InputFile file_;
+  std::shared_ptr<ChunkCache> cache_ = ChunkCache::of(file_);
   std::vector<RecordedTopic> found_topics_;        // moved to the base class by start()
   std::vector<Part> found_parts_;                  // moved to the base class by start()
   std::vector<std::uint64_t> offsets_;             // positions of the chunks, ascending

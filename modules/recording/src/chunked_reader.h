@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "chunk_cache.h"
 #include "codecs.h"
 #include "pcl_bv/recording/recording.h"
 
@@ -29,6 +30,7 @@ class ChunkedReader : public RecordingReader {
   /// Memory that the messages of a loaded part refer to.
   struct Buffers {
     std::vector<std::byte> raw, unpacked;
+    UnpackedChunk shared;
     Decompressor decompressor;
   };
 

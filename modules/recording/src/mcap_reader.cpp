@@ -45,8 +45,12 @@ class McapReader final : public ChunkedReader {
   }
 
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
-    mcap::Fields records =
-        mcap::load_part(file_, index_.parts[part], buffers.decompressor, buffers.raw, buffers.unpacked);
+    file_.require_unchanged();
+    const auto unpack = [&](std::vector<std::byte>& to) {
+      return mcap::load_part(file_, index_.parts[part], buffers.decompressor, buffers.raw, to);
+    };
+    auto records =
+        unpack_shared<mcap::Fields>(cache_, part_offset(part), buffers.shared, buffers.unpacked, unpack);
     while (records.left() > 0) {
       const mcap::Record record = mcap::take_record(records);
       if (record.op != mcap::Op::message) continue;
@@ -68,6 +72,7 @@ class McapReader final : public ChunkedReader {
   }
 
   InputFile file_;
+  std::shared_ptr<ChunkCache> cache_ = ChunkCache::of(file_);
   mcap::Index index_;
   std::map<std::uint16_t, std::size_t> topic_of_;  // index in the topics, by channel id
   std::set<std::uint16_t> unknown_;                // ids of channels that have messages but no channel record

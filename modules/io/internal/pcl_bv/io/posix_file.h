@@ -7,7 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -42,6 +44,9 @@ class FileDescriptor {
   int fd_;
 };
 
+/// Device, inode, size and times of a file. They are equal only for the same file with the same content.
+using FileIdentity = std::array<std::int64_t, 7>;
+
 /// A regular file open for reading. InputFile uses pread instead of mmap, because a file that is cut while it
 /// is read must cause an error, not SIGBUS.
 class InputFile {
@@ -62,6 +67,9 @@ class InputFile {
 
   /// Throws IoError if the file's size or times differ from those when it was opened.
   void require_unchanged() const;
+
+  /// Returns the file's identity when it was opened.
+  FileIdentity identity() const;
 
  private:
   FileDescriptor file_;
