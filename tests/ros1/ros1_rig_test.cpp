@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <set>
+#include <algorithm>
+#include <cstring>
 
+#include "live_topics.h"
 #include "pcl_bv/messages/odometry.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
@@ -287,6 +289,27 @@ TEST_F(Ros1Rig, TakesItsParametersFromTheParameterServerAndTheTopicPoints) {
     EXPECT_EQ(running->end(SIGINT), 0);
     ros().deleteParam("/cluster_volumes/rig/sensors");
   }
+}
+
+// As between nodelets of one manager, which exchange pointers to messages if both sides have the same type.
+TEST_F(Ros1Rig, ReceivesTheBytesOfACloudOfTheSameProcess) {
+  LiveTopics topics(ros());
+  const auto receiver = topics.receiver(
+      "/own", {"livox_ros_driver/msg/CustomMsg", "sensor_msgs/msg/PointCloud2"}, Delivery::newest);
+  const Lidar lidar(ros(), "/own");
+  topics.subscribe_to_clouds(true);
+  ASSERT_TRUE(lidar.heard());
+  ReceivedMessage message;
+  for (int i = 0; i < 3; ++i)
+    lidar.send(cube());
+  ASSERT_TRUE(receiver->next(message, std::chrono::seconds(10)));
+  EXPECT_EQ(message.type, 1U);
+  EXPECT_TRUE(message.ros1);
+  const auto cloud = read_message<msg::PointCloud2>(message.data, message.size, message.ros1);
+  EXPECT_EQ(cloud.header.frame_id, "lidar");
+  ASSERT_EQ(cloud.data.size, 12'000U);
+  EXPECT_EQ(std::memcmp(cloud.data.data, cube().data.data(), 12'000), 0);
+  EXPECT_THAT(receiver->take_warnings(), testing::IsEmpty());
 }
 
 TEST_F(Ros1Rig, RefusesSettingsThatAreNotAllowed) {
