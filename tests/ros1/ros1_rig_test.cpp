@@ -15,44 +15,7 @@
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 #include "ros1_test.h"
-
-namespace pcl_bv::test {
-namespace {
-
-// A message that is written by pcl_bv, so that no further package of ROS is needed.
-struct Written {
-  std::vector<std::byte> bytes;
-};
-
-}  // namespace
-}  // namespace pcl_bv::test
-
-namespace ros {
-namespace message_traits {
-template <>
-struct IsMessage<pcl_bv::test::Written> : TrueType {};
-template <>
-struct MD5Sum<pcl_bv::test::Written> {
-  static const char* value(const pcl_bv::test::Written&) { return "*"; }
-};
-template <>
-struct DataType<pcl_bv::test::Written> {
-  static const char* value(const pcl_bv::test::Written&) { return "*"; }
-};
-}  // namespace message_traits
-namespace serialization {
-template <>
-struct Serializer<pcl_bv::test::Written> {
-  template <class Stream>
-  static void write(Stream& stream, const pcl_bv::test::Written& message) {
-    std::memcpy(stream.advance(serializedLength(message)), message.bytes.data(), message.bytes.size());
-  }
-  static std::uint32_t serializedLength(const pcl_bv::test::Written& message) {
-    return static_cast<std::uint32_t>(message.bytes.size());
-  }
-};
-}  // namespace serialization
-}  // namespace ros
+#include "ros1_writer.h"
 
 namespace pcl_bv::test {
 namespace {
@@ -61,32 +24,6 @@ using sensor_msgs::PointCloud2;
 using testing::HasSubstr;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
-
-class Writer {
- public:
-  Writer(ros::NodeHandle& node, const std::string& topic, const char* type, const char* md5,
-         bool latch = false) {
-    ros::AdvertiseOptions options(topic, 100, md5, type, "# written by pcl_bv");
-    options.latch = latch;
-    publisher_ = node.advertise(options);
-  }
-  template <class Message>
-  void send(const Message& message) const {
-    Written written;
-    write_ros1(message, written.bytes);
-    publisher_.publish(written);
-  }
-  bool heard() const {
-    return wait_for([&] { return publisher_.getNumSubscribers() > 0; });
-  }
-
- private:
-  ros::Publisher publisher_;
-};
-
-Writer transforms(ros::NodeHandle& node, const std::string& topic) {
-  return {node, topic, "tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec", topic == "/tf_static"};
-}
 
 msg::TransformStamped step(const std::string& parent, const std::string& child, double x,
                            msg::Time stamp = {}) {
