@@ -340,11 +340,17 @@ class RecordedTransformsTest : public Folder {
       odometry.pose.pose.position.x += 1;
       write(writer, topic, odometry);
     }
-    msg::TransformStamped step;
-    step.header.frame_id = "odom";
-    step.child_frame_id = "base";
-    step.transform.translation.x = 3;
-    if (with_tf) write(writer, "/tf", msg::TFMessage{{step}});
+    if (with_tf) write(writer, "/tf", transform(3));
+    writer.close();
+    return file;
+  }
+
+  // Records a transform in each topic: the robot is at x = 1 in the first one, 2 in the second one, ...
+  std::string record_transforms(const std::vector<std::string>& topics) const {
+    const std::string file = (path_ / "transforms.mcap").string();
+    McapWriter writer(file);
+    for (std::size_t i = 0; i < topics.size(); ++i)
+      write(writer, topics[i], transform(static_cast<double>(i + 1)));
     writer.close();
     return file;
   }
@@ -357,6 +363,14 @@ class RecordedTransformsTest : public Folder {
   }
 
  private:
+  static msg::TFMessage transform(double x) {
+    msg::TransformStamped step;
+    step.header.frame_id = "odom";
+    step.child_frame_id = "base";
+    step.transform.translation.x = x;
+    return {{step}};
+  }
+
   template <class Message>
   static void write(McapWriter& writer, const std::string& topic, const Message& message) {
     std::vector<std::byte> bytes;
@@ -372,6 +386,39 @@ TEST_F(RecordedTransformsTest, AreThoseOfTfUnlessATopicOfOdometryIsNamed) {
   EXPECT_EQ(x_of(recording, "/a"), 1);
   EXPECT_EQ(x_of(recording, "/b"), 2);
   EXPECT_EQ(x_of(recording, "/c"), 3);
+}
+
+TEST_F(RecordedTransformsTest, AreThoseOfOneRobotOfSeveral) {
+  const std::string robots = record_transforms({"/robot2/tf", "/robot1/tf", "/robot1/old_tf"});
+  EXPECT_EQ(x_of(robots, ""), 2);
+  EXPECT_THAT(recorded_transforms(robots, "")->take_warnings(),
+              testing::ElementsAre("transforms of /robot1/tf are used, those of /robot2/tf are not"));
+  const std::string with_root = record_transforms({"/robot1/tf", "/tf", "/robot2/tf_static"});
+  EXPECT_EQ(x_of(with_root, ""), 2);
+  EXPECT_THAT(recorded_transforms(with_root, "")->take_warnings(), testing::IsEmpty());
+}
+
+TEST_F(RecordedTransformsTest, ErrorsNameTheFile) {
+  const std::string file = record_transforms({"/tf"});
+  std::filesystem::resize_file(file, 20);
+  const auto error_of_opening = [&]() -> std::string {
+    try {
+      recorded_transforms(file, "");
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(error_of_opening(), testing::StartsWith(file + ": "));
+}
+
+TEST_F(RecordedTransformsTest, TolerateAnyTimeOfACloud) {
+  const auto feed = recorded_transforms(record_transforms({"/tf"}), "");
+  Transforms transforms;
+  for (const std::int64_t time :
+       {std::numeric_limits<std::int64_t>::min(), std::int64_t{0}, std::numeric_limits<std::int64_t>::max()})
+    feed->read(time, transforms);
+  EXPECT_TRUE(transforms.find("odom", "base", 0).pose);
 }
 
 TEST_F(RecordedTransformsTest, AreThoseOfTheFirstOrTheNamedTopicOfOdometryWithoutTf) {

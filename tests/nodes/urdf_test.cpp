@@ -105,6 +105,21 @@ TEST_F(UrdfFile, LeavesOutMeshesThatCannotBeReadWithAWarning) {
   EXPECT_THAT(urdf.warnings, ElementsAre(HasSubstr("link wheel: package://robot/wheel.stl: not found")));
 }
 
+TEST_F(UrdfFile, LeavesOutOtherGeometriesWithAWarning) {
+  const Urdf urdf = read_urdf(write("robot.urdf",
+                                    "<robot><link name='a'>\n<collision><geometry><capsule radius='1'/>"
+                                    "</geometry></collision></link></robot>"));
+  EXPECT_THAT(urdf.shapes, IsEmpty());
+  EXPECT_THAT(urdf.warnings, ElementsAre(HasSubstr("link a: line 2: the geometry is not a box, sphere")));
+}
+
+TEST_F(UrdfFile, IsReadWithoutShapesWhereOnlyItsJointsAreUsed) {
+  const Urdf urdf = read_urdf(write("robot.urdf", kRobot), UrdfContent::joints);
+  EXPECT_EQ(urdf.joints.size(), 3U);
+  EXPECT_THAT(urdf.shapes, IsEmpty());
+  EXPECT_THAT(urdf.warnings, IsEmpty());
+}
+
 TEST_F(UrdfFile, MayNameMeshesInTextInObjAndByPath) {
   for (const auto& [name, content] : {std::pair<std::string, std::string>{"t.stl", stl(false)},
                                       {"t.obj", "v 0 0 0\nv 1 0 0\nvn 5 5 5\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"}}) {
@@ -130,7 +145,10 @@ TEST_F(UrdfFile, IsRejectedWithItsFileAndLine) {
       HasSubstr("radius is not above 0"));
   EXPECT_THAT(refusal("<robot><link name='a'><collision><geometry><sphere "
                       "radius='nan'/></geometry></collision></link></robot>"),
-              HasSubstr("radius 'nan' is not 1 numbers"));
+              HasSubstr("radius 'nan' is not a number"));
+  EXPECT_THAT(refusal("<robot><link name='a'><collision><origin xyz='1 2'/><geometry><mesh filename='a.stl'/>"
+                      "</geometry></collision></link></robot>"),
+              HasSubstr("xyz '1 2' is not 3 numbers"));
   std::string deep = "<robot>";
   for (int i = 0; i < 100'000; ++i)
     deep += "<a>";

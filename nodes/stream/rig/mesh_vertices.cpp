@@ -29,8 +29,13 @@ bool is_binary_stl(const std::string& bytes) {
   return bytes.size() == kStlHeader + kStlTriangle * std::size_t{triangles};
 }
 
+void check_count(std::size_t vertices) {
+  if (vertices > kMaxVertices) throw IoError("has more than 10000000 vertices");
+}
+
 Vertices binary_stl(const std::string& bytes) {
   Vertices vertices;
+  check_count(3 * ((bytes.size() - kStlHeader) / kStlTriangle));
   for (std::size_t at = kStlHeader; at + kStlTriangle <= bytes.size(); at += kStlTriangle) {
     float corners[12];  // the normal, then three corners
     std::memcpy(corners, bytes.data() + at, sizeof corners);
@@ -54,6 +59,7 @@ Vertices text_vertices(const std::string& text, const std::string& keyword) {
     if (!(words >> vertex.x() >> vertex.y() >> vertex.z()))
       throw IoError("line " + std::to_string(line_number) + ": not three numbers");
     vertices.push_back(vertex);
+    check_count(vertices.size());
   }
   return vertices;
 }
@@ -69,7 +75,6 @@ std::vector<Eigen::Vector3d> read_mesh_vertices(const std::filesystem::path& fil
                       : is_binary_stl(bytes) ? binary_stl(bytes)
                                              : text_vertices(bytes, "vertex");
   if (vertices.empty()) throw IoError("has no vertices");
-  if (vertices.size() > kMaxVertices) throw IoError("has more than 10000000 vertices");
   return vertices;
 }
 

@@ -42,14 +42,15 @@ struct TransformMessage {
 /// ignored, otherwise an empty text. Throws MessageError for bytes that are not such a message.
 std::string add_transforms(const TransformMessage& message, Transforms& to);
 
-/// Returns the transforms of a recording: the topics of type tf2_msgs/msg/TFMessage (/tf and /tf_static) and
-/// the topic `odometry` of type nav_msgs/msg/Odometry. If `odometry` is empty and there is no topic of
-/// changing transforms, the first topic of that type is used. Returns null if the recording has no such
-/// topic, and for a capture of packets. Throws as open_recording().
+/// Returns the transforms of a recording: the topics /tf and /tf_static of type tf2_msgs/msg/TFMessage or,
+/// without these, those of the first namespace that has them, such as /robot1/tf, with a warning if there are
+/// several, and the topic `odometry` of type nav_msgs/msg/Odometry. If `odometry` is empty and there is no
+/// topic of changing transforms, the first topic of that type is used. Returns null if the recording has no
+/// such topic, and for a capture of packets. Throws as open_named_recording().
 std::unique_ptr<TransformFeed> recorded_transforms(const std::string& recording, const std::string& odometry);
 
 /// Returns the topics of type nav_msgs/msg/Odometry of a recording, none for a capture of packets. Throws as
-/// open_recording().
+/// open_named_recording().
 std::vector<std::string> recorded_odometry_topics(const std::string& recording);
 
 /// Returns the live topics /tf and /tf_static and, if `odometry` is not empty, the topic with this name of

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
 
 #include "mounting_pose.h"
 #include "pcl_bv/fitting/fit.h"
@@ -42,7 +43,7 @@ std::vector<double> numbers_of(const XMLElement& element, const char* name, std:
                                  [](double number) { return std::abs(number) <= kMaxCoordinate; });
   if (!valid)
     fail_at(element, std::string(name) + " '" + attribute(element, name) + "' is not " +
-                         std::to_string(missing.size()) + " numbers");
+                         (missing.size() == 1 ? "a number" : std::to_string(missing.size()) + " numbers"));
   return numbers;
 }
 
@@ -96,14 +97,24 @@ std::filesystem::path mesh_file(const std::string& name, const std::filesystem::
   throw IoError("not found in the folders above the URDF, in ROS_PACKAGE_PATH and in AMENT_PREFIX_PATH");
 }
 
+// A shape that this version cannot read. The rest of the robot is right without it.
+struct UnreadableShape : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 AnyVolume mesh_volume(const XMLElement& mesh, const Pose& pose, const std::filesystem::path& urdf) {
-  std::vector<Eigen::Vector3d> vertices = read_mesh_vertices(mesh_file(attribute(mesh, "filename"), urdf));
   const Eigen::Vector3d scale = vector_of(mesh, "scale", 1);
-  for (Eigen::Vector3d& vertex : vertices)
-    vertex = pose * Eigen::Vector3d(scale.cwiseProduct(vertex));
-  const Fitted<Hull> hull = fit_hull(view(vertices));
-  if (hull.volume.empty()) throw IoError("has no valid vertex");
-  return hull.volume;
+  const std::string name = attribute(mesh, "filename");
+  try {
+    std::vector<Eigen::Vector3d> vertices = read_mesh_vertices(mesh_file(name, urdf));
+    for (Eigen::Vector3d& vertex : vertices)
+      vertex = pose * Eigen::Vector3d(scale.cwiseProduct(vertex));
+    const Fitted<Hull> hull = fit_hull(view(vertices));
+    if (hull.volume.empty()) throw IoError("has no valid vertex");
+    return hull.volume;
+  } catch (const IoError& error) {
+    throw UnreadableShape(name + ": " + error.what());
+  }
 }
 
 // Returns the volume of an element `geometry`.
@@ -118,14 +129,10 @@ AnyVolume volume_of(const XMLElement& geometry, const Pose& pose, const std::fil
   if (const XMLElement* const cylinder = geometry.FirstChildElement("cylinder"))
     return Cylinder(pose.translation(), pose.linear().col(2), length_of(*cylinder, "radius"),
                     length_of(*cylinder, "length") / 2);
-  if (const XMLElement* const mesh = geometry.FirstChildElement("mesh")) {
-    try {
-      return mesh_volume(*mesh, pose, urdf);
-    } catch (const IoError& error) {
-      throw IoError(attribute(*mesh, "filename") + ": " + error.what());
-    }
-  }
-  fail_at(geometry, "the geometry is not a box, sphere, cylinder or mesh");
+  if (const XMLElement* const mesh = geometry.FirstChildElement("mesh"))
+    return mesh_volume(*mesh, pose, urdf);
+  throw UnreadableShape("line " + std::to_string(geometry.GetLineNum()) +
+                        ": the geometry is not a box, sphere, cylinder or mesh");
 }
 
 void read_shapes(const XMLElement& link, const std::filesystem::path& file, Urdf& urdf) {
@@ -134,10 +141,10 @@ void read_shapes(const XMLElement& link, const std::filesystem::path& file, Urdf
        shape = shape->NextSiblingElement("collision")) {
     const XMLElement* const geometry = shape->FirstChildElement("geometry");
     if (geometry == nullptr) fail_at(*shape, "a collision has no geometry");
+    const Pose pose = origin_of(*shape);
     try {
-      urdf.shapes.push_back({name, volume_of(*geometry, origin_of(*shape), file)});
-    } catch (const IoError& error) {
-      if (geometry->FirstChildElement("mesh") == nullptr) throw;
+      urdf.shapes.push_back({name, volume_of(*geometry, pose, file)});
+    } catch (const UnreadableShape& error) {
       urdf.warnings.push_back(printable("link " + name + ": " + error.what() + "; this shape is left out"));
     }
   }
@@ -155,7 +162,7 @@ UrdfJoint joint_of(const XMLElement& element) {
 
 }  // namespace
 
-Urdf read_urdf(const std::filesystem::path& file) {
+Urdf read_urdf(const std::filesystem::path& file, UrdfContent content) {
   try {
     const std::string text = read_untrusted_text(file, kMaxUrdfBytes);
     tinyxml2::XMLDocument document;  // limits the depth of elements
@@ -169,7 +176,7 @@ Urdf read_urdf(const std::filesystem::path& file) {
          element = element->NextSiblingElement()) {
       const std::string name = element->Name();
       if (name == "joint") urdf.joints.push_back(joint_of(*element));
-      if (name == "link") read_shapes(*element, file, urdf);
+      if (name == "link" && content == UrdfContent::joints_and_shapes) read_shapes(*element, file, urdf);
     }
     return urdf;
   } catch (const IoError& error) {
@@ -179,7 +186,7 @@ Urdf read_urdf(const std::filesystem::path& file) {
 
 void Urdf::add_joints(Transforms& to) const {
   for (const UrdfJoint& joint : joints)
-    if (!joint.moves) to.add_fixed(joint.parent, joint.child, joint.pose, true);
+    if (!joint.movable) to.add_fixed(joint.parent, joint.child, joint.pose, true);
 }
 
 std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<std::string>& problems) const {
@@ -212,7 +219,7 @@ std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<st
         shape.volume));
   }
   for (const UrdfJoint& joint : joints)
-    if (joint.moves)
+    if (joint.movable)
       problems.push_back(
           printable("joint " + joint.name + " moves: the links below it are placed as at its position 0"));
   return volumes;

@@ -14,11 +14,11 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// A joint between two links. If it moves, `pose` is the pose at its position 0.
+/// A joint between two links. If it is movable, `pose` is the pose at its position 0.
 struct UrdfJoint {
   std::string name, parent, child;
   Pose pose = Pose::Identity();
-  bool moves = false;
+  bool movable = false;
 };
 
 /// A collision shape of a link, in the frame of the link.
@@ -42,11 +42,14 @@ struct Urdf {
   std::vector<AnyVolume> volumes_in(const std::string& frame, std::vector<std::string>& warnings) const;
 };
 
-/// Reads a URDF file. Boxes, spheres and cylinders are read as such, meshes (.stl, .obj) as their convex
-/// hulls. `package://` paths are found in the folders above the file, in ROS_PACKAGE_PATH and in the share
-/// folders of AMENT_PREFIX_PATH. Meshes that cannot be read give a warning. Throws IoError if the file cannot
-/// be read, has more than 16 MiB, is not XML or not a robot, or has an invalid number.
-Urdf read_urdf(const std::filesystem::path& file);
+enum class UrdfContent { joints, joints_and_shapes };
+
+/// Reads a URDF file. Shapes are read only on request, because a mesh can take seconds. Boxes, spheres and
+/// cylinders are read as such, meshes (.stl, .obj) as their convex hulls. `package://` paths are found in the
+/// folders above the file, in ROS_PACKAGE_PATH and in the share folders of AMENT_PREFIX_PATH. Meshes that
+/// cannot be read and other geometries give a warning. Throws IoError if the file cannot be read, has more
+/// than 16 MiB, is not XML or not a robot, or has an invalid number.
+Urdf read_urdf(const std::filesystem::path& file, UrdfContent content = UrdfContent::joints_and_shapes);
 
 /// Returns the vertices of a mesh (.stl, .obj), at most 10 million. Throws IoError if the file cannot be read
 /// or has another format.

@@ -35,6 +35,7 @@ class Packets final : public FrameSource {
     frame.header.stamp_ns = options_.own_stamps
                                 ? sweep->stamp_ns
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
+    frame.recorded_ns = sweep->stamp_ns;  // the time of the machine that captured the packets
     frame.header.frame_id = options_.frame_id.empty() ? std::string(sweep->frame_id) : options_.frame_id;
     frame.pose = poses_.at(index_++, frame.header.stamp_ns);
     ++seq_;

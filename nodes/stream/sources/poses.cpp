@@ -110,7 +110,10 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
   line_number = 0;
   if (poses_.empty()) fail("no poses");
   if (by_stamp_) return;
-  if (!frames) fail("a live source needs poses by time (TUM: 8 numbers per line), not by frame (KITTI)");
+  if (!frames)
+    fail(
+        "frames whose number is not known before need poses by time (TUM: 8 numbers per line), not by "
+        "frame (KITTI)");
   if (poses_.size() != *frames)
     fail(std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames");
 }

@@ -75,10 +75,18 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
   return number(std::find_if(topics.begin(), topics.end(), has_clouds));
 }
 
+std::unique_ptr<RecordingReader> open_named_recording(const std::string& recording) {
+  try {
+    return open_recording(recording);
+  } catch (const IoError& error) {
+    throw IoError(recording + ": " + error.what());
+  }
+}
+
 std::vector<std::string> recorded_cloud_topics(const std::string& recording) {
   std::vector<std::string> names;
   if (is_capture(recording)) return names;
-  const auto reader = open_recording(recording);
+  const auto reader = open_named_recording(recording);
   for (const RecordedTopic& topic : reader->topics())
     if (has_clouds(topic) && std::find(names.begin(), names.end(), topic.name) == names.end())
       names.push_back(topic.name);

@@ -13,6 +13,8 @@
 #include "stream/rig/transforms.h"
 
 namespace pcl_bv {
+class RecordingReader;
+
 namespace [[gnu::visibility("default")]] detail {
 
 /// Poses from the file of ReplayOptions::poses.
@@ -47,7 +49,11 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
 /// Returns the source kinds for packets and recordings, or none in a build without the component `recording`.
 std::vector<SourceKind> recording_kinds();
 
-/// Returns the topics with clouds of a recording, none for a capture of packets. Throws as open_recording().
+/// open_recording(), with errors that begin with the name of the file.
+std::unique_ptr<RecordingReader> open_named_recording(const std::string& recording);
+
+/// Returns the topics with clouds of a recording, none for a capture of packets. Throws as
+/// open_named_recording().
 std::vector<std::string> recorded_cloud_topics(const std::string& recording);
 
 /// Returns whether the file has the extension of a recording or capture: .bag, .mcap, .db3, .pcap, .pcapng.
