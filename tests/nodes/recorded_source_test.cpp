@@ -400,7 +400,7 @@ TEST_F(RecordedTransformsTest, AreThoseOfOneRobotOfSeveral) {
 
 TEST_F(RecordedTransformsTest, ErrorsNameTheFile) {
   const std::string file = record_transforms({"/tf"});
-  std::filesystem::resize_file(file, 20);
+  std::filesystem::resize_file(file, 3);
   const auto error_of_opening = [&]() -> std::string {
     try {
       recorded_transforms(file, "");
