@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sensor_point.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -17,6 +19,7 @@ constexpr std::int64_t kMaxHesaiPause = 300'000'000;   // nanoseconds; no predic
 constexpr std::int64_t kMaxHesaiTime = 4'000'000'000;  // nanoseconds, limit of SensorPoint::time_ns
 constexpr unsigned kLateHesaiPackets = 8;              // a complete sweep waits this number of packets
 constexpr unsigned kHesaiRestart = 8;                  // late packets in succession before a restart
+constexpr std::size_t kFirstHesaiCapacity = std::size_t{1} << 18;  // points of the first sweep
 constexpr std::size_t kMaxHesaiPoints = std::size_t{1} << 20;  // of a sweep; a Pandar64 measures 460 800
 
 struct HesaiRotation {
@@ -40,6 +43,14 @@ T hesai_number(const std::byte* at) {
   T value;
   std::memcpy(&value, at, sizeof value);  // the host is little-endian, as elsewhere in this module
   return value;
+}
+
+constexpr std::uint32_t kDistanceBits = 0xFFFF;  // of return_bits()
+
+// Returns the distance and, above it, the reflectivity. The fourth byte is of the same packet, because a tail
+// follows the last channel.
+std::uint32_t return_bits(const std::byte* at) {
+  return hesai_number<std::uint32_t>(at) & 0xFFFFFFU;
 }
 
 // The sensor's time within its second, microseconds.
@@ -70,7 +81,7 @@ void warn_of_dropped(std::uint64_t number, std::uint64_t& warned, const char* wh
 }  // namespace
 
 HesaiGeometry::HesaiGeometry(const HesaiModel& sensor, const std::vector<HesaiAngles>& angles)
-    : model(&sensor), firing_ns(hesai_firing_times(sensor)) {
+    : model(&sensor) {
   constexpr double unit = 0.004;  // metres
   for (const HesaiAngles& channel : angles) {
     const double elevation = channel.elevation * kHesaiDegree, azimuth = channel.azimuth * kHesaiDegree;
@@ -78,6 +89,8 @@ HesaiGeometry::HesaiGeometry(const HesaiModel& sensor, const std::vector<HesaiAn
     y.push_back(unit * std::cos(elevation) * std::cos(azimuth));
     z.push_back(unit * std::sin(elevation));
   }
+  for (const std::int64_t time_ns : hesai_firing_times(sensor))
+    rings_and_times.push_back(rings_and_times.size() | static_cast<std::uint64_t>(time_ns) << 32U);
 }
 
 void HesaiSensor::pass_on(Frame& frame, SweepQueue& queue) {
@@ -127,7 +140,7 @@ HesaiSensor::Frame& HesaiSensor::frame_of(std::int64_t revolution, SweepQueue& q
   current_.sweep.sensor = *number_;
   current_.sweep.frame_id = "hesai_lidar";
   const std::size_t expected = previous_.sweep.points.size();
-  current_.sweep.points.reserve(expected + expected / 8);
+  current_.sweep.points = queue.new_points(std::max(expected + expected / 8, kFirstHesaiCapacity));
   packets_in_frame_ = 0;
   return current_;
 }
@@ -205,24 +218,26 @@ void HesaiSensor::add_points(const std::byte* block, std::size_t returns, double
   if (points.capacity() < before + most) points.reserve(2 * before + most);
   points.resize(before + most);
   SensorPoint* to = points.data() + before;
-  const std::byte* channel = block + model.block_header;
-  for (std::size_t i = 0; i < model.channels; ++i, channel += model.channel) {
-    const double x = geometry.y[i] * sine + geometry.x[i] * cosine;
-    const double y = geometry.y[i] * cosine - geometry.x[i] * sine;
-    const auto time = static_cast<std::uint32_t>(time_ns + geometry.firing_ns[i]);
-    for (std::size_t which = 0; which < returns; ++which) {
-      const std::byte* const at = channel + which * model.block_size();
-      const double distance = hesai_number<std::uint16_t>(at);
-      *to = {static_cast<float>(distance * x),
-             static_cast<float>(distance * y),
-             static_cast<float>(distance * geometry.z[i]),
-             static_cast<float>(std::to_integer<int>(at[2])),
-             static_cast<std::uint32_t>(i),
-             time,
-             0};
-      const bool repeated = which > 0 && std::memcmp(channel, at, 3) == 0;
-      to += distance > 0 && !repeated ? 1 : 0;
-    }
+  const Double2 of_x{cosine, -sine}, of_y{sine, cosine};
+  // Copies, because the compiler must expect that a point's bytes overwrite what is behind a reference.
+  const std::size_t channels = model.channels, step = model.channel, to_second = model.block_size();
+  const double *const xs = geometry.x.data(), *const ys = geometry.y.data(), *const zs = geometry.z.data();
+  const std::uint64_t* const rings_and_times = geometry.rings_and_times.data();
+  const std::uint64_t begin = static_cast<std::uint64_t>(time_ns) << 32U;
+  const std::byte* at = block + model.block_header;
+  const auto write = [=](SensorPoint* point, std::size_t i, std::uint32_t bits, Double2 xy) {
+    const Double2 measured = two_doubles(bits & kDistanceBits, bits >> 16U);
+    set_point(*point, measured[0] * xy, measured * Double2{zs[i], 1}, rings_and_times[i] + begin, 0);
+  };
+  for (std::size_t i = 0; i < channels; ++i, at += step) {
+    const Double2 xy = xs[i] * of_x + ys[i] * of_y;
+    const std::uint32_t first = return_bits(at);
+    write(to, i, first, xy);
+    to += (first & kDistanceBits) != 0 ? 1 : 0;
+    if (returns == 1) continue;
+    const std::uint32_t second = return_bits(at + to_second);
+    write(to, i, second, xy);
+    to += (second & kDistanceBits) != 0 && second != first ? 1 : 0;
   }
   points.resize(static_cast<std::size_t>(to - points.data()));
 }

@@ -20,8 +20,9 @@ struct HesaiGeometry {
   HesaiGeometry(const HesaiModel& sensor, const std::vector<HesaiAngles>& angles);
 
   const HesaiModel* model;
-  std::vector<double> x, y, z;          // direction of each channel at azimuth 0, metres for each unit
-  std::vector<std::int64_t> firing_ns;  // time of each channel after the beginning of its firing
+  std::vector<double> x, y, z;  // direction of each channel at azimuth 0, metres for each unit
+  // Number of each channel and, in the upper half, its time after the beginning of its firing, nanoseconds.
+  std::vector<std::uint64_t> rings_and_times;
 };
 
 /// One sensor. The revolution of a packet follows from its azimuth and from the azimuth that is predicted

@@ -97,7 +97,7 @@ void LivoxSensor::begin_frame(std::uint64_t number, const Payload& packet, const
   current_.sweep.has_ring = false;
   current_.sweep.frame_id = "livox_frame";
   const std::size_t expected = previous_.sweep.points.size();
-  current_.sweep.points.reserve(expected + expected / 8 + header.points);
+  current_.sweep.points = queue.new_points(expected + expected / 8 + header.points);
   packets_in_frame_ = 0;
 }
 

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <utility>
 
+#include "sensor_point.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -80,13 +82,7 @@ OusterGeometry::OusterGeometry(const OusterMetadata& metadata) {
 
 OusterSensor::OusterSensor(std::shared_ptr<const OusterMetadata> metadata,
                            std::shared_ptr<const OusterGeometry> geometry)
-    : metadata_(std::move(metadata)), geometry_(std::move(geometry)) {
-  for (std::size_t i = 0; i < metadata_->profile->returns; ++i) {
-    ranges_[i].resize(metadata_->beams);
-    for (std::vector<float>* const coordinates : {&x_[i], &y_[i], &z_[i]})
-      coordinates->resize(metadata_->beams);
-  }
-}
+    : metadata_(std::move(metadata)), geometry_(std::move(geometry)) {}
 
 void OusterSensor::pass_on(Frame& frame, SweepQueue& queue) {
   if (!frame.sweep.points.empty()) queue.whole.push_back(std::move(frame.sweep));
@@ -102,8 +98,8 @@ void OusterSensor::begin_frame(std::uint16_t id, SweepQueue& queue) {
   current_.sweep.sensor = *number_;
   current_.sweep.has_reflectivity = true;
   current_.sweep.frame_id = "os_sensor";
-  const std::size_t expected = previous_.sweep.points.size();
-  current_.sweep.points.reserve(expected + expected / 8 + 2 * metadata_->beams);
+  current_.sweep.points =
+      queue.new_points(metadata_->columns_per_frame * metadata_->beams * metadata_->profile->returns);
   packets_in_frame_ = 0;
 }
 
@@ -174,81 +170,62 @@ void OusterSensor::add_column(const std::byte* column, std::int64_t packet_time_
   const auto time_ns = static_cast<std::uint32_t>(std::clamp<std::int64_t>(since_stamp, 0, kMaxSweepTime));
   const std::byte* const channels = column + profile.column_header;
   const OusterGeometry::Column& place = geometry_->columns[id];
-  if (&profile == &kOusterLegacy) return add_points<kOusterLegacy>(channels, place, time_ns, sweep.points);
-  if (&profile == &kOusterSingle) return add_points<kOusterSingle>(channels, place, time_ns, sweep.points);
-  if (&profile == &kOusterDual) return add_points<kOusterDual>(channels, place, time_ns, sweep.points);
-  add_points<kOusterLowRate>(channels, place, time_ns, sweep.points);
-}
-
-// Computes the coordinates of one return of a column, also those without a range. The loops have no branches,
-// so that the compiler can use vector instructions. `upright`: the sensor's z axis is the lidar's.
-template <const OusterProfile& profile, bool upright>
-void OusterSensor::compute_coordinates(const std::byte* channels, const OusterGeometry::Column& place,
-                                       std::size_t which) {
-  const std::size_t beams = metadata_->beams;
-  std::uint32_t* const ranges = ranges_[which].data();
-  for (std::size_t i = 0; i < beams; ++i)
-    ranges[i] = range_mm<profile>(channels + i * profile.channel, which);
-  const auto [m, origin] = place;
-  const double near = geometry_->beam_distance_mm;
-  const double *const bx = geometry_->x.data(), *const by = geometry_->y.data(),
-                      *const bz = geometry_->z.data();
-  float *const x = x_[which].data(), *const y = y_[which].data(), *const z = z_[which].data();
-  for (std::size_t i = 0; i < beams; ++i) {
-    const double distance = static_cast<double>(static_cast<std::int32_t>(ranges[i])) - near;
-    const double dx = distance * bx[i], dy = distance * by[i], dz = distance * bz[i];
-    if constexpr (upright) {
-      x[i] = static_cast<float>(m[0] * dx + m[1] * dy + origin[0]);
-      y[i] = static_cast<float>(m[3] * dx + m[4] * dy + origin[1]);
-      z[i] = static_cast<float>(m[8] * dz + origin[2]);
-    } else {
-      x[i] = static_cast<float>(m[0] * dx + m[1] * dy + m[2] * dz + origin[0]);
-      y[i] = static_cast<float>(m[3] * dx + m[4] * dy + m[5] * dz + origin[1]);
-      z[i] = static_cast<float>(m[6] * dx + m[7] * dy + m[8] * dz + origin[2]);
-    }
-  }
+  if (&profile == &kOusterLegacy) return add_returns<kOusterLegacy>(channels, place, time_ns, sweep.points);
+  if (&profile == &kOusterSingle) return add_returns<kOusterSingle>(channels, place, time_ns, sweep.points);
+  if (&profile == &kOusterDual) return add_returns<kOusterDual>(channels, place, time_ns, sweep.points);
+  add_returns<kOusterLowRate>(channels, place, time_ns, sweep.points);
 }
 
 // Appends the returns of a column. Each return is written, and the next one overwrites it if it is no point,
 // because the processor cannot predict which beams have a return.
-template <const OusterProfile& profile>
-void OusterSensor::add_points(const std::byte* channels, const OusterGeometry::Column& place,
-                              std::uint32_t time_ns, SensorPoints& points) {
-  const std::size_t beams = metadata_->beams;
-  for (std::size_t which = 0; which < profile.returns; ++which) {
-    if (geometry_->upright) {
-      compute_coordinates<profile, true>(channels, place, which);
-    } else {
-      compute_coordinates<profile, false>(channels, place, which);
-    }
-  }
-  const std::size_t before = points.size();
-  if (points.capacity() < before + profile.returns * beams)
-    points.reserve(2 * before + profile.returns * beams);
+template <const OusterProfile& profile, bool upright>
+void OusterSensor::add_points(const std::byte* channels, const OusterGeometry::Column& column,
+                              std::uint32_t time_ns, SensorPoints& points) const {
+  const OusterGeometry& geometry = *geometry_;
+  const auto& [m, origin] = column;
+  const Double2 of_x{m[0], m[3]}, of_y{m[1], m[4]}, of_z{m[2], m[5]}, origin_xy{origin[0], origin[1]};
+  const std::size_t beams = metadata_->beams, before = points.size();
   points.resize(before + profile.returns * beams);
   SensorPoint* to = points.data() + before;
-  const auto write = [&](std::size_t i, std::size_t which, const std::byte* channel) {
-    *to = {x_[which][i],
-           y_[which][i],
-           z_[which][i],
-           static_cast<float>(intensity<profile>(channel, which)),
-           static_cast<std::uint32_t>(i),
-           time_ns,
-           reflectivity<profile>(channel, which)};
+  // Copies, because the compiler must expect that a point's bytes overwrite what is behind a reference.
+  const double m6 = m[6], m7 = m[7], m8 = m[8];
+  const Double2 near{geometry.beam_distance_mm, 0}, origin_z{origin[2], 0};
+  const double *const xs = geometry.x.data(), *const ys = geometry.y.data(), *const zs = geometry.z.data();
+  const std::uint64_t time = std::uint64_t{time_ns} << 32U;
+  const auto write = [=](SensorPoint* point, std::size_t i, std::size_t which, const std::byte* channel,
+                         Double2 xy, double z) {
+    const std::uint32_t range = range_mm<profile>(channel, which);
+    const Double2 measured = two_doubles(range, intensity<profile>(channel, which)) - near;
+    set_point(*point, measured[0] * xy + origin_xy, measured * Double2{z, 1} + origin_z, time | i,
+              reflectivity<profile>(channel, which));
+    return range;
   };
   for (std::size_t i = 0; i < beams; ++i) {
     const std::byte* const channel = channels + i * profile.channel;
-    write(i, 0, channel);
-    to += ranges_[0][i] != 0 ? 1 : 0;
+    Double2 xy = xs[i] * of_x + ys[i] * of_y;
+    double z = m8 * zs[i];
+    if constexpr (!upright) {
+      xy += zs[i] * of_z;
+      z += m6 * xs[i] + m7 * ys[i];
+    }
+    const std::uint32_t first = write(to, i, 0, channel, xy, z);
+    to += first != 0 ? 1 : 0;
     if constexpr (profile.returns == 2) {
-      write(i, 1, channel);
-      const bool repeated = ranges_[1][i] == ranges_[0][i] &&
+      const std::uint32_t second = write(to, i, 1, channel, xy, z);
+      const bool repeated = first == second &&
                             intensity<profile>(channel, 1) == intensity<profile>(channel, 0) &&
                             reflectivity<profile>(channel, 1) == reflectivity<profile>(channel, 0);
-      to += ranges_[1][i] != 0 && !repeated ? 1 : 0;
+      to += second != 0 && !repeated ? 1 : 0;
     }
   }
   points.resize(static_cast<std::size_t>(to - points.data()));
+}
+
+template <const OusterProfile& profile>
+void OusterSensor::add_returns(const std::byte* channels, const OusterGeometry::Column& column,
+                               std::uint32_t time_ns, SensorPoints& points) const {
+  if (geometry_->upright) return add_points<profile, true>(channels, column, time_ns, points);
+  add_points<profile, false>(channels, column, time_ns, points);
 }
 
 }  // namespace pcl_bv::detail

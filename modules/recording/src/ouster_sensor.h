@@ -56,10 +56,11 @@ class OusterSensor final : public SweepAssembler {
   void pass_on(Frame& frame, SweepQueue& queue);
   void add_column(const std::byte* column, std::int64_t packet_time_ns, Frame& frame);
   template <const OusterProfile& profile>
-  void add_points(const std::byte* channels, const OusterGeometry::Column& place, std::uint32_t time_ns,
-                  SensorPoints& points);
+  void add_returns(const std::byte* channels, const OusterGeometry::Column& column, std::uint32_t time_ns,
+                   SensorPoints& points) const;
   template <const OusterProfile& profile, bool upright>
-  void compute_coordinates(const std::byte* channels, const OusterGeometry::Column& place, std::size_t which);
+  void add_points(const std::byte* channels, const OusterGeometry::Column& column, std::uint32_t time_ns,
+                  SensorPoints& points) const;
 
   std::shared_ptr<const OusterMetadata> metadata_;
   std::shared_ptr<const OusterGeometry> geometry_;
@@ -70,9 +71,6 @@ class OusterSensor final : public SweepAssembler {
   unsigned late_in_succession_ = 0;  // packets that belong to neither frame
   std::uint64_t late_ = 0;           // dropped packets
   std::uint64_t late_warned_ = 0;
-  // Ranges and coordinates of one column, for each return.
-  std::array<std::vector<std::uint32_t>, 2> ranges_{};
-  std::array<std::vector<float>, 2> x_{}, y_{}, z_{};
 };
 
 }  // namespace pcl_bv::detail

@@ -248,6 +248,7 @@ bool PacketReader::next(SensorSweep& sweep) {
   if (state.queue.whole.empty() && !state.done) state.finish();
   state.update_warnings();
   if (state.queue.whole.empty()) return false;
+  state.queue.recycle(std::move(sweep.points));
   sweep = std::move(state.queue.whole.front());
   state.queue.whole.pop_front();
   return true;

@@ -23,6 +23,26 @@ struct SweepQueue {
   std::deque<SensorSweep> whole;
   std::size_t sensors = 0;  ///< Number of sensors found; each new sensor takes it as its number.
   WarningList warnings;
+  std::vector<SensorPoints> unused{};  ///< Empty buffers of earlier sweeps.
+
+  /// Keeps the buffer of a sweep that is no longer needed. The operating system clears the pages of new
+  /// memory, which takes about as long as to decode the points that fill them.
+  void recycle(SensorPoints&& points) {
+    constexpr std::size_t max_unused = 4;
+    if (points.capacity() == 0 || unused.size() >= max_unused) return;
+    points.clear();
+    unused.push_back(std::move(points));
+  }
+  /// Returns an empty buffer with a capacity of at least `capacity` points.
+  SensorPoints new_points(std::size_t capacity) {
+    SensorPoints points;
+    if (!unused.empty()) {
+      points = std::move(unused.back());
+      unused.pop_back();
+    }
+    points.reserve(capacity);
+    return points;
+  }
 };
 
 /// Assembles the packets of one model, from one address to one port, into sweeps.

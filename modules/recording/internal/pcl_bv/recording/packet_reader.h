@@ -86,7 +86,8 @@ class PacketReader {
   /// Restarts next() at the beginning of the capture.
   void rewind();
 
-  /// Reads the next sweep. Returns false at the end. Throws IoError if the file can no longer be read.
+  /// Reads the next sweep. Returns false at the end. Throws IoError if the file can no longer be read. Uses
+  /// the memory of `sweep` for later sweeps: a caller that passes the same object again is faster.
   bool next(SensorSweep& sweep);
 
   /// Returns the warnings found until now, one line each. A warning is about damaged parts of the capture,
