@@ -106,7 +106,7 @@ inline std::string hesai_bytes(const MadeHesai& s, const MadeHesaiPacket& made) 
 inline std::vector<std::pair<int, int>> hesai_angles(std::size_t channels) {
   std::vector<std::pair<int, int>> angles;
   for (int i = 0; i < static_cast<int>(channels); ++i)
-    angles.emplace_back(15'210 - 997 * i, -5'208 + 1'042 * (i % 11));
+    angles.emplace_back(15'210 - (channels > 64 ? 297 : 997) * i, -5'208 + 1'042 * (i % 11));
   return angles;
 }
 

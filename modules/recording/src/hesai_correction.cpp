@@ -73,9 +73,9 @@ std::vector<HesaiAngles> parse_hesai_correction(std::string_view csv) {
   return all;
 }
 
-std::filesystem::path own_hesai_correction(const std::filesystem::path& capture) {
+std::filesystem::path own_hesai_correction(const std::filesystem::path& capture, bool has_mirrors) {
   std::filesystem::path own = capture;
-  return own.replace_extension(".csv");
+  return own.replace_extension(has_mirrors ? ".dat" : ".csv");
 }
 
 }  // namespace pcl_bv::detail

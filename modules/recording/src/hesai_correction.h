@@ -19,7 +19,8 @@ namespace pcl_bv::detail {
 /// angles out of range.
 std::vector<HesaiAngles> parse_hesai_correction(std::string_view csv);
 
-/// Returns where the correction file of this capture should be: its name with the extension .csv.
-std::filesystem::path own_hesai_correction(const std::filesystem::path& capture);
+/// Returns where the correction file of this capture should be: its name with the extension .csv or, for a
+/// sensor with mirrors, .dat.
+std::filesystem::path own_hesai_correction(const std::filesystem::path& capture, bool has_mirrors = false);
 
 }  // namespace pcl_bv::detail

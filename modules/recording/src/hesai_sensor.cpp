@@ -7,12 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sensor_point.h"
-
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kHesaiDegree = 3.14159265358979323846 / 180;
 constexpr std::size_t kHesaiCircle = 36'000;           // hundredths of a degree
 constexpr std::int64_t kHesaiSecond = 1'000'000'000;   // nanoseconds
 constexpr std::int64_t kMaxHesaiPause = 300'000'000;   // nanoseconds; no prediction over longer pauses
@@ -21,22 +18,6 @@ constexpr unsigned kLateHesaiPackets = 8;              // a complete sweep waits
 constexpr unsigned kHesaiRestart = 8;                  // late packets in succession before a restart
 constexpr std::size_t kFirstHesaiCapacity = std::size_t{1} << 18;  // points of the first sweep
 constexpr std::size_t kMaxHesaiPoints = std::size_t{1} << 20;  // of a sweep; a Pandar64 measures 460 800
-
-struct HesaiRotation {
-  double sine, cosine;
-};
-
-const std::vector<HesaiRotation>& hesai_rotations() {
-  static const auto all = [] {
-    std::vector<HesaiRotation> table(kHesaiCircle);
-    for (std::size_t i = 0; i < kHesaiCircle; ++i) {
-      const double angle = static_cast<double>(i) / 100 * kHesaiDegree;
-      table[i] = {std::sin(angle), std::cos(angle)};
-    }
-    return table;
-  }();
-  return all;
-}
 
 template <class T>
 T hesai_number(const std::byte* at) {
@@ -55,16 +36,12 @@ std::uint32_t return_bits(const std::byte* at) {
 
 // The sensor's time within its second, microseconds.
 std::uint32_t microseconds(const Payload& packet, const HesaiModel& model) {
-  return hesai_number<std::uint32_t>(packet.data + model.tail_at() + model.timestamp) % 1'000'000;
+  return hesai_number<std::uint32_t>(packet.data + model.tail_at(packet) + model.timestamp) % 1'000'000;
 }
 
 // Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
 double rotation_between(double from, double to) {
   return std::remainder(to - from, static_cast<double>(kHesaiCircle));
-}
-
-std::int64_t revolution_of(double unwrapped) {
-  return static_cast<std::int64_t>(std::floor(unwrapped / static_cast<double>(kHesaiCircle)));
 }
 
 // Returns the difference of two times of which only the position in their second is known.
@@ -80,19 +57,6 @@ void warn_of_dropped(std::uint64_t number, std::uint64_t& warned, const char* wh
 
 }  // namespace
 
-HesaiGeometry::HesaiGeometry(const HesaiModel& sensor, const std::vector<HesaiAngles>& angles)
-    : model(&sensor) {
-  constexpr double unit = 0.004;  // metres
-  for (const HesaiAngles& channel : angles) {
-    const double elevation = channel.elevation * kHesaiDegree, azimuth = channel.azimuth * kHesaiDegree;
-    x.push_back(unit * std::cos(elevation) * std::sin(azimuth));
-    y.push_back(unit * std::cos(elevation) * std::cos(azimuth));
-    z.push_back(unit * std::sin(elevation));
-  }
-  for (const std::int64_t time_ns : hesai_firing_times(sensor))
-    rings_and_times.push_back(rings_and_times.size() | static_cast<std::uint64_t>(time_ns) << 32U);
-}
-
 void HesaiSensor::pass_on(Frame& frame, SweepQueue& queue) {
   if (!frame.sweep.points.empty()) queue.whole.push_back(std::move(frame.sweep));
   frame = Frame();
@@ -107,15 +71,26 @@ void HesaiSensor::finish(SweepQueue& queue) {
   warn_of_dropped(excess_, excess_warned_, "of revolutions with more than 1048576 points", queue);
 }
 
+// Returns the rotation from the packet's first firing to its second one. If there is only one, returns the
+// rotation since the newest packet for a later one that follows it closely, else 0.
+double HesaiSensor::rotation_in(const Payload& packet, double first) const {
+  const HesaiModel& model = *geometry_->model;
+  const std::size_t step = model.blocks_per_firing(packet);
+  if (step < model.blocks) return rotation_between(first, model.azimuth(packet, step));
+  const auto passed_us = static_cast<std::int64_t>(microseconds(packet, model)) - std::int64_t{last_us_};
+  const std::int64_t passed_ns = wrapped(1000 * passed_us);
+  constexpr std::int64_t max_firings = 20;  // in which no sensor rotates by 180 degrees
+  if (!started_ || passed_ns <= 0 || passed_ns > max_firings * model.firing_ns) return 0;
+  return rotation_between(azimuth_, first);
+}
+
 // Returns the azimuth of the first block plus whole revolutions. Updates the direction of rotation.
 double HesaiSensor::unwrapped_azimuth(const Payload& packet) {
   const HesaiModel& model = *geometry_->model;
-  const std::size_t step = model.blocks_per_firing(packet);
-  const double first = model.azimuth(packet, 0);
-  const double within = rotation_between(first, model.azimuth(packet, step));
+  const double first = model.azimuth(packet, 0), within = rotation_in(packet, first);
   if (within != 0) forward_ = within < 0 ? -1 : 1;
   if (!started_) return first;
-  const double rpm = hesai_number<std::uint16_t>(packet.data + model.tail_at() + model.motor_speed);
+  const double rpm = model.rpm(packet);
   const double per_ns =  // hundredths of a degree for each nanosecond
       rpm > 0 ? forward_ * rpm * static_cast<double>(kHesaiCircle) / 60e9
               : within / static_cast<double>(model.firing_ns);
@@ -152,7 +127,7 @@ void HesaiSensor::add(const Payload& packet, SweepQueue& queue) {
   if (started_ && (pause > kMaxHesaiPause || pause < -kMaxHesaiPause)) finish(queue);
   last_time_ns_ = packet.time_ns;
   double azimuth = unwrapped_azimuth(packet);
-  if (is_too_late(revolution_of(azimuth))) {
+  if (is_too_late(geometry_->frame_at(azimuth))) {
     if (++late_in_succession_ < kHesaiRestart) {
       ++late_;
       return;
@@ -167,11 +142,11 @@ void HesaiSensor::add(const Payload& packet, SweepQueue& queue) {
     last_us_ = us;
   }
   started_ = true;
-  Frame& frame = frame_of(revolution_of(azimuth), queue);
-  const auto first = static_cast<std::uint64_t>(model.azimuth(packet, 0));
+  Frame& frame = frame_of(geometry_->frame_at(azimuth), queue);
+  const auto first = static_cast<std::uint64_t>(256 * model.azimuth(packet, 0));
   if (frame.sweep.points.size() + model.blocks * model.channels > kMaxHesaiPoints) {
     ++excess_;
-  } else if (frame.packets.insert(std::uint64_t{us} << 16U | first).second) {
+  } else if (frame.packets.insert(std::uint64_t{us} << 24U | first).second) {
     add_firings(packet, azimuth, queue);
   }
   if (++packets_in_frame_ >= kLateHesaiPackets && previous_.active) pass_on(previous_, queue);
@@ -183,7 +158,7 @@ void HesaiSensor::add_firings(const Payload& packet, double azimuth, SweepQueue&
   const std::int64_t packet_ns = std::int64_t{1000} * microseconds(packet, model);
   for (std::size_t i = 0; i < model.blocks; i += step) {
     if (i > 0) azimuth += rotation_between(model.azimuth(packet, i - step), model.azimuth(packet, i));
-    Frame& frame = frame_of(revolution_of(azimuth), queue);
+    Frame& frame = frame_of(geometry_->frame_at(azimuth), queue);
     const std::int64_t firing_ns = packet_ns + static_cast<std::int64_t>(i / step) * model.firing_ns;
     const std::int64_t time_ns = time_in_sweep(firing_ns, packet.time_ns, frame);
     add_points(model.block(packet, i), step, model.azimuth(packet, i), time_ns, frame.sweep.points);
@@ -209,37 +184,56 @@ std::int64_t HesaiSensor::time_in_sweep(std::int64_t firing_ns, std::int64_t pac
 
 // Appends the returns of a firing. Each return is written, and the next one overwrites it if it is no point,
 // because the processor cannot predict which channels have a return.
-void HesaiSensor::add_points(const std::byte* block, std::size_t returns, double azimuth,
-                             std::int64_t time_ns, SensorPoints& points) const {
-  const HesaiGeometry& geometry = *geometry_;
-  const HesaiModel& model = *geometry.model;
-  const auto [sine, cosine] = hesai_rotations()[static_cast<std::size_t>(azimuth) % kHesaiCircle];
-  const std::size_t before = points.size(), most = returns * model.channels;
+template <class Directions>
+void HesaiSensor::add_returns(const std::byte* block, std::size_t returns, std::int64_t time_ns,
+                              const Directions& direction, SensorPoints& points) const {
+  const HesaiModel& model = *geometry_->model;
+  // Copies, because the compiler must expect that a point's bytes overwrite what is behind a reference.
+  const std::size_t channels = model.channels, step = model.channel, to_next = model.block_size();
+  const std::size_t before = points.size(), most = returns * channels;
+  const std::uint32_t min_distance = model.min_distance;
   if (points.capacity() < before + most) points.reserve(2 * before + most);
   points.resize(before + most);
   SensorPoint* to = points.data() + before;
-  const Double2 of_x{cosine, -sine}, of_y{sine, cosine};
-  // Copies, because the compiler must expect that a point's bytes overwrite what is behind a reference.
-  const std::size_t channels = model.channels, step = model.channel, to_second = model.block_size();
-  const double *const xs = geometry.x.data(), *const ys = geometry.y.data(), *const zs = geometry.z.data();
-  const std::uint64_t* const rings_and_times = geometry.rings_and_times.data();
+  const std::uint64_t* const rings_and_times = geometry_->rings_and_times.data();
   const std::uint64_t begin = static_cast<std::uint64_t>(time_ns) << 32U;
   const std::byte* at = block + model.block_header;
-  const auto write = [=](SensorPoint* point, std::size_t i, std::uint32_t bits, Double2 xy) {
+  const auto write = [=](SensorPoint* point, std::size_t i, std::uint32_t bits,
+                         const HesaiDirection& towards) {
     const Double2 measured = two_doubles(bits & kDistanceBits, bits >> 16U);
-    set_point(*point, measured[0] * xy, measured * Double2{zs[i], 1}, rings_and_times[i] + begin, 0);
+    set_point(*point, measured[0] * towards.xy, measured * Double2{towards.z, 1}, rings_and_times[i] + begin,
+              0);
+    return (bits & kDistanceBits) >= min_distance;
   };
   for (std::size_t i = 0; i < channels; ++i, at += step) {
-    const Double2 xy = xs[i] * of_x + ys[i] * of_y;
+    const HesaiDirection towards = direction(i);
     const std::uint32_t first = return_bits(at);
-    write(to, i, first, xy);
-    to += (first & kDistanceBits) != 0 ? 1 : 0;
-    if (returns == 1) continue;
-    const std::uint32_t second = return_bits(at + to_second);
-    write(to, i, second, xy);
-    to += (second & kDistanceBits) != 0 && second != first ? 1 : 0;
+    to += write(to, i, first, towards) ? 1 : 0;
+    std::uint32_t last = first;
+    for (std::size_t which = 1; which < returns; ++which) {
+      const std::uint32_t bits = return_bits(at + which * to_next);
+      const bool repeated = bits == first || bits == last;
+      to += write(to, i, bits, towards) && !repeated ? 1 : 0;
+      last = bits;
+    }
   }
   points.resize(static_cast<std::size_t>(to - points.data()));
+}
+
+void HesaiSensor::add_points(const std::byte* block, std::size_t returns, double azimuth,
+                             std::int64_t time_ns, SensorPoints& points) {
+  const HesaiGeometry& geometry = *geometry_;
+  if (geometry.mirrors) {
+    geometry.mirror(azimuth, directions_);
+    const HesaiDirection* const directions = directions_.data();
+    return add_returns(
+        block, returns, time_ns, [=](std::size_t i) { return directions[i]; }, points);
+  }
+  const auto [sine, cosine] = hesai_rotation(azimuth);
+  const Double2 of_x{cosine, -sine}, of_y{sine, cosine};
+  const double *const xs = geometry.x.data(), *const ys = geometry.y.data(), *const zs = geometry.z.data();
+  const auto rotated = [=](std::size_t i) { return HesaiDirection{xs[i] * of_x + ys[i] * of_y, zs[i]}; };
+  add_returns(block, returns, time_ns, rotated, points);
 }
 
 }  // namespace pcl_bv::detail

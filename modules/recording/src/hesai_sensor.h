@@ -9,23 +9,13 @@
 #include <unordered_set>
 #include <vector>
 
-#include "hesai_model.h"
+#include "hesai_geometry.h"
 #include "sensor_family.h"
 
 namespace pcl_bv::detail {
 
-/// The directions and firing times of a model's channels. A distance d at the rotor's azimuth a gives the
-/// point d * (y sin a + x cos a, y cos a - x sin a, z): y is at azimuth 0, x at azimuth 90 degrees.
-struct HesaiGeometry {
-  HesaiGeometry(const HesaiModel& sensor, const std::vector<HesaiAngles>& angles);
-
-  const HesaiModel* model;
-  std::vector<double> x, y, z;  // direction of each channel at azimuth 0, metres for each unit
-  // Number of each channel and, in the upper half, its time after the beginning of its firing, nanoseconds.
-  std::vector<std::uint64_t> rings_and_times;
-};
-
-/// One sensor. The revolution of a packet follows from its azimuth and from the azimuth that is predicted
+/// One sensor. What is said of revolutions is true of the rotations of one mirror of an AT128.
+/// The revolution of a packet follows from its azimuth and from the azimuth that is predicted
 /// from the rotation speed and the packets' times. A revolution ends where the azimuth passes 0. A packet
 /// that comes late goes to its revolution, if this is the current or the previous one and has not been passed
 /// on. Other late packets are dropped with a warning. A repeated packet is dropped. Times are those of the
@@ -49,13 +39,17 @@ class HesaiSensor final : public SweepAssembler {
   };
 
   double unwrapped_azimuth(const Payload& packet);
+  double rotation_in(const Payload& packet, double first) const;
   bool is_too_late(std::int64_t revolution) const;
   Frame& frame_of(std::int64_t revolution, SweepQueue& queue);
   static void pass_on(Frame& frame, SweepQueue& queue);
   void add_firings(const Payload& packet, double azimuth, SweepQueue& queue);
   std::int64_t time_in_sweep(std::int64_t firing_ns, std::int64_t packet_time_ns, Frame& frame) const;
   void add_points(const std::byte* block, std::size_t returns, double azimuth, std::int64_t time_ns,
-                  SensorPoints& points) const;
+                  SensorPoints& points);
+  template <class Directions>
+  void add_returns(const std::byte* block, std::size_t returns, std::int64_t time_ns,
+                   const Directions& direction, SensorPoints& points) const;
 
   std::shared_ptr<const HesaiGeometry> geometry_;
   std::optional<std::size_t> number_;
@@ -67,6 +61,7 @@ class HesaiSensor final : public SweepAssembler {
   std::int64_t last_time_ns_ = 0;    // capture time of the last packet
   unsigned packets_in_frame_ = 0;    // packets since the beginning of the current revolution
   unsigned late_in_succession_ = 0;  // packets that belong to neither revolution
+  std::vector<HesaiDirection> directions_{};  // of an AT128's channels in the current firing
   // Dropped packets, and those of them that a warning has counted.
   std::uint64_t late_ = 0, late_warned_ = 0, excess_ = 0, excess_warned_ = 0;
 };

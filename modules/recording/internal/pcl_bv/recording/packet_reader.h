@@ -55,10 +55,11 @@ bool is_capture(const std::filesystem::path& file);
 /// - Ouster (OS-0, OS-1, OS-2), with the sensor's metadata in a .json file next to the capture. Ring 0 is the
 ///   highest beam. The intensity is the signal. A frame id is a sweep. Source:
 ///   the firmware user manual.
-/// - Hesai (PandarXT-32, PandarXT-16, Pandar64, Pandar40P, Pandar40M). Ring 0 is channel 1, the highest
-///   beam. y is at azimuth 0, x at azimuth 90 degrees. The intensity is the reflectivity, 0 to 255. The
-///   angles of the channels are in a correction file next to the capture; those of the PandarXT are known
-///   without it. Two identical dual returns give one point. Sources: the sensors' manuals and Hesai's SDK.
+/// - Hesai (PandarXT-32, PandarXT-16, PandarXT-32M2X, PandarQT, QT128C2X, Pandar128E3X, OT128, AT128,
+///   Pandar64, Pandar40P, Pandar40M). Ring 0 is channel 1. y is at azimuth 0, x at azimuth 90 degrees. The
+///   intensity is the reflectivity, 0 to 255. The angles of the channels are in a correction file next to
+///   the capture; those of the PandarXT-32 and -16 are known without it. A sweep of an AT128 is the rotation
+///   of one of its mirrors. Identical returns give one point. Sources: the sensors' manuals, Hesai's SDK.
 /// - Livox (Mid-360, HAP). Sweeps have 100 ms of the sensor's clock and no ring. The intensity is the
 ///   reflectivity, 0 to 255. Source: the communication protocols of both sensors.
 ///
