@@ -60,6 +60,55 @@ TEST_F(Fragments, InAnyOrderAndRepeatedGiveTheDatagramOnce) {
   }
 }
 
+TEST_F(Fragments, OfIpv6GiveTheDatagramOnceInAnyOrder) {
+  constexpr unsigned seed = 8;
+  std::mt19937 random(seed);
+  for (const std::size_t size : {1'473U, 24'896U, 65'527U}) {
+    SCOPED_TRACE(testing::Message() << "size " << size << ", seed " << seed);
+    const std::string payload = payload_of(size, seed);
+    const std::string ip = udp_over_ipv6(payload);
+    std::vector<std::string> all = ipv6_fragments_of(ip, 0xABCD0005);
+    // An incomplete datagram whose identification has the same lower 16 bits.
+    for (const std::string& fragment : ipv6_fragments_of(udp_over_ipv6(payload_of(size, 1)), 5))
+      all.push_back(fragment);
+    all.pop_back();
+    for (int i = 0; i < 5; ++i) {
+      std::shuffle(all.begin(), all.end(), random);
+      EXPECT_EQ(payloads_of_ip(all), std::vector{payload});
+      EXPECT_THAT(warnings_, testing::ElementsAre("fragments are missing of 1 UDP datagrams"));
+    }
+  }
+}
+
+TEST_F(Fragments, WholeDatagramsOfIpv6AreReadOnEveryLink) {
+  const std::string payload = payload_of(900, 3);
+  const std::string options = std::string("\x2B\x00\x01\x04", 4) + std::string(4, '\0') +
+                              std::string("\x2C\x01", 2) + std::string(14, '\0') +
+                              std::string("\x11\x00\x00\x00\x00\x00\x00\x09", 8);
+  for (const unsigned link : {1U, 10'001U, 113U, 276U, 0U, 12U, 101U, 229U}) {
+    SCOPED_TRACE(link);
+    EXPECT_EQ(payloads_of(pcap_of_ip({udp_over_ipv6(payload)}, link)), std::vector{payload});
+    const std::string extended = udp_over_ipv6(payload, options, 0);
+    EXPECT_EQ(payloads_of(pcap_of_ip({extended}, link)), std::vector{payload});
+    EXPECT_THAT(payloads_of(pcap_of_ip({udp_over_ipv6(payload, "", 58)}, link)), testing::IsEmpty());
+    for (std::size_t size = 0; size < 48 + options.size(); ++size)
+      EXPECT_THAT(payloads_of(pcap_of_ip({extended.substr(0, size), extended}, link)).size(), testing::Eq(1U))
+          << size;
+  }
+}
+
+TEST_F(Fragments, TheSenderOfIpv6IsNamedInBrackets) {
+  put("a.pcap", pcap_of_ip({udp_over_ipv6("abc"), udp("def")}));
+  PacketFile packets(at("a.pcap"));
+  Payload packet;
+  ASSERT_TRUE(packets.next(packet));
+  EXPECT_EQ(packet.source(), "[fe80::7]:2368");
+  const auto key = packet.key();
+  ASSERT_TRUE(packets.next(packet));
+  EXPECT_EQ(packet.source(), "0.0.0.0:2368");
+  EXPECT_LT(packet.key(), key);
+}
+
 TEST_F(Fragments, OfInterleavedDatagramsGoToTheirOwn) {
   std::vector<std::vector<std::string>> datagrams;
   std::vector<std::string> expected, interleaved;

@@ -41,13 +41,38 @@ inline std::string udp(const std::string& payload) {
          bytes_of(64, 1) + bytes_of(17, 1) + bytes_of(0, 10) + head + payload;
 }
 
+// The same over IPv6, with `extensions` before the UDP header, of which the first has the type `first`.
+inline std::string udp_over_ipv6(const std::string& payload, const std::string& extensions = "",
+                                 unsigned first = 17) {
+  const std::string datagram = udp(payload).substr(20);
+  return bytes_of(0x60000000, 4, true) + bytes_of(extensions.size() + datagram.size(), 2, true) +
+         bytes_of(first, 1) + bytes_of(64, 1) + bytes_of(0xFE80, 2, true) + std::string(13, '\0') + '\x07' +
+         bytes_of(0xFF02, 2, true) + std::string(13, '\0') + '\x01' + extensions + datagram;
+}
+
+// The fragments of a packet that udp_over_ipv6() returns without extensions.
+inline std::vector<std::string> ipv6_fragments_of(const std::string& ip, unsigned identification,
+                                                  std::size_t size = 1448) {
+  std::vector<std::string> fragments;
+  const std::string data = ip.substr(40);
+  for (std::size_t at = 0; at < data.size(); at += size) {
+    const std::string part = data.substr(at, size);
+    const std::size_t more = at + size < data.size() ? 1 : 0;
+    fragments.push_back(ip.substr(0, 4) + bytes_of(8 + part.size(), 2, true) + bytes_of(44, 1) +
+                        ip.substr(7, 33) + bytes_of(17, 1) + bytes_of(0, 1) + bytes_of(at | more, 2, true) +
+                        bytes_of(identification, 4, true) + part);
+  }
+  return fragments;
+}
+
 // How packets are wrapped: by the number of the link.
 inline std::string linked(unsigned link, const std::string& ip) {
-  if (link == 1) return std::string(12, 'm') + bytes_of(0x0800, 2, true) + ip;
+  const unsigned type = (ip[0] & 0x60) == 0x60 ? 0x86DD : 0x0800;
+  if (link == 1) return std::string(12, 'm') + bytes_of(type, 2, true) + ip;
   if (link == 10'001)
-    return std::string(12, 'm') + bytes_of(0x81000001, 4, true) + bytes_of(0x0800, 2, true) + ip;
-  if (link == 113) return std::string(14, 'm') + bytes_of(0x0800, 2, true) + ip;
-  if (link == 276) return bytes_of(0x0800, 2, true) + std::string(18, 'm') + ip;
+    return std::string(12, 'm') + bytes_of(0x81000001, 4, true) + bytes_of(type, 2, true) + ip;
+  if (link == 113) return std::string(14, 'm') + bytes_of(type, 2, true) + ip;
+  if (link == 276) return bytes_of(type, 2, true) + std::string(18, 'm') + ip;
   if (link == 0) return bytes_of(2, 4) + ip;
   return ip;
 }

@@ -9,12 +9,14 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::size_t kMaxDatagram = 65'535 - 20;         // bytes after the IP header
+constexpr std::size_t kMaxIpv4Datagram = 65'535 - 20;  // bytes after the IP header
+constexpr std::size_t kMaxIpv6Datagram = 65'535;
 constexpr std::int64_t kMaxFragmentWait = 1'000'000'000;  // nanoseconds
 
 // Returns whether a datagram can have the fragment.
 bool is_valid_fragment(const IpPacket& fragment) {
-  return !fragment.cut && fragment.size > 0 && fragment.offset + fragment.size <= kMaxDatagram;
+  const std::size_t limit = fragment.source.is_v6 ? kMaxIpv6Datagram : kMaxIpv4Datagram;
+  return !fragment.cut && fragment.size > 0 && fragment.offset + fragment.size <= limit;
 }
 
 }  // namespace

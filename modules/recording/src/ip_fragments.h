@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reassembles datagrams from IPv4 fragments (RFC 791, section 3.2).
+// Reassembles datagrams from fragments of IPv4 (RFC 791, section 3.2) and IPv6 (RFC 8200, section 4.5).
 #pragma once
 
 #include <array>
@@ -32,8 +32,8 @@ class FragmentBuffer {
  private:
   struct Datagram {
     bool used = false, complete = false;
-    std::uint32_t source = 0, destination = 0;
-    std::uint16_t identification = 0;
+    IpAddress source{}, destination{};
+    std::uint32_t identification = 0;
     std::int64_t first_ns = 0;           // capture time of the first captured fragment
     std::uint64_t order = 0;             // number of the datagram
     std::optional<std::size_t> whole{};  // size of the whole, known from its last fragment

@@ -215,7 +215,7 @@ struct PacketReader::State {
   Families families;
   std::optional<PacketFile> packets;
   std::optional<Model> first_model;
-  std::map<std::uint64_t, Address> addresses;
+  std::map<std::pair<IpAddress, std::uint16_t>, Address> addresses;
   SweepQueue queue;
   std::size_t noted_sensors = 0;
   std::map<std::size_t, bool> noted_families;
