@@ -68,6 +68,7 @@ void expect_sweep(const SensorSweep& sweep, const std::vector<MadeLivoxPacket>& 
                   is_same(packet.type, got.z, expected[2]))
           << got.x << ' ' << got.y << ' ' << got.z << ", point " << i;
       EXPECT_EQ(got.intensity, static_cast<float>(made.reflectivity));
+      EXPECT_EQ(got.ring, static_cast<unsigned>(made.a) % 64);  // the tag
       EXPECT_EQ(got.time_ns,
                 packet.timestamp - packets[0].timestamp + std::uint64_t{100} * packet.interval * i / last);
     }
@@ -127,14 +128,15 @@ TEST_F(Livox, PacketsHaveTheSizesOfTheProtocol) {
   EXPECT_EQ(livox_crc("123456789"), 0xCBF43926U);  // the check value of CRC-32
 }
 
-TEST_F(Livox, CloudsHaveTimesButNoRing) {
+TEST_F(Livox, CloudsHaveTimesAndTagsButNoRing) {
   const auto sweeps = sweeps_of(pcap({livox_packet(random_livox(1, kStart, 1))}));
   ASSERT_EQ(sweeps.size(), 1U);
   EXPECT_EQ(sweeps[0].frame_id, "livox_frame");
   const RawCloud cloud = raw_cloud_of(sweeps[0]);
   ASSERT_EQ(cloud.size(), sweeps[0].points.size());
-  ASSERT_EQ(cloud.fields.size(), 5U);
-  EXPECT_EQ(cloud.point_step, 20U);
+  ASSERT_EQ(cloud.fields.size(), 6U);
+  EXPECT_EQ(cloud.point_step, 24U);
+  EXPECT_EQ(integers_of(cloud, "tag")[20], sweeps[0].points[20].ring);
   EXPECT_EQ(integers_of(cloud, "time_ns")[20], sweeps[0].points[20].time_ns);
   EXPECT_EQ(load_point(cloud.xyz(), 20).z, sweeps[0].points[20].z);
 }

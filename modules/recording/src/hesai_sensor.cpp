@@ -16,7 +16,6 @@ constexpr std::int64_t kMaxHesaiPause = 300'000'000;   // nanoseconds; no predic
 constexpr std::int64_t kMaxHesaiTime = 4'000'000'000;  // nanoseconds, limit of SensorPoint::time_ns
 constexpr unsigned kLateHesaiPackets = 8;              // a complete sweep waits this number of packets
 constexpr unsigned kHesaiRestart = 8;                  // late packets in succession before a restart
-constexpr std::size_t kFirstHesaiCapacity = std::size_t{1} << 18;  // points of the first sweep
 constexpr std::size_t kMaxHesaiPoints = std::size_t{1} << 20;  // of a sweep; a Pandar64 measures 460 800
 
 template <class T>
@@ -115,7 +114,7 @@ HesaiSensor::Frame& HesaiSensor::frame_of(std::int64_t revolution, SweepQueue& q
   current_.sweep.sensor = *number_;
   current_.sweep.frame_id = "hesai_lidar";
   const std::size_t expected = previous_.sweep.points.size();
-  current_.sweep.points = queue.new_points(std::max(expected + expected / 8, kFirstHesaiCapacity));
+  current_.sweep.points = queue.new_points(expected + expected / 8);
   packets_in_frame_ = 0;
   return current_;
 }

@@ -95,6 +95,7 @@ void LivoxSensor::begin_frame(std::uint64_t number, const Payload& packet, const
   current_.sweep.stamp_ns = packet.time_ns;
   current_.sweep.sensor = *number_;
   current_.sweep.has_ring = false;
+  current_.sweep.has_tag = true;
   current_.sweep.frame_id = "livox_frame";
   const std::size_t expected = previous_.sweep.points.size();
   current_.sweep.points = queue.new_points(expected + expected / 8 + header.points);
@@ -176,7 +177,7 @@ void LivoxSensor::add_points(const std::byte* points, const LivoxPacket& header,
     SensorPoint point;
     if (!set_coordinates(header.data_type, points, point)) continue;
     point.intensity = std::to_integer<std::uint8_t>(points[size - 2]);
-    point.ring = 0;
+    point.ring = std::to_integer<std::uint8_t>(points[size - 1]);  // the tag
     point.time_ns = static_cast<std::uint32_t>(since_stamp + i * header.duration_ns / intervals);
     point.reflectivity = 0;
     sweep.points.push_back(point);

@@ -98,8 +98,8 @@ void OusterSensor::begin_frame(std::uint16_t id, SweepQueue& queue) {
   current_.sweep.sensor = *number_;
   current_.sweep.has_reflectivity = true;
   current_.sweep.frame_id = "os_sensor";
-  current_.sweep.points =
-      queue.new_points(metadata_->columns_per_frame * metadata_->beams * metadata_->profile->returns);
+  const std::size_t expected = previous_.sweep.points.size();
+  current_.sweep.points = queue.new_points(expected + expected / 8 + 2 * metadata_->beams);
   packets_in_frame_ = 0;
 }
 
@@ -185,7 +185,9 @@ void OusterSensor::add_points(const std::byte* channels, const OusterGeometry::C
   const auto& [m, origin] = column;
   const Double2 of_x{m[0], m[3]}, of_y{m[1], m[4]}, of_z{m[2], m[5]}, origin_xy{origin[0], origin[1]};
   const std::size_t beams = metadata_->beams, before = points.size();
-  points.resize(before + profile.returns * beams);
+  const std::size_t most = profile.returns * beams;
+  if (points.capacity() < before + most) points.reserve(2 * before + most);
+  points.resize(before + most);
   SensorPoint* to = points.data() + before;
   // Copies, because the compiler must expect that a point's bytes overwrite what is behind a reference.
   const double m6 = m[6], m7 = m[7], m8 = m[8];

@@ -88,7 +88,7 @@ RawCloud raw_cloud_of(const SensorSweep& sweep) {
     cloud.fields.push_back({name, 'U', 4, 1, size});
     size += 4;
   };
-  if (sweep.has_ring) add_field("ring");
+  if (sweep.has_ring || sweep.has_tag) add_field(sweep.has_ring ? "ring" : "tag");
   add_field("time_ns");
   if (sweep.has_reflectivity) add_field("reflectivity");
   static_assert(sizeof(SensorPoint) == 28);
@@ -96,7 +96,8 @@ RawCloud raw_cloud_of(const SensorSweep& sweep) {
   cloud.width = sweep.points.size();
   cloud.data.resize(cloud.width * size);
   std::byte* to = cloud.data.data();
-  const std::size_t skipped = sweep.has_ring ? 16 : 20;  // where the members after `intensity` begin
+  const std::size_t skipped =
+      sweep.has_ring || sweep.has_tag ? 16 : 20;  // where the members after `intensity` begin
   for (const SensorPoint& point : sweep.points) {
     std::memcpy(to, &point, 16);
     std::memcpy(to + 16, reinterpret_cast<const std::byte*>(&point) + skipped, size - 16);

@@ -21,7 +21,7 @@ namespace [[gnu::visibility("default")]] detail {
 struct SensorPoint {
   float x, y, z;
   float intensity;
-  std::uint32_t ring;          ///< Number of the beam; 0 without SensorSweep::has_ring.
+  std::uint32_t ring;          ///< Number of the beam, or the tag with SensorSweep::has_tag.
   std::uint32_t time_ns;       ///< Nanoseconds since the sweep's stamp.
   std::uint32_t reflectivity;  ///< 0 if the sensor does not measure it (SensorSweep::has_reflectivity).
 };
@@ -35,12 +35,16 @@ struct SensorSweep {
   SensorPoints points;
   std::size_t sensor = 0;  ///< Number of the sensor, from 0, in the order of the sensors' first packets.
   bool has_ring = true;    ///< Each family of sensors has its own order of rings.
+  /// Whether SensorPoint::ring is the tag of a Livox: flags of the point, such as the confidence that it is
+  /// no noise. Only without has_ring.
+  bool has_tag = false;
   bool has_reflectivity = false;
   std::string_view frame_id;  ///< Default frame of the family's ROS driver, such as "velodyne". A literal.
 };
 
 /// Returns the sweep as a cloud with the fields x, y, z, intensity, ring and time_ns, and reflectivity if the
-/// sensor measures it. Without SensorSweep::has_ring, there is no field ring.
+/// sensor measures it. Without SensorSweep::has_ring, there is no field ring; with
+/// SensorSweep::has_tag, there is a field tag.
 RawCloud raw_cloud_of(const SensorSweep& sweep);
 
 /// Returns whether the first bytes of the file are those of a capture of packets (.pcap, .pcapng).
@@ -61,7 +65,8 @@ bool is_capture(const std::filesystem::path& file);
 ///   the capture; those of the PandarXT-32 and -16 are known without it. A sweep of an AT128 is the rotation
 ///   of one of its mirrors. Identical returns give one point. Sources: the sensors' manuals, Hesai's SDK.
 /// - Livox (Mid-360, HAP). Sweeps have 100 ms of the sensor's clock and no ring. The intensity is the
-///   reflectivity, 0 to 255. Source: the communication protocols of both sensors.
+///   reflectivity, 0 to 255. The tag of each point is read. Source: the communication protocols of both
+///   sensors.
 ///
 /// A sweep is one revolution if the sensor has revolutions. The first and the last sweep may be incomplete.
 /// Late packets go to the revolution in which they were measured. Lost packets are tolerated.
