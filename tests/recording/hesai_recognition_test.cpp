@@ -4,29 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "captured_sweeps.h"
 #include "hesai_correction.h"
 #include "made_hesai.h"
 #include "made_livox.h"
 #include "made_ouster.h"
 #include "pcl_bv/recording/packet_reader.h"
-#include "recording_files.h"
 #include "sensor_family.h"
 
 namespace pcl_bv::detail {
 namespace {
 
-class HesaiRecognition : public RecordingFiles {
- protected:
-  std::string error_of(const std::string& file) {
-    put("a.pcap", file);
-    try {
-      PacketReader reader(at("a.pcap"));
-    } catch (const IoError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-};
+class HesaiRecognition : public CapturedSweeps {};
 
 bool is_of_family(const SensorFamily& family, const std::string& bytes) {
   const Payload packet{0, reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()};

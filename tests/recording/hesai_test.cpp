@@ -9,9 +9,9 @@
 #include <numbers>
 #include <set>
 
+#include "captured_sweeps.h"
 #include "made_hesai.h"
 #include "pcl_bv/recording/packet_reader.h"
-#include "recording_files.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -21,21 +21,7 @@ namespace {
 constexpr std::array kPandar64Times{23.18, 19.268, 46.796, 12.748};
 constexpr std::array kPandar40Times{42.22, 3.62, 54.67, 3.62};
 
-class Hesai : public RecordingFiles {
- protected:
-  std::vector<SensorSweep> sweeps_of(const std::string& file) {
-    put("a.pcap", file);
-    PacketReader reader(at("a.pcap"));
-    model_ = std::string(reader.model());
-    std::vector<SensorSweep> sweeps;
-    for (SensorSweep sweep; reader.next(sweep);)
-      sweeps.push_back(sweep);
-    warnings_ = reader.warning_lines();
-    return sweeps;
-  }
-  std::string model_;
-  std::vector<std::string> warnings_;
-};
+class Hesai : public CapturedSweeps {};
 
 std::vector<std::string> bytes_of_all(const MadeHesai& s, const std::vector<MadeHesaiPacket>& packets) {
   std::vector<std::string> all;
@@ -51,13 +37,6 @@ std::array<double, 3> point_of(unsigned distance, double rotor, std::pair<int, i
                azimuth = (rotor / 100 + channel.second / 1000.0) * degree;
   const double metres = distance * 0.004, level = metres * std::cos(elevation);
   return {level * std::sin(azimuth), level * std::cos(azimuth), metres * std::sin(elevation)};
-}
-
-// Both are computed in double, of up to 262 m, and rounded to float, so at most the last bit differs, or
-// 1e-12 m near zero.
-bool is_same(float got, double expected) {
-  const auto rounded = static_cast<float>(expected);
-  return got == rounded || std::nextafter(rounded, got) == got || std::abs(got - expected) <= 1e-12;
 }
 
 // Time of a channel after the beginning of its firing, nanoseconds; -1 where no table is at hand.
@@ -93,7 +72,8 @@ void expect_sweep(const SensorSweep& sweep, const MadeHesai& s, const std::vecto
         ASSERT_LT(at, sweep.points.size());
         const SensorPoint& got = sweep.points[at++];
         const std::array<double, 3> expected = point_of(distance, rotor, angles[channel]);
-        ASSERT_TRUE(is_same(got.x, expected[0]) && is_same(got.y, expected[1]) && is_same(got.z, expected[2]))
+        ASSERT_TRUE(is_same_coordinate(got.x, expected[0]) && is_same_coordinate(got.y, expected[1]) &&
+                    is_same_coordinate(got.z, expected[2]))
             << got.x << ' ' << got.y << ' ' << got.z << " for " << expected[0] << ' ' << expected[1];
         EXPECT_EQ(got.intensity, static_cast<float>(reflectivity));
         EXPECT_EQ(got.ring, channel);
@@ -161,18 +141,6 @@ TEST_F(Hesai, ARotationInTheOtherDirectionGivesTheSameRevolutions) {
   ASSERT_EQ(sweeps.size(), 4U);
   expect_sweep(sweeps[0], s, packets, 0, 300, design_angles(16));
   expect_sweep(sweeps[1], s, packets, 300, 2'100, design_angles(16));
-}
-
-// The points of each sweep, sorted, because late packets change their order.
-using Key = std::array<float, 5>;
-std::vector<std::multiset<Key>> points_in(const std::vector<SensorSweep>& sweeps) {
-  std::vector<std::multiset<Key>> all;
-  for (const SensorSweep& sweep : sweeps) {
-    std::multiset<Key>& points = all.emplace_back();
-    for (const SensorPoint& p : sweep.points)
-      points.insert({p.x, p.y, p.z, p.intensity, static_cast<float>(p.time_ns)});
-  }
-  return all;
 }
 
 // Revolutions of 25 packets.

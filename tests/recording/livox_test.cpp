@@ -9,11 +9,11 @@
 #include <numbers>
 #include <set>
 
+#include "captured_sweeps.h"
 #include "made_livox.h"
 #include "made_ouster.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/recording/packet_reader.h"
-#include "recording_files.h"
 #include "sensor_family.h"
 
 namespace pcl_bv::detail {
@@ -21,20 +21,7 @@ namespace {
 
 constexpr std::uint64_t kStart = 1'700'000'000'000'000'000;  // a multiple of 100 ms
 
-class Livox : public RecordingFiles {
- protected:
-  std::vector<SensorSweep> sweeps_of(const std::string& file) {
-    put("a.pcap", file);
-    PacketReader reader(at("a.pcap"));
-    EXPECT_EQ(reader.model(), "Livox");
-    std::vector<SensorSweep> sweeps;
-    for (SensorSweep sweep; reader.next(sweep);)
-      sweeps.push_back(sweep);
-    warnings_ = reader.warning_lines();
-    return sweeps;
-  }
-  std::vector<std::string> warnings_;
-};
+class Livox : public CapturedSweeps {};
 
 // The coordinates by the protocol's definitions, in metres.
 std::array<double, 3> point_of(unsigned type, const MadeLivoxPoint& p) {
@@ -91,18 +78,6 @@ std::vector<std::string> bytes_of_all(const std::vector<MadeLivoxPacket>& packet
   return all;
 }
 
-// The points of each sweep, sorted, because late packets change their order.
-using Key = std::array<float, 5>;
-std::vector<std::multiset<Key>> points_in(const std::vector<SensorSweep>& sweeps) {
-  std::vector<std::multiset<Key>> all;
-  for (const SensorSweep& sweep : sweeps) {
-    std::multiset<Key>& points = all.emplace_back();
-    for (const SensorPoint& p : sweep.points)
-      points.insert({p.x, p.y, p.z, p.intensity, static_cast<float>(p.time_ns)});
-  }
-  return all;
-}
-
 TEST_F(Livox, PointsOfEachDataTypeFollowTheProtocol) {
   for (const unsigned type : {1U, 2U, 3U}) {
     constexpr unsigned seed = 5;
@@ -131,6 +106,7 @@ TEST_F(Livox, PacketsHaveTheSizesOfTheProtocol) {
 TEST_F(Livox, CloudsHaveTimesAndTagsButNoRing) {
   const auto sweeps = sweeps_of(pcap({livox_packet(random_livox(1, kStart, 1))}));
   ASSERT_EQ(sweeps.size(), 1U);
+  EXPECT_EQ(model_, "Livox");
   EXPECT_EQ(sweeps[0].frame_id, "livox_frame");
   const RawCloud cloud = raw_cloud_of(sweeps[0]);
   ASSERT_EQ(cloud.size(), sweeps[0].points.size());

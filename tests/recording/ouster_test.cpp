@@ -9,10 +9,10 @@
 #include <numbers>
 #include <set>
 
+#include "captured_sweeps.h"
 #include "made_ouster.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/recording/packet_reader.h"
-#include "recording_files.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -40,16 +40,11 @@ std::array<double, 3> point_of(const MadeOuster& s, unsigned id, std::size_t bea
   return point;
 }
 
-// Both are computed in double and rounded to float, so at most the last bit differs, or 1e-12 m near zero.
-bool is_same(float got, double expected) {
-  const auto rounded = static_cast<float>(expected);
-  return got == rounded || std::nextafter(rounded, got) == got || std::abs(got - expected) <= 1e-12;
-}
-
 void expect_point(const SensorPoint& got, const MadeOuster& s, const MadeColumn& column, std::size_t beam,
                   const MadeReturn& made, std::uint64_t first_time) {
   const std::array<double, 3> expected = point_of(s, column.id, beam, made.range_mm);
-  EXPECT_TRUE(is_same(got.x, expected[0]) && is_same(got.y, expected[1]) && is_same(got.z, expected[2]))
+  EXPECT_TRUE(is_same_coordinate(got.x, expected[0]) && is_same_coordinate(got.y, expected[1]) &&
+              is_same_coordinate(got.z, expected[2]))
       << got.x << ' ' << got.y << ' ' << got.z << " for " << expected[0] << ' ' << expected[1] << ' '
       << expected[2];
   EXPECT_EQ(got.intensity, static_cast<float>(s.low_rate() ? made.reflectivity : made.signal));
@@ -78,29 +73,7 @@ void expect_sweep(const SensorSweep& sweep, const MadeOuster& s, const std::vect
   EXPECT_EQ(at, sweep.points.size());
 }
 
-class Ouster : public RecordingFiles {
- protected:
-  std::vector<SensorSweep> sweeps_of(const std::string& file, const std::string& sensor = {}) {
-    put("a.pcap", file);
-    PacketReader reader(at("a.pcap"), sensor);
-    model_ = std::string(reader.model());
-    std::vector<SensorSweep> sweeps;
-    for (SensorSweep sweep; reader.next(sweep);)
-      sweeps.push_back(sweep);
-    warnings_ = reader.warning_lines();
-    return sweeps;
-  }
-  std::string error_of(const std::string& file) {
-    try {
-      sweeps_of(file);
-    } catch (const IoError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-  std::string model_;
-  std::vector<std::string> warnings_;
-};
+class Ouster : public CapturedSweeps {};
 
 TEST_F(Ouster, PointsOfEachProfileFollowTheManualsFormulas) {
   constexpr unsigned seed = 11;
@@ -195,18 +168,6 @@ std::vector<std::string> four_frames(const MadeOuster& s, unsigned first = 65'53
       packets.push_back(packet);
   }
   return packets;
-}
-
-// The points of each sweep, sorted, because late packets change their order.
-using Key = std::array<float, 5>;
-std::vector<std::multiset<Key>> points_in(const std::vector<SensorSweep>& sweeps) {
-  std::vector<std::multiset<Key>> all;
-  for (const SensorSweep& sweep : sweeps) {
-    std::multiset<Key>& points = all.emplace_back();
-    for (const SensorPoint& p : sweep.points)
-      points.insert({p.x, p.y, p.z, p.intensity, static_cast<float>(p.time_ns)});
-  }
-  return all;
 }
 
 TEST_F(Ouster, PacketsThatComeLateOrTwiceGoToTheirFrameOnce) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "captured_sweeps.h"
 #include "pcl_bv/recording/packet_reader.h"
 
 #include <gmock/gmock.h>
@@ -10,22 +11,11 @@
 
 #include "made_packets.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "recording_files.h"
 
 namespace pcl_bv::detail {
 namespace {
 
-class Velodyne : public RecordingFiles {
- protected:
-  std::vector<SensorSweep> sweeps_of(const std::string& file) {
-    put("a.pcap", file);
-    PacketReader reader(at("a.pcap"));
-    std::vector<SensorSweep> sweeps;
-    for (SensorSweep sweep; reader.next(sweep);)
-      sweeps.push_back(sweep);
-    return sweeps;
-  }
-};
+class Velodyne : public CapturedSweeps {};
 
 TEST_F(Velodyne, OfEachModelHasItsBeamsWhereItsManualSays) {
   struct Case {
