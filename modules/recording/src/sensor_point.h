@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes points with few instructions. The compiler writes each member by itself, because the library is built
-// without the vectorisation of straight-line code; decoders spend most of their time in these writes.
+// Writes points with few instructions. The compiler writes each member by itself, because the library is
+// built without the vectorisation of straight-line code; decoders spend most of their time in these writes.
 #pragma once
 
 #include <cstddef>
