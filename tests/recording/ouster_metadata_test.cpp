@@ -36,13 +36,12 @@ class OusterMetadataFile : public RecordingFiles {
 };
 
 TEST_F(OusterMetadataFile, IsRequiredAndTheErrorSaysWhere) {
-  EXPECT_EQ(
-      error_of(),
-      "no packet that can be decoded (VLP-16, HDL-32E, VLP-32C, Hesai PandarXT-32, PandarXT-16, "
-      "PandarXT-32M2X, PandarQT, QT128, Pandar128, OT128, AT128, Pandar64, Pandar40P, Pandar40M, "
-      "Livox Mid-360, HAP, Ouster OS-0, OS-1, OS-2); UDP packets: an Ouster packet of "
-      "6400 bytes from 0.0.0.0:2368; the metadata of the Ouster sensor is missing: put its "
-      ".json file next to the capture, as a.json");
+  EXPECT_EQ(error_of(),
+            "no packet that can be decoded (VLP-16, HDL-32E, VLP-32C, Hesai PandarXT-32, PandarXT-16, "
+            "PandarXT-32M2X, PandarQT, QT128, Pandar128, OT128, AT128, Pandar64, Pandar40P, Pandar40M, "
+            "Livox Mid-360, HAP, Ouster OS-0, OS-1, OS-2); UDP packets: an Ouster packet of "
+            "6400 bytes from 0.0.0.0:2368; the metadata of the Ouster sensor is missing: put its "
+            ".json file next to the capture, as a.json");
 }
 
 TEST_F(OusterMetadataFile, HasTheNameOfTheCaptureOrIsTheOnlyOneInItsFolder) {

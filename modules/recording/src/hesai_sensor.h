@@ -14,9 +14,8 @@
 
 namespace pcl_bv::detail {
 
-/// One sensor. What is said of revolutions is true of the rotations of one mirror of an AT128.
-/// The revolution of a packet follows from its azimuth and from the azimuth that is predicted
-/// from the rotation speed and the packets' times. A revolution ends where the azimuth passes 0. A packet
+/// One sensor. For an AT128, a revolution is the rotation of one mirror. The revolution of a packet follows
+/// from its azimuth and from the azimuth that is predicted from the rotation speed and the packets' times. A revolution ends where the azimuth passes 0. A packet
 /// that comes late goes to its revolution, if this is the current or the previous one and has not been passed
 /// on. Other late packets are dropped with a warning. A repeated packet is dropped. Times are those of the
 /// sensor's clock. If a firing was measured before the first captured one of its revolution, the sweep's
