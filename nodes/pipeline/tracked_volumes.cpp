@@ -62,8 +62,8 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
   if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);
-  const BoxState state{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
-                       assignment.separated};
+  const BoxState state{tracker_.sensor(), assignment.velocity,  assignment.moving,
+                       assignment.merged, assignment.separated, &viewpoints_};
   for (std::size_t m = 0; m < methods; ++m) {
     BoxFilter& filter = filters_[first + m];
     if (assignment.fresh) filter = BoxFilter(methods_[m]->upright);
@@ -140,7 +140,8 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(tracked_box(box_of(result, i, clusters[i]), clusters[i]));
   if (!predicted_) tracker_.predict(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, frame.pose);
-  tracker_.assign(boxes_, config, assignments_);
+  viewpoints_.find(frame.sensors, result.points_after_filter(frame.points));
+  tracker_.assign(boxes_, config, assignments_, viewpoints_);
   if (predicted_) know_objects(clusters, result);
   predicted_ = false;
   result.track_time = clock_.source();

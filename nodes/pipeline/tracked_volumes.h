@@ -62,6 +62,7 @@ class TrackedVolumes {
   bool predicted_ = false;  // for the frame of the next update()
   std::vector<KnownObject> known_;
   std::vector<Aabb> boxes_;
+  Viewpoints viewpoints_;
   std::vector<Tracker::Assignment> assignments_;
   std::vector<const Method*> methods_;  // methods of the last frame, for `filters_`
   // Element s * methods_.size() + m is the filter for method m of the track in slot s.

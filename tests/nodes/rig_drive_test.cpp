@@ -10,6 +10,8 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/rig_drive.h"
+#include "pipeline/track/occlusion.h"
+#include "pipeline/track/viewpoints.h"
 #include "stream/rig/rig_source.h"
 
 namespace pcl_bv::detail {
@@ -214,6 +216,66 @@ TEST(RigDrive, TracksKeepTheirIdsFromOneSensorToTheOther) {
               found.sightings, found.switches);
   EXPECT_GE(found.objects, 10U);
   EXPECT_EQ(found.switches, 0U);
+}
+
+// How often a rule is wrong about objects that no sensor sees, and about objects that one sees.
+struct OcclusionErrors {
+  std::size_t hidden = 0, hidden_wrong = 0, seen = 0, seen_wrong = 0;
+
+  void add(bool is_seen, bool occluded) {
+    ++(is_seen ? seen : hidden);
+    if (is_seen && occluded) ++seen_wrong;
+    if (!is_seen && !occluded) ++hidden_wrong;
+  }
+};
+
+// Judges each object by the boxes of all clusters without points of it.
+void add_objects(const std::vector<RigObject>& objects, const Pose& robot, const Frame& frame,
+                 const FrameResult& result, OcclusionErrors& from_origin, OcclusionErrors& from_sensors) {
+  Viewpoints viewpoints;
+  viewpoints.find(frame.sensors, result.points_after_filter(frame.points));
+  std::vector<std::size_t> points(objects.size() + 1);
+  for (const std::int64_t object : *frame.classes)
+    ++points[static_cast<std::size_t>(object)];
+  for (std::size_t k = 0; k < objects.size(); ++k) {
+    if (objects[k].kind == Kind::wall || objects[k].kind == Kind::pole) continue;
+    const auto own = static_cast<std::int64_t>(k + 1);
+    std::vector<Aabb> boxes;
+    for (std::size_t c = 0; c < result.clusters.size(); ++c) {
+      const std::int32_t *const list = result.clusters.list(c), *const end =
+                                                                    list + result.clusters.list_size(c);
+      const auto is_own = [&](std::int32_t i) {
+        return (*frame.classes)[static_cast<std::size_t>(i)] == own;
+      };
+      if (std::none_of(list, end, is_own)) boxes.push_back(std::get<Aabb>(result.volume(c, 0)));
+    }
+    const Eigen::Vector3d position =
+        robot.inverse() * Eigen::Vector3d(objects[k].x, objects[k].y, objects[k].height / 2);
+    const bool seen = points[k + 1] > 0;
+    from_origin.add(seen, std::any_of(boxes.begin(), boxes.end(),
+                                      [&](const Aabb& box) { return occludes(box, position); }));
+    from_sensors.add(seen, viewpoints.occluded(position, boxes));
+  }
+}
+
+TEST(RigDrive, OcclusionIsJudgedFromThePlaceOfEachSensor) {
+  const RigDrive drive({});
+  RigSource source = source_of(drive, 120);
+  FramePipeline pipeline(street_config(Deskew::on));
+  Frame frame;
+  FrameResult result;
+  OcclusionErrors from_origin, from_sensors;
+  while (source.next(frame, 0ms) == Next::frame) {
+    pipeline.process(frame, result);
+    const double now = 1e-9 * static_cast<double>(frame.header.stamp_ns) - kStart;
+    add_objects(drive.objects(now), pose_of(drive.pose(now)), frame, result, from_origin, from_sensors);
+  }
+  for (const OcclusionErrors& errors : {from_origin, from_sensors})
+    std::printf("%zu of %zu hidden objects are not occluded, %zu of %zu seen ones are\n", errors.hidden_wrong,
+                errors.hidden, errors.seen_wrong, errors.seen);
+  EXPECT_LT(from_sensors.seen_wrong, from_origin.seen_wrong);
+  EXPECT_LE(from_sensors.hidden_wrong + from_sensors.seen_wrong,
+            from_origin.hidden_wrong + from_origin.seen_wrong);
 }
 
 }  // namespace

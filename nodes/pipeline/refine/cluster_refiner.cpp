@@ -7,6 +7,7 @@
 
 #include "geometry.h"
 #include "pcl_bv/points/select_points.h"
+#include "pipeline/track/viewpoints.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -17,6 +18,11 @@ std::size_t min_size_of(const RefineOptions& options, const std::vector<std::int
   for (const ClassOptions& own : *options.classes)
     if (own.value == class_of[cluster]) return own.clusters.min_size;
   return options.min_size;
+}
+
+Eigen::Vector3d sensor_near(const RefineOptions& options, const PointView& cluster) {
+  if (options.sensors == nullptr || cluster.empty()) return options.sensor;
+  return nearest_sensor(*options.sensors, point_at(cluster, 0), options.sensor);
 }
 
 }  // namespace
@@ -108,8 +114,8 @@ void ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOptions& o
   std::size_t cut = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
-    const std::size_t parts =
-        neck_cut_.find(view, options.up, options.sensor, min_size_of(options, class_of, i), part_of_);
+    const std::size_t parts = neck_cut_.find(view, options.up, sensor_near(options, view),
+                                             min_size_of(options, class_of, i), part_of_);
     add_parts(clusters, i, parts, Refinement::none);
     cut += parts > 1;
   }
@@ -130,7 +136,7 @@ void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& 
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
     place(view, pose);
-    const double cell = density_cell((point_at(view, 0) - options.sensor).norm());
+    const double cell = density_cell((point_at(view, 0) - sensor_near(options, view)).norm());
     const std::size_t parts =
         track_cut_.find(points_, box_, known, cell, min_size_of(options, class_of, i), part_of_);
     add_parts(clusters, i, parts, refinements[i]);

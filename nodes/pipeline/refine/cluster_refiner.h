@@ -25,6 +25,8 @@ namespace [[gnu::visibility("default")]] detail {
 struct RefineOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();     ///< Of length 1.
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Position of the sensor in the frame of the points.
+  /// Sensors of a merged cloud. The nearest one replaces `sensor`. May be null.
+  const std::vector<SensorPart>* sensors = nullptr;
   std::size_t min_size = 1;                          ///< Smallest number of points of a part.
   /// Classes whose min_size replaces that of these options. May be null.
   const std::vector<ClassOptions>* classes = nullptr;

@@ -140,9 +140,8 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
   for (int i = 0; grow && i < 2; ++i) {
     const double more =
         grown_size(static_cast<std::size_t>(i), high[i] - low[i], state.merged) - (high[i] - low[i]);
-    const double sensor = -axes.col(i).dot(box.center());
-    // If the sensor is between the two faces, the box grows on both sides.
-    const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;
+    const VisibleFace visible = state.viewpoints->visible_face(axes.col(i), box.center(), low[i], high[i]);
+    const double above = visible == VisibleFace::low ? 1 : visible == VisibleFace::high ? 0 : 0.5;
     high[i] += above * more;
     low[i] -= (1 - above) * more;
   }

@@ -11,6 +11,7 @@
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/obb.h"
+#include "viewpoints.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -22,6 +23,7 @@ struct BoxState {
   bool moving = false;
   bool merged = false;     // Tracker::Assignment::merged
   bool separated = false;  // Tracker::Assignment::separated
+  const Viewpoints* viewpoints = &Viewpoints::single();
 };
 
 /// Filters the boxes of one object by one method, in the sensor's frame. If the method is not upright, only
@@ -48,7 +50,7 @@ class BoxFilter {
   /// the first five detections, the stored sizes grow without a limit. Later they grow by at most 0.15 m per
   /// frame, because a cluster that contains two objects in one frame is larger than the object. The box gets
   /// the stored or the measured size, whichever is larger. The box is extended on the side away from the
-  /// sensor.
+  /// sensors, or on both sides if it is between them.
   ///
   /// A merged cluster changes neither the mean yaw nor the stored sizes. A separated cluster restarts the
   /// stored sizes.

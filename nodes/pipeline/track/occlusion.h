@@ -12,16 +12,18 @@
 namespace pcl_bv::detail {
 
 /// Whether the box probably occludes the position: seen from above, the straight line from the
-/// sensor at the origin to the position enters the box, and the box reaches the height of the position.
-inline bool occludes(const Aabb& box, const Eigen::Vector3d& position) {
+/// sensor at `from` to the position enters the box, and the box reaches the height of the position.
+inline bool occludes(const Aabb& box, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& from = Eigen::Vector3d::Zero()) {
   if (box.max().z() < position.z()) return false;
   double enter = 0, leave = 1;  // parts of the line
   for (int i = 0; i < 2; ++i) {
-    if (position[i] == 0) {
-      if (box.min()[i] > 0 || box.max()[i] < 0) return false;
+    const double low = box.min()[i] - from[i], high = box.max()[i] - from[i], ray = position[i] - from[i];
+    if (ray == 0) {
+      if (low > 0 || high < 0) return false;
       continue;
     }
-    const auto [first, last] = std::minmax({box.min()[i] / position[i], box.max()[i] / position[i]});
+    const auto [first, last] = std::minmax({low / ray, high / ray});
     enter = std::max(enter, first);
     leave = std::min(leave, last);
   }

@@ -31,14 +31,14 @@ Eigen::Vector3d rotated_variances(const Eigen::Matrix3d& rotation, const Eigen::
   return rotation.cwiseAbs2() * variances;
 }
 
-// Returns the displacement of the visible face; the sensor is at the origin. Uses the near face. If it jumps
-// by more than `limit`, because another object occludes it or has merged with it, uses the far face. If both
-// jump, uses face_shift().
-double visible_face_shift(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
-  const bool beyond = box.min()[axis] > 0, before = box.max()[axis] < 0;
-  if (!beyond && !before) return difference.shift(axis);
-  const double near = beyond ? difference.low[axis] : difference.high[axis],
-               far = beyond ? difference.high[axis] : difference.low[axis];
+// Returns the displacement of the visible face. Uses the near face. If it jumps by more than `limit`, because
+// another object occludes it or has merged with it, uses the far face. If both jump, or if sensors see both
+// faces, uses face_shift().
+double visible_face_shift(const BoxDifference& difference, VisibleFace visible, int axis, double limit) {
+  if (visible == VisibleFace::both) return difference.shift(axis);
+  const bool is_low = visible == VisibleFace::low;
+  const double near = is_low ? difference.low[axis] : difference.high[axis],
+               far = is_low ? difference.high[axis] : difference.low[axis];
   if (std::abs(near) <= limit) return near;
   return std::abs(far) <= limit ? far : difference.shift(axis);
 }
@@ -46,9 +46,9 @@ double visible_face_shift(const BoxDifference& difference, const Aabb& box, int 
 // Returns the innovation. If the size changes by at most 0.05 m, the innovation is the shift of the centre.
 // If the size changes by 0.25 m or more, it is the shift of the visible face. In between, it is a weighted
 // mean of both shifts.
-double innovation_of(const BoxDifference& difference, const Aabb& box, int axis, double limit) {
+double innovation_of(const BoxDifference& difference, VisibleFace visible, int axis, double limit) {
   const double part = std::clamp((std::abs(difference.size(axis)) - 0.05) / 0.2, 0.0, 1.0);
-  return (1 - part) * difference.centre(axis) + part * visible_face_shift(difference, box, axis, limit);
+  return (1 - part) * difference.centre(axis) + part * visible_face_shift(difference, visible, axis, limit);
 }
 
 }  // namespace
@@ -108,9 +108,9 @@ bool Track::has_vehicle_size() const {
   return length >= kMinVehicleLength && length <= kMaxVehicleLength;
 }
 
-void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
+void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds, const Viewpoints& viewpoints) {
   const double passed = std::max(seconds_unseen, seconds);
-  measure(difference_to(seen_box), seen_box, sensor, passed);
+  measure(difference_to(seen_box), sensor, viewpoints, seen_box, passed);
   resize(seen_box, sensor);
   missed = occluded = 0;
   ++detections;
@@ -118,13 +118,15 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
   seconds_unseen = 0;
 }
 
-void Track::measure(const BoxDifference& difference, const Aabb& seen_box, const Pose& sensor,
-                    double passed) {
+void Track::measure(const BoxDifference& difference, const Pose& sensor, const Viewpoints& viewpoints,
+                    const Aabb& seen_box, double passed) {
   const Eigen::Matrix3d rotation = sensor.linear();
   const Eigen::Vector3d prior = rotated_variances(rotation.transpose(), motion.position_variance());
   Eigen::Vector3d innovation, variance;
   for (int i = 0; i < 3; ++i) {
-    innovation[i] = innovation_of(difference, seen_box, i, kMaxJump * std::sqrt(prior[i] + kFaceVariance));
+    const VisibleFace visible = viewpoints.visible_face(Eigen::Vector3d::Unit(i), Eigen::Vector3d::Zero(),
+                                                        seen_box.min()[i], seen_box.max()[i]);
+    innovation[i] = innovation_of(difference, visible, i, kMaxJump * std::sqrt(prior[i] + kFaceVariance));
     variance[i] = kFaceVariance + 0.09 * difference.size(i) * difference.size(i);
   }
   innovation = rotation * innovation;

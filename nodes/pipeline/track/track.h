@@ -15,6 +15,7 @@
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
+#include "viewpoints.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -65,14 +66,16 @@ struct Track {
   BoxDifference difference_to(const Aabb& box) const;
   /// Whether the stored extents have the size of a vehicle, of which only a part may be in view.
   bool has_vehicle_size() const;
-  void correct(const Aabb& box, const Pose& sensor, double seconds);
+  void correct(const Aabb& box, const Pose& sensor, double seconds,
+               const Viewpoints& viewpoints = Viewpoints::single());
 
   /// Returns the reported state. `apparent_velocity` is the velocity of static points in the sensor's frame.
   /// If `fixed` is true, the state is in the fixed frame, otherwise in the sensor's frame.
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent_velocity) const;
 
  private:
-  void measure(const BoxDifference& difference, const Aabb& box, const Pose& sensor, double passed);
+  void measure(const BoxDifference& difference, const Pose& sensor, const Viewpoints& viewpoints,
+               const Aabb& box, double passed);
   void resize(const Aabb& box, const Pose& sensor);
   void slow_down();
   void classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);

@@ -12,7 +12,6 @@
 #include "assignment.h"
 #include "box_grid.h"
 #include "ego_motion.h"
-#include "occlusion.h"
 #include "pipeline/reserve_ahead.h"
 #include "track.h"
 
@@ -49,8 +48,10 @@ struct Tracker::State {
   void move_sensor(double seconds, const std::vector<Aabb>& boxes, const std::optional<Pose>& pose);
   void find_sensor(double seconds, const std::vector<Aabb>& boxes);
   void find_pairs(const std::vector<Aabb>& boxes, double gate);
-  void assign_boxes(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
-  void count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void assign_boxes(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
+                    std::vector<Assignment>& assignments);
+  void count_misses(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
+                    std::vector<Assignment>& assignments);
   void start(const std::vector<Aabb>& boxes, std::size_t box, std::vector<Assignment>& assignments);
   void find_splits(std::vector<Assignment>& assignments);
   void prune(std::size_t death);
@@ -140,7 +141,7 @@ void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
   }
 }
 
-void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes,
+void Tracker::State::assign_boxes(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
                                   std::vector<Assignment>& assignments) {
   track_taken.assign(tracks.size(), 0);
   box_taken.assign(boxes.size(), 0);
@@ -151,15 +152,17 @@ void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes
     if (b == SparseAssignment::none) continue;
     track_taken[t] = box_taken[b] = 1;
     predicted[b] = tracks[t].expected_box();
-    tracks[t].correct(boxes[b], sensor, seconds);
+    tracks[t].correct(boxes[b], sensor, elapsed, viewpoints);
     assignments[b].slot = t;
   }
 }
 
 // Counts missed frames. A track is occluded if its expected centre is inside the box of another track: its
-// object is probably part of that box. A track with an id is also occluded if a box occludes its centre.
-// An occluded track is deleted later than others, so that it continues when its object is seen again.
-void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
+// object is probably part of that box. A track with an id is also occluded if boxes hide its centre from
+// every sensor. An occluded track is deleted later than others, so that it continues when its object is seen
+// again.
+void Tracker::State::count_misses(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
+                                  std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
     if (!track.active || track_taken[t] != 0) continue;
@@ -171,9 +174,7 @@ void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<As
       if (track.id) assignments[b].merged = true;
     });
     if (merged) track.detections_since_split = 0;
-    const bool occluded =
-        merged || (track.id && std::any_of(boxes.begin(), boxes.end(),
-                                           [&](const Aabb& box) { return occludes(box, centre); }));
+    const bool occluded = merged || (track.id && viewpoints.occluded(centre, boxes));
     if (occluded && ++track.occluded % kOccludedFramesPerMiss != 0) continue;
     ++track.missed;
   }
@@ -230,9 +231,10 @@ Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
-                     std::vector<Assignment>& assignments, const std::optional<Pose>& pose) {
+                     std::vector<Assignment>& assignments, const std::optional<Pose>& pose,
+                     const Viewpoints& viewpoints) {
   predict(stamp_ns, boxes, pose);
-  assign(boxes, config, assignments);
+  assign(boxes, config, assignments, viewpoints);
 }
 
 void Tracker::predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
@@ -256,15 +258,15 @@ void Tracker::predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
 }
 
 void Tracker::assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
-                     std::vector<Assignment>& assignments) {
+                     std::vector<Assignment>& assignments, const Viewpoints& viewpoints) {
   State& s = *state_;
   reserve_ahead(assignments, boxes.size());
   reserve_ahead(s.box_taken, boxes.size());
   reserve_ahead(s.predicted, boxes.size());
   assignments.assign(boxes.size(), Assignment());
   s.find_pairs(boxes, config.gate);
-  s.assign_boxes(s.elapsed, boxes, assignments);
-  s.count_misses(boxes, assignments);
+  s.assign_boxes(boxes, viewpoints, assignments);
+  s.count_misses(boxes, viewpoints, assignments);
   s.prune(config.death);
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     if (s.box_taken[b] == 0) s.start(boxes, b, assignments);

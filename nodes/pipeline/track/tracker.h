@@ -15,6 +15,7 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
+#include "viewpoints.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -32,8 +33,9 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// A track gets its id when it has TrackConfig::birth detections. A track is deleted after TrackConfig::death
 /// frames in a row without a detection. A track is occluded if its expected centre is inside the box of
-/// another object. A track with an id is also occluded if a box is between the sensor and this centre
-/// (occludes()). Four frames in which a track is occluded are counted as one frame without a detection.
+/// another object. A track with an id is also occluded if a box is between each sensor and this centre
+/// (Viewpoints::occluded()). Four frames in which a track is occluded are counted as one frame without a
+/// detection.
 class Tracker {
  public:
   /// The track to which a box is assigned.
@@ -64,14 +66,15 @@ class Tracker {
   /// O(n log n) time, plus the time of the assignment. Computes one cost for each pair of a track and a box
   /// near the track (BoxGrid with cells of three times TrackConfig::gate).
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
-              std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
+              std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt,
+              const Viewpoints& viewpoints = Viewpoints::single());
 
   /// The two halves of update(), for callers that refine the boxes in between. predict() moves the tracks and
   /// the sensor to the time of the frame; `boxes` need not be those of assign().
   void predict(std::int64_t stamp_ns, const std::vector<Aabb>& boxes,
                const std::optional<Pose>& pose = std::nullopt);
-  void assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
-              std::vector<Assignment>& assignments);
+  void assign(const std::vector<Aabb>& boxes, const TrackConfig& config, std::vector<Assignment>& assignments,
+              const Viewpoints& viewpoints = Viewpoints::single());
 
   /// Replaces `known` by the objects that predict() expects, sorted by the x of their centres.
   void list_known(std::vector<KnownObject>& known) const;
