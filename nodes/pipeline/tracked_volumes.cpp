@@ -60,7 +60,6 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
 void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config,
                                   std::size_t cluster, const PointView& points, FrameResult& result) {
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
-  if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);
   const BoxState state{tracker_.sensor(), assignment.velocity,  assignment.moving,
                        assignment.merged, assignment.separated, &viewpoints_};
@@ -136,6 +135,9 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
     methods_ = result.methods;
     filters_.clear();
   }
+  // As many as the tracker has slots: a replay has more tracks than the first pass.
+  const std::size_t filters = result.clusters.size() * methods_.size();
+  if (filters_.capacity() < 2 * filters) filters_.reserve(4 * filters);
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(tracked_box(box_of(result, i, clusters[i]), clusters[i]));

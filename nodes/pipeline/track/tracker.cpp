@@ -53,6 +53,7 @@ struct Tracker::State {
   void count_misses(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
                     std::vector<Assignment>& assignments);
   void start(const std::vector<Aabb>& boxes, std::size_t box, std::vector<Assignment>& assignments);
+  std::size_t box_of_whole(const Track& track) const;
   void find_splits(std::vector<Assignment>& assignments);
   void prune(std::size_t death);
   std::size_t free_slot();
@@ -160,7 +161,8 @@ void Tracker::State::assign_boxes(const std::vector<Aabb>& boxes, const Viewpoin
 // Counts missed frames. A track is occluded if its expected centre is inside the box of another track: its
 // object is probably part of that box. A track with an id is also occluded if boxes hide its centre from
 // every sensor. An occluded track is deleted later than others, so that it continues when its object is seen
-// again.
+// again. But if a split is not yet confirmed and the parts are one box again, the younger track was a part of
+// the older one and is deleted. Otherwise both would continue and take turns, with the same object.
 void Tracker::State::count_misses(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
                                   std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
@@ -168,10 +170,12 @@ void Tracker::State::count_misses(const std::vector<Aabb>& boxes, const Viewpoin
     if (!track.active || track_taken[t] != 0) continue;
     bool merged = false;
     const Eigen::Vector3d centre = track.expected_box().center();
+    const std::size_t box_of_older = box_of_whole(track);
     grid.visit_near(centre, [&](std::size_t b) {
       if (!contains_point(boxes[b], centre)) return;
       merged = true;
-      if (track.id) assignments[b].merged = true;
+      if (b == box_of_older) track.active = false;
+      if (track.id && track.active) assignments[b].merged = true;
     });
     if (merged) track.detections_since_split = 0;
     const bool occluded = merged || (track.id && viewpoints.occluded(centre, boxes));
@@ -191,6 +195,15 @@ void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
     if (box_taken[b] != 0 && contains_point(predicted[b], centre))
       tracks[slot].split_from = assignments[b].slot;
   });
+}
+
+// Returns the box of the track from which this track has split, or none. A split is over when it is
+// confirmed, or when the other track is deleted: a reused slot holds a younger track.
+std::size_t Tracker::State::box_of_whole(const Track& track) const {
+  if (!track.split_from) return SparseAssignment::none;
+  const Track& other = tracks[*track.split_from];
+  return other.active && other.age > track.age ? assignment.columns()[*track.split_from]
+                                               : SparseAssignment::none;
 }
 
 void Tracker::State::find_splits(std::vector<Assignment>& assignments) {
