@@ -252,6 +252,25 @@ py::array_t<double> doubles(py::handle object, const char* name) {
   return py::array_t<double, py::array::c_style | py::array::forcecast>(given);
 }
 
+py::array_t<double> point_times(py::handle object, const char* name, const PointView& points) {
+  py::array_t<double> times = doubles(object, name);
+  if (static_cast<std::size_t>(times.size()) != points.count)
+    raise_value_error(
+        name, std::to_string(times.size()) + " times for " + std::to_string(points.count) + " points");
+  const double* const numbers = times.data();
+  std::size_t invalid = 0, first = 0;
+  for (std::size_t i = points.count; i-- > 0;) {
+    if (std::isfinite(numbers[i]) || !is_valid(load_point(points, i))) continue;
+    ++invalid;
+    first = i;
+  }
+  if (invalid > 0)
+    raise_value_error(name, std::to_string(numbers[first]) + " of point " + std::to_string(first) +
+                                " is not finite (" + std::to_string(invalid) +
+                                " such times of valid points)");
+  return times;
+}
+
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count) {
   if (is_masked(object)) raise_type_error(name, "integers without a mask (use array.filled(-1))", object);
   const py::array given = as_numpy_array(object, name);

@@ -47,6 +47,11 @@ bool is_masked(py::handle object);
 /// Returns an array of numbers of any shape as doubles in C order.
 py::array_t<double> doubles(py::handle object, const char* name);
 
+/// Returns the times of points, one for each point, as doubles. Raises a TypeError for anything else than
+/// floats and integers, and a ValueError for another number of times, or if the time of a valid point is not
+/// finite.
+py::array_t<double> point_times(py::handle object, const char* name, const PointView& points);
+
 /// Returns an array of integers, one for each of `count` points.
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count);
 

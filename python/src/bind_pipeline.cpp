@@ -22,8 +22,9 @@ class PipelineObject {
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
 
   /// Processes a frame. Returns the warnings that this pipeline has not given before.
-  std::vector<std::string> process(const Frame& frame, FrameResult& result) {
+  std::vector<std::string> process(const Frame& frame, ResultObject& object) {
     const std::lock_guard lock(mutex_);
+    FrameResult& result = object.result;
     if (frame.header.seq == 0) {
       Frame counted = frame;
       counted.header.seq = next_++;
@@ -32,7 +33,11 @@ class PipelineObject {
       next_ = frame.header.seq + 1;
       pipeline_.process(frame, result);
     }
-    return warnings_.take(frame, result);
+    object.own_deskewed_points();
+    std::vector<std::string> warnings = warnings_.take(frame, result);
+    if (frame.times && result.config->deskew == Deskew::off && !std::exchange(warned_of_times_, true))
+      warnings.emplace_back("times have no effect, because the setting deskew is 'off'");
+    return warnings;
   }
   PipelineConfig config() const { return pipeline_.config(); }
   void set_config(PipelineConfig config) { pipeline_.set_config(std::move(config)); }
@@ -42,6 +47,7 @@ class PipelineObject {
   FramePipeline pipeline_;
   FrameWarnings warnings_;
   std::uint64_t next_ = 0;
+  bool warned_of_times_ = false;
 };
 
 void warn_about_ineffective_settings(const PipelineConfig& config) {
@@ -58,7 +64,7 @@ std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle pres
 
 std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle points, py::handle stamp_ns,
                                             py::handle frame_id, py::handle seq, py::handle pose,
-                                            py::handle classes, py::handle recorded_ns) {
+                                            py::handle times, py::handle classes, py::handle recorded_ns) {
   auto result = std::make_shared<ResultObject>();
   result->points = points_of(points);
   if (!pose.is_none()) result->pose = Pose(isometry(pose, "pose").matrix());
@@ -70,10 +76,16 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
   if (!classes.is_none())
     frame.classes =
         std::make_shared<std::vector<std::int64_t>>(integers(classes, "classes", result->points.view.count));
+  py::array_t<double> seconds;  // outlives the call without the GIL
+  if (!times.is_none()) {
+    seconds = point_times(times, "times", result->points.view);
+    frame.times = FieldView{reinterpret_cast<const std::byte*>(seconds.data()), sizeof(double), 'F',
+                            static_cast<std::uint32_t>(sizeof(double))};
+  }
   std::vector<std::string> warnings;
   {
     const py::gil_scoped_release unlocked;
-    warnings = self.process(frame, result->result);
+    warnings = self.process(frame, *result);
   }
   for (const std::string& text : warnings)
     warn(text);
@@ -129,7 +141,7 @@ ValueError: cluster.tolerance: -1 is not at least 0 and at most 1e+06
 }
 
 constexpr const char* process_doc =
-    R"(process(self, points, *, stamp_ns=0, frame_id='', seq=None, pose=None, classes=None, recorded_ns=0)
+    R"(process(self, points, *, stamp_ns=0, frame_id='', seq=None, pose=None, times=None, classes=None, recorded_ns=0)
 --
 
 Processes one frame. Frames of a stream must be passed in the order of their stamps. Releases the GIL.
@@ -139,18 +151,35 @@ points: as for fit(), in the sensor's frame, metres. They are not copied. The re
 stamp_ns: time at which the sensor took the frame, nanoseconds. Tracking needs it.
 frame_id, seq: stored in the result. Without seq, or with 0, the pipeline counts the frames.
 pose: pose of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
+times: time at which each point was measured, for the setting deskew. Seconds, milliseconds, microseconds or
+    nanoseconds (the unit is found from the span, a sweep of 1 ms to 1 s), after stamp_ns or since 1970. Floats
+    or integers, any shape. Only points that are not finite may have a time that is not finite.
 classes: an integer for each point, for cluster.class_field and cluster.classes.
 recorded_ns: time at which the frame was recorded or received, nanoseconds. Tracking uses it if the stamps do
     not advance, and warns once (UserWarning).
 
-Returns a Result. Raises errors as fit() does. Warns (UserWarning, each kind once per pipeline and setting)
-if no ground is found, if everything is ground, and if the points do not lie around the sensor.
+Returns a Result. Raises errors as fit() does. Raises ValueError if the number of times is not that of the
+points. Warns (UserWarning, each kind once per pipeline and setting) if no ground is found, if everything is
+ground, if the points do not lie around the sensor, and if deskew is 'on' but points could not be moved.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})
 >>> frame = pipeline.process(pcl_bv.read('synth:street:20000:1'), stamp_ns=100_000_000)
 >>> frame.stamp_ns, frame.clusters[0].track.age
 (100000000, 1)
+
+Points of a sensor that moves at 10 m/s, as they would have been measured at the stamp:
+
+>>> import numpy
+>>> points = numpy.tile([[5.0, 0, 0]], (1000, 1))
+>>> pipeline = pcl_bv.Pipeline(deskew='on', ground={'method': 'none'})
+>>> for frame in range(2):
+...     pose = numpy.eye(4)
+...     pose[0, 3] = frame
+...     result = pipeline.process(points, stamp_ns=frame * 100_000_000, pose=pose,
+...                               times=numpy.linspace(0, 0.1, 1000))
+>>> result.deskew, float(result.deskewed[-1, 0].round(6))
+('poses', 6.0)
 )";
 
 }  // namespace
@@ -160,8 +189,8 @@ void bind_pipeline(py::module_& module) {
       .def(py::init(&make_pipeline), "config"_a = py::none(), py::kw_only(), "preset"_a = py::none(),
            init_doc(pipeline_doc()).c_str())
       .def("process", process_frame, "points"_a, py::kw_only(), "stamp_ns"_a = 0, "frame_id"_a = "",
-           "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), "recorded_ns"_a = 0,
-           process_doc)
+           "seq"_a = py::none(), "pose"_a = py::none(), "times"_a = py::none(), "classes"_a = py::none(),
+           "recorded_ns"_a = 0, process_doc)
       .def_property(
           "config", [](const PipelineObject& p) { return dict_of(p.config()); }, set_config,
           "All settings as a dict that Pipeline() accepts. Assigning a dict takes effect with the next "

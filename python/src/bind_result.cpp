@@ -115,6 +115,20 @@ py::object labels_array(const Shared& self) {
   return array_from_vector(std::move(labels)).attr("view")("int32");
 }
 
+py::object deskew_of(const Shared& self) {
+  if (!self->result.deskew.moved()) return py::none();
+  return py::str(self->result.deskew.outcome == DeskewOutcome::by_poses ? "poses" : "tracks");
+}
+
+py::object deskewed_points_of(const Shared& self) {
+  if (!self->result.deskew.moved()) return py::none();
+  const PointView& points = self->result.deskew.points;
+  const py::dtype type =
+      points.scalar == ScalarType::float32 ? py::dtype::of<float>() : py::dtype::of<double>();
+  const auto count = static_cast<py::ssize_t>(points.count);
+  return read_only(py::array(type, {count, py::ssize_t{3}}, self->deskewed.data(), py::cast(self)));
+}
+
 std::string repr_of_result(const Shared& self) {
   const FrameResult& result = self->result;
   char text[200];
@@ -279,6 +293,13 @@ void bind_result(py::module_& module) {
       .def_property_readonly("counts", counts_of, "Points that are in no cluster, by reason: a dict.")
       .def_property_readonly("labels", labels_array,
                              "(N,) int32: each point's cluster; -1: none, -2: ground.")
+      .def_property_readonly(
+          "deskew", deskew_of,
+          "How the points were moved to stamp_ns: 'poses', 'tracks', or None if they were not.")
+      .def_property_readonly(
+          "deskewed", deskewed_points_of,
+          "(N, 3), of the type of the frame's points: the moved points, in their order; None if "
+          "points were not moved. Belongs to the result. Read-only.")
       .def_property_readonly("ms", times_of, "Milliseconds of each stage: a dict.")
       .def_property_readonly(
           "stamp_ns", [](const Shared& r) { return r->result.header.stamp_ns; }, "As given.")

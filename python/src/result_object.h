@@ -4,6 +4,8 @@
 // The data of Python's Result and Cluster.
 #pragma once
 
+#include <cstring>
+
 #include "arrays.h"
 #include "pcl_bv/nodes/frame_result.h"
 
@@ -15,6 +17,22 @@ struct ResultObject {
   FrameResult result;
   PointArray points;
   std::optional<Pose> pose{};
+  std::vector<double> deskewed{};  ///< x, y, z of the moved points, as float32 or float64.
+
+  /// Copies the moved points, if there are any, from the memory of the pipeline to this object. The next
+  /// frame overwrites the memory of the pipeline.
+  void own_deskewed_points() {
+    if (result.deskew.moved()) own_deskewed_points(result.deskew.points);
+  }
+
+  /// Copies `packed`, the packed points that replace those of the frame.
+  void own_deskewed_points(const PointView& packed) {
+    const std::size_t bytes = packed.count * packed.stride;
+    deskewed.resize((bytes + sizeof(double) - 1) / sizeof(double));
+    if (bytes > 0) std::memcpy(deskewed.data(), packed.data, bytes);
+    result.deskew.points =
+        packed_points(reinterpret_cast<const std::byte*>(deskewed.data()), packed.scalar, packed.count);
+  }
 
   Frame frame() const {
     Frame frame;

@@ -91,6 +91,30 @@ py::list volumes(const FrameResult& result) {
   return list;
 }
 
+/// Returns how the points were moved, and the moved points; None if they were not moved.
+py::object deskew(const ResultObject& self) {
+  if (!self.result.deskew.moved()) return py::none();
+  const PointView& points = self.result.deskew.points;
+  const py::dtype type =
+      points.scalar == ScalarType::float32 ? py::dtype::of<float>() : py::dtype::of<double>();
+  const auto count = static_cast<py::ssize_t>(points.count);
+  return py::make_tuple(self.result.deskew.outcome == DeskewOutcome::by_poses ? "poses" : "tracks",
+                        py::array(type, {count, py::ssize_t{3}}, self.deskewed.data()));
+}
+void take_deskew(py::handle state, ResultObject& self) {
+  if (state.is_none()) return;
+  const py::tuple t = tuple_of_state(state, 2);
+  const std::string how = text(t[0], "deskew");
+  if (how != "poses" && how != "tracks") throw py::value_error("deskew is not 'poses' or 'tracks'");
+  const PointArray moved = points_of(t[1], "deskewed");
+  const bool packed = moved.view.stride == 3 * size_of(moved.view.scalar);
+  if (moved.view.count != self.points.view.count || (!packed && moved.view.count > 0) ||
+      moved.view.scalar != self.points.view.scalar)
+    throw py::value_error("the moved points are not those of the frame");
+  self.result.deskew.outcome = how == "poses" ? DeskewOutcome::by_poses : DeskewOutcome::by_tracks;
+  self.own_deskewed_points(moved.view);
+}
+
 /// Throws if the members of an unpickled result are inconsistent.
 void require_consistent(const FrameResult& result, std::size_t points) {
   const Clusters& c = result.clusters;
@@ -146,6 +170,7 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
   state["config"] = dict_of(*r.config);
   state["points"] = self->points.owner;
   state["pose"] = self->pose ? py::object(array_of(Eigen::MatrixXd(self->pose->matrix()))) : py::none();
+  state["deskew"] = deskew(*self);
   state["counts"] = counts(r.counts);
   state["kept"] = array(kept(*self));
   const GroundSplit& g = r.ground;
@@ -171,6 +196,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   FrameResult& r = self->result;
   self->points = points_of(state["points"]);
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
+  take_deskew(state["deskew"], *self);
   const py::tuple header = tuple_of_state(state["header"], 4), ground = tuple_of_state(state["ground"], 5),
                   clusters = tuple_of_state(state["clusters"], 4);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), text(header[2], "frame_id"),
