@@ -111,6 +111,21 @@ TEST(Tracker, AnObjectHiddenBehindAnotherKeepsItsId) {
   }
 }
 
+// A rear part of a parked car is a cluster of its own for three frames, twice: two tracks of the car would then
+// take turns.
+TEST(Tracker, APartThatIsTheWholeAgainHasNoTrackOfItsOwn) {
+  Tracker tracker;
+  const Aabb car({10, 5, 0}, {14.4, 7, 1.5}), front({10, 5, 0}, {12.8, 7, 1.5}), rear({13, 5, 0}, {14.4, 7, 1.5});
+  for (int i = 0; i < 20; ++i)
+    update(tracker, i, {car});
+  for (int i = 20; i < 23; ++i)
+    EXPECT_EQ(id_of(update(tracker, i, {front, rear})[0]), 0U) << i;
+  update(tracker, 23, {car});
+  const std::vector<Tracker::Assignment> again = update(tracker, 24, {front, rear});
+  EXPECT_EQ(id_of(again[0]), 0U);
+  EXPECT_TRUE(again[1].fresh);
+}
+
 // A truck beside the vehicle hides 22 of 30 posts, and both brake.
 TEST(Tracker, FindsTheMotionOfTheSensorWhileMostObjectsAreHidden) {
   std::vector<Eigen::Vector3d> posts;
