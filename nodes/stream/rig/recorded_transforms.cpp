@@ -108,8 +108,6 @@ class RecordedTransforms final : public TransformFeed {
   std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
 
  private:
-  static constexpr std::int64_t kRestart = 1'000'000'000;  // a cloud so much earlier begins a repetition
-
   void begin_again() {
     reader_->select(changing_);
     at_end_ = false;

@@ -18,8 +18,10 @@ RigPoses::RigPoses(std::vector<std::unique_ptr<TransformFeed>> feeds, Transforms
 }
 
 void RigPoses::read_feeds(std::int64_t recorded_ns) {
+  // Clouds of files have no time of recording. To a feed, 0 would be the beginning of its recording.
+  if (recorded_ns != 0) recorded_ns_ = recorded_ns;
   for (const std::unique_ptr<TransformFeed>& feed : feeds_)
-    feed->read(recorded_ns, transforms_);
+    feed->read(recorded_ns_, transforms_);
 }
 
 FoundTransform RigPoses::of_sensor(const std::string& frame, const Frame& cloud) {

@@ -43,6 +43,7 @@ class RigPoses {
   std::vector<std::unique_ptr<TransformFeed>> feeds_;
   Transforms transforms_;
   Poses file_;
+  std::int64_t recorded_ns_ = 0;  // of the latest cloud that has one
 };
 
 }  // namespace detail

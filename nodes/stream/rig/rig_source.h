@@ -15,6 +15,7 @@
 #include "merged_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "rig_poses.h"
+#include "sensor_clocks.h"
 #include "sensor_presence.h"
 
 namespace pcl_bv {
@@ -38,8 +39,8 @@ struct RigInputs {
 /// See open_rig().
 class RigSource final : public FrameSource {
  public:
-  /// `times`: whether frames have Frame::seconds. Throws std::invalid_argument if `rig` is not valid, and
-  /// IoError if `options.poses` cannot be read.
+  /// Frames have Frame::seconds if `options.point_times`. Throws std::invalid_argument if `rig` is not valid,
+  /// and IoError if `options.poses` cannot be read.
   RigSource(RigInputs inputs, const RigConfig& rig, const ReplayOptions& options);
 
   Next next(Frame& frame, std::chrono::milliseconds timeout) override;
@@ -50,40 +51,37 @@ class RigSource final : public FrameSource {
 
   struct Sensor {
     SensorInput input;
-    std::optional<Frame> head;         // its next cloud
-    Clock::time_point arrival{};       // of `head`
+    std::optional<Frame> next;         // its next cloud
+    Clock::time_point arrival{};       // of `next`
     std::optional<std::int64_t> last;  // stamp of the cloud read last
+    Pose pose = Pose::Identity();      // in the frame of the rig, when it was last known
     SensorPresence presence;
     bool ended = false;
-    std::uint64_t clouds = 0, used = 0, late = 0;
+    std::uint64_t clouds = 0, used = 0, late = 0, unmatched = 0;
     std::string problem;  // of its last cloud that was lost
   };
 
-  // By how much the stamp of a cloud was ahead of the time at which it was recorded or came.
-  struct SensorClock {
-    const Sensor* owner = nullptr;
-    std::int64_t ahead = 0;
-    std::uint64_t clouds_of_others = 0;  // since the owner's last one
-  };
-
-  void read_head(Sensor& sensor, std::chrono::milliseconds timeout);
-  void read_heads(Clock::time_point until);
+  void read_cloud(Sensor& sensor);
+  void read_clouds(Clock::time_point until);
   bool is_late(const Sensor& sensor, const Frame& cloud) const;
   void drop_late(Sensor& sensor, const Frame& cloud);
+  void drop_unmatched();
   void begin_repetition();
   void warn(const Sensor& sensor, const std::string& what);
   void check_clock(Sensor& sensor, const Frame& cloud);
-  [[noreturn]] void lose(Sensor& sensor, Frame cloud, const std::string& problem);
-  [[noreturn]] void lose_unreadable(Sensor& sensor, const FrameError& error);
-  void drop_stuck_heads();
+  [[noreturn]] void throw_lost(Sensor& sensor, Frame cloud, const std::string& problem);
+  [[noreturn]] void throw_unreadable(Sensor& sensor, const FrameError& error);
   bool all_ended() const;
   bool is_complete() const;
   std::int64_t first_stamp() const;
   bool is_member(const Sensor& sensor, std::int64_t stamp_ns) const;
   FoundTransform find_pose(const Sensor& sensor);
   bool has_transforms();
+  std::vector<MountedCloud> mounted_clouds(std::int64_t stamp_ns);
   void merge(Frame& frame);
-  void report_unused() const;
+  void add_cloud(Sensor& sensor, Frame& frame);
+  void add_pose(Frame& frame);
+  void end();
 
   RigConfig rig_;
   std::vector<Sensor> sensors_;
@@ -93,8 +91,9 @@ class RigSource final : public FrameSource {
   std::int64_t sync_ns_;
   std::optional<std::int64_t> last_stamp_;  // of the last frame
   std::uint64_t seq_ = 0;
-  bool live_ = false;                        // some source has had no cloud yet
-  std::optional<SensorClock> clock_;
+  bool live_ = false;  // a source once had no cloud and had not ended
+  SensorClocks clocks_;
+  std::uint64_t frames_without_pose_ = 0;  // successive ones
   std::vector<std::string> warnings_;
 };
 

@@ -12,6 +12,7 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::int64_t kShortestSilence = 300'000'000;
+constexpr std::int64_t kSilenceOfUnknownPeriod = 1'000'000'000;
 
 }  // namespace
 
@@ -22,7 +23,7 @@ bool is_power_of_ten(std::uint64_t number) {
 }
 
 void SensorPresence::note_gap(std::int64_t gap_ns) {
-  period_ns_ = period_ns_ == 0 ? gap_ns : std::min(period_ns_, gap_ns);
+  period_ns_ = std::min(period_ns_.value_or(gap_ns), gap_ns);
 }
 
 std::string SensorPresence::end_silence(std::int64_t stamp_ns) {
@@ -32,14 +33,21 @@ std::string SensorPresence::end_silence(std::int64_t stamp_ns) {
 
 std::string SensorPresence::note_frame(bool present, std::int64_t stamp_ns) {
   in_last_frame_ = present;
-  if (present || last_used_ns_ == 0) last_used_ns_ = stamp_ns;
+  if (present || !last_used_ns_) last_used_ns_ = stamp_ns;
   if (present) return end_silence(stamp_ns);
-  const std::int64_t longest = std::max(kShortestSilence, 3 * period_ns_);
-  if (silent_ || stamp_ns - last_used_ns_ < longest) return {};
+  const std::int64_t longest =
+      period_ns_ ? std::max(kShortestSilence, 3 * *period_ns_) : kSilenceOfUnknownPeriod;
+  if (silent_ || stamp_ns - *last_used_ns_ < longest) return {};
   silent_ = true;
   if (!is_power_of_ten(++silences_)) return {};
   return "no clouds for " + seconds_text(longest) + "; the frames from " + seconds_text(stamp_ns) +
          " on have only the other sensors'";
+}
+
+void SensorPresence::restart() {
+  last_used_ns_.reset();
+  silent_ = false;
+  in_last_frame_ = true;
 }
 
 }  // namespace pcl_bv::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace pcl_bv {
@@ -13,8 +14,8 @@ namespace [[gnu::visibility("default")]] detail {
 bool is_power_of_ten(std::uint64_t number);
 
 /// Whether a sensor of a rig sends clouds. A sensor whose clouds are missing in the frames of three of its
-/// periods, and of at least 0.3 s, is silent, and frames do not wait for it. All times are stamps,
-/// nanoseconds.
+/// periods, and of at least 0.3 s, is silent, and frames do not wait for it. Before its second cloud, the
+/// time is 1 s. All times are stamps, nanoseconds.
 class SensorPresence {
  public:
   /// Notes the time between two successive clouds. The shortest one is the period.
@@ -28,12 +29,15 @@ class SensorPresence {
   /// text.
   std::string end_silence(std::int64_t stamp_ns);
 
+  /// Begins anew after stamps that jumped back. The period stays.
+  void restart();
+
   bool silent() const { return silent_; }
   bool in_last_frame() const { return in_last_frame_; }
 
  private:
-  std::int64_t period_ns_ = 0;
-  std::int64_t last_used_ns_ = 0;  // stamp of the last frame with its cloud
+  std::optional<std::int64_t> period_ns_;
+  std::optional<std::int64_t> last_used_ns_;  // stamp of the last frame with its cloud, or of the first frame
   std::uint64_t silences_ = 0;
   bool in_last_frame_ = true, silent_ = false;
 };

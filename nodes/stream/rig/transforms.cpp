@@ -78,7 +78,8 @@ Transforms::Node* Transforms::edge(const std::string& parent, const std::string&
   }
   const auto above = make_node(parent), below = make_node(child);
   if (!above || !below) {
-    warn(nodes_.front(), "more than 10000 frames: transforms of further ones are ignored");
+    if (!std::exchange(warned_of_frames_, true))
+      warnings_.push_back("more than 10000 frames: transforms of further ones are ignored");
     return nullptr;
   }
   Node& node = nodes_[*below];
@@ -130,7 +131,7 @@ void Transforms::add(const std::string& parent, const std::string& child, std::i
   Node* const node = edge(parent, child);
   if (node == nullptr || node->fixed || node->preferred != preferred) return;
   std::vector<StampedPose>& poses = node->timed;
-  if (!poses.empty() && stamp_ns < poses.back().first - kStoredTransforms) poses.clear();
+  if (!poses.empty() && stamp_ns < poses.back().first - kRestart) poses.clear();
   const auto at = std::lower_bound(poses.begin(), poses.end(), stamp_ns, is_earlier);
   if (at != poses.end() && at->first == stamp_ns) {
     at->second = pose;

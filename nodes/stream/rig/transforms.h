@@ -24,6 +24,10 @@ using StampedPose = std::pair<std::int64_t, Pose>;
 /// time. Returns nullopt outside their times, and if the two poses are more than 0.5 s apart.
 std::optional<Pose> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns);
 
+/// A stamp or time of recording that is earlier than the latest one by more than this, nanoseconds, begins
+/// anew: a recording is repeated, or a simulation was reset.
+inline constexpr std::int64_t kRestart = 1'000'000'000;
+
 /// Returns a time as "1.250 s".
 std::string seconds_text(std::int64_t nanoseconds);
 
@@ -44,8 +48,8 @@ class Transforms {
   void add_fixed(const std::string& parent, const std::string& child, const Pose& pose, bool final = false);
 
   /// Adds the pose of `child` in `parent` at a time. Otherwise like add_fixed(). Poses more than 10 s older
-  /// than the newest one are forgotten. A pose that is itself so old begins anew, as a recording does that is
-  /// repeated. After the first `preferred` pose of `child`, its other poses and its other parent are dropped.
+  /// than the newest one are forgotten. A pose that is older by more than kRestart begins anew. After the
+  /// first `preferred` pose of `child`, its other poses and its other parent are dropped.
   void add(const std::string& parent, const std::string& child, std::int64_t stamp_ns, const Pose& pose,
            bool preferred = false);
 
@@ -53,7 +57,8 @@ class Transforms {
   /// pose * p in `target`. O(depth of the tree).
   FoundTransform find(const std::string& target, const std::string& source, std::int64_t stamp_ns) const;
 
-  /// Returns the warnings since the last call, one line each, at most one for each frame.
+  /// Returns the warnings since the last call, one line each, at most one for each frame and one about
+  /// the number of frames.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -77,6 +82,7 @@ class Transforms {
   std::vector<Node> nodes_;
   std::map<std::string, std::size_t> numbers_;  // by name
   std::vector<std::string> warnings_;
+  bool warned_of_frames_ = false;
 };
 
 }  // namespace detail
