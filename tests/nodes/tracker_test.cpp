@@ -111,11 +111,12 @@ TEST(Tracker, AnObjectHiddenBehindAnotherKeepsItsId) {
   }
 }
 
-// A rear part of a parked car is a cluster of its own for three frames, twice: two tracks of the car would then
-// take turns.
+// A rear part of a parked car is a cluster of its own for three frames, twice: two tracks of the car would
+// then take turns.
 TEST(Tracker, APartThatIsTheWholeAgainHasNoTrackOfItsOwn) {
   Tracker tracker;
-  const Aabb car({10, 5, 0}, {14.4, 7, 1.5}), front({10, 5, 0}, {12.8, 7, 1.5}), rear({13, 5, 0}, {14.4, 7, 1.5});
+  const Aabb car({10, 5, 0}, {14.4, 7, 1.5}), front({10, 5, 0}, {12.8, 7, 1.5}),
+      rear({13, 5, 0}, {14.4, 7, 1.5});
   for (int i = 0; i < 20; ++i)
     update(tracker, i, {car});
   for (int i = 20; i < 23; ++i)

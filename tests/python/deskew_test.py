@@ -26,7 +26,8 @@ def cloud(seed, dtype=np.float32, count=500):
 
 class Deskewing(unittest.TestCase):
     def process(self, pipeline, points, times, frame, **arguments):
-        return pipeline.process(points, stamp_ns=round(1e9 * PERIOD * frame), pose=pose_of(frame), times=times, **arguments)
+        return pipeline.process(points, stamp_ns=round(1e9 * PERIOD * frame), pose=pose_of(frame), times=times,
+                                **arguments)
 
     def second(self, points, times):
         pipeline = pcl_bv.Pipeline(SETTINGS)
@@ -52,8 +53,8 @@ class Deskewing(unittest.TestCase):
         wanted = self.second(points, ns).deskewed
         records = np.zeros(500, dtype=[("x", "f4"), ("t", "u4")])
         records["t"] = ns
-        for times in (ns.astype(np.int64), ns.astype(np.float64), ns.astype(">u4"), ns.reshape(20, 25), list(map(int, ns)),
-                      records["t"], ns[::-1].copy()[::-1]):
+        for times in (ns.astype(np.int64), ns.astype(np.float64), ns.astype(">u4"), ns.reshape(20, 25),
+                      list(map(int, ns)), records["t"], ns[::-1].copy()[::-1]):
             self.assertTrue(np.array_equal(self.second(points, times).deskewed, wanted))
         for unit in (1e-9, 1e-6, 1e-3):
             self.assertLess(np.abs(self.second(points, ns * unit).deskewed - wanted).max(), 1e-5)
@@ -112,9 +113,11 @@ class Deskewing(unittest.TestCase):
         masked = np.ma.masked_array(times, mask=False)
         for error, parts, value in (
                 (ValueError, ["times", "499", "500"], times[:-1]), (ValueError, ["times", "1 times", "500"], 0.5),
-                (ValueError, ["times", "nan", "point 4", "2 such"], gap), (TypeError, ["times", "numbers"], ["a"] * 500),
+                (ValueError, ["times", "nan", "point 4", "2 such"], gap),
+                (TypeError, ["times", "numbers"], ["a"] * 500),
                 (TypeError, ["times", "numbers"], times > 0), (TypeError, ["times", "numbers"], times + 1j),
-                (TypeError, ["times", "numbers"], times.astype("datetime64[ns]")), (TypeError, ["times", "mask"], masked)):
+                (TypeError, ["times", "numbers"], times.astype("datetime64[ns]")),
+                (TypeError, ["times", "mask"], masked)):
             with self.assertRaises(error) as raised:
                 pipeline.process(points, times=value)
             for part in parts:
@@ -123,8 +126,8 @@ class Deskewing(unittest.TestCase):
     def test_a_state_with_other_points_is_refused(self):
         result = self.second(cloud(14), np.linspace(0, PERIOD, 500))
         state = result.__getstate__()
-        for bad in (("poses", np.zeros((499, 3), np.float32)), ("poses", np.zeros((500, 3))), ("magic", result.deskewed),
-                    ("poses",), 5, ("poses", np.zeros((500, 4), np.float32)[:, :3])):
+        for bad in (("poses", np.zeros((499, 3), np.float32)), ("poses", np.zeros((500, 3))),
+                    ("magic", result.deskewed), ("poses",), 5, ("poses", np.zeros((500, 4), np.float32)[:, :3])):
             with self.assertRaises(ValueError):
                 pcl_bv.Result.__new__(pcl_bv.Result).__setstate__(dict(state, deskew=bad))
 
