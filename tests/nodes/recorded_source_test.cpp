@@ -399,8 +399,8 @@ TEST_F(RecordedTransformsTest, AreThoseOfOneRobotOfSeveral) {
 }
 
 TEST_F(RecordedTransformsTest, ErrorsNameTheFile) {
-  const std::string file = record_transforms({"/tf"});
-  std::filesystem::resize_file(file, 3);
+  const std::string file = (path_ / "damaged.db3").string();
+  std::ofstream(file, std::ios::binary) << std::string("SQLite format 3\0", 16) << std::string(1000, 'x');
   const auto error_of_opening = [&]() -> std::string {
     try {
       recorded_transforms(file, "");

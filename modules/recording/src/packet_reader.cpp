@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -39,6 +40,13 @@ std::string supported_models() {
 }
 
 using Families = std::vector<std::unique_ptr<SensorFamily>>;
+
+Families open_families(const std::filesystem::path& capture) {
+  Families families;
+  for (const SensorFamilyRow& row : sensor_families())
+    families.push_back(row.open(capture));
+  return families;
+}
 
 // A family by its index in Families, and one of its models.
 using Model = std::pair<std::size_t, std::size_t>;
@@ -114,11 +122,21 @@ bool is_capture(const std::filesystem::path& file) {
   return is_packet_file({start, sizeof start});
 }
 
+std::vector<std::string> sensors_in_capture(const std::filesystem::path& file) {
+  constexpr int max_packets = 20'000;  // 3 to 30 s of one sensor; a whole capture may take minutes to read
+  PacketFile packets(file);
+  const Families families = open_families(file);
+  std::set<std::string> sensors;
+  Payload packet;
+  for (int i = 0; i < max_packets && packets.next(packet); ++i)
+    if (model_in(families, packet)) sensors.insert(packet.source());
+  return {sensors.begin(), sensors.end()};
+}
+
 struct PacketReader::State {
   State(const std::filesystem::path& path, const std::string& sensor) : file(path), wanted_sensor(sensor) {
     packets.emplace(file);
-    for (const SensorFamilyRow& row : sensor_families())
-      families.push_back(row.open(file));
+    families = open_families(file);
     OtherPackets other_packets;
     for (Payload packet; !first_model && packets->next(packet);) {
       const std::optional<Model> model = model_in(families, packet);

@@ -203,10 +203,11 @@ std::string detail::problem_of(const Setting& /*setting*/, const std::vector<Cla
 }
 
 std::string detail::problem_of(const Setting& /*setting*/, const std::vector<RigSensor>& sensors) {
-  std::set<std::string> topics;
+  std::set<std::pair<std::string, std::string>> topics;
   for (const RigSensor& sensor : sensors) {
     if (sensor.topic.empty()) return "a sensor has no topic";
-    if (!topics.insert(sensor.topic).second) return "topic " + sensor.topic + " is given twice";
+    if (!topics.emplace(sensor.topic, sensor.source).second)
+      return "topic " + sensor.topic + " is given twice";
     if (sensor.pose.empty() || mounting_pose(sensor.pose)) continue;
     return "the pose of " + sensor.topic +
            " is not x, y, z, roll, pitch, yaw, nor x, y, z and a quaternion x, y, z, w of length 1";

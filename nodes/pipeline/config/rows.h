@@ -42,6 +42,7 @@ void visit_row(Row& row, Visit&& visit) {
     visit(S{"topic", "", ""}, row.topic);
     visit(S{"frame", "", ""}, row.frame);
     visit(S{"pose", "m, radians", ""}, row.pose);
+    visit(S{"source", "", ""}, row.source);
   } else {
     visit(S{"value", "", ""}, row.value);
     visit(S{"drop", "", ""}, row.drop);

@@ -23,13 +23,24 @@ namespace {
 
 constexpr std::string_view kDdsPrefix = "dds:";
 
-// A source of clouds by the name of its file or topic, and the topic that rig.sensors names.
+// A topic of clouds and the name of its source. A source without topics has one by its own name.
 struct NamedTopic {
   std::string source, topic;
 };
 
 bool is_recorded(const std::string& source) {
   return source_kind(source).times == FrameTimes::messages;
+}
+
+bool is_for(const RigSensor& row, const NamedTopic& named) {
+  return row.topic == named.topic && (row.source.empty() || row.source == named.source);
+}
+
+// Returns the row of rig.sensors for the topic, or null.
+const RigSensor* row_of(const NamedTopic& named, const RigConfig& rig) {
+  const auto row = std::find_if(rig.sensors.begin(), rig.sensors.end(),
+                                [&](const RigSensor& sensor) { return is_for(sensor, named); });
+  return row == rig.sensors.end() ? nullptr : &*row;
 }
 
 // Returns the topics of all sources. A recording has those of `rig.sensors`, else the given one, else all.
@@ -45,12 +56,10 @@ std::vector<NamedTopic> topics_of(const std::vector<std::string>& sources, const
       all.push_back({source, options.topic});
     } else {
       std::vector<std::string> recorded = recorded_cloud_topics(source);
-      if (recorded.empty()) all.push_back({source, source});  // packets of one sensor
+      if (recorded.empty()) recorded.push_back(source);  // packets of one sensor
       for (std::string& topic : recorded) {
-        const bool wanted = rig.sensors.empty() ||
-                            std::any_of(rig.sensors.begin(), rig.sensors.end(),
-                                        [&](const RigSensor& sensor) { return sensor.topic == topic; });
-        if (wanted) all.push_back({source, std::move(topic)});
+        NamedTopic named{source, std::move(topic)};
+        if (rig.sensors.empty() || row_of(named, rig)) all.push_back(std::move(named));
       }
     }
   }
@@ -67,11 +76,10 @@ SensorInput mounted(const RigSensor& sensor) {
 }
 
 SensorInput open_sensor(const NamedTopic& named, const RigConfig& rig, ReplayOptions options) {
-  const auto sensor = std::find_if(rig.sensors.begin(), rig.sensors.end(),
-                                   [&](const RigSensor& one) { return one.topic == named.topic; });
-  if (sensor == rig.sensors.end() && !rig.sensors.empty())
+  const RigSensor* const row = row_of(named, rig);
+  if (row == nullptr && !rig.sensors.empty())
     throw std::invalid_argument(named.topic + ": rig.sensors has no sensor with this topic");
-  SensorInput input = mounted(sensor == rig.sensors.end() ? RigSensor{named.topic} : *sensor);
+  SensorInput input = mounted(row == nullptr ? RigSensor{named.topic} : *row);
   options.topic = is_recorded(named.source) && named.topic != named.source ? named.topic : "";
   options.poses.clear();
   input.source = open_source(named.source, options);
@@ -83,11 +91,28 @@ void check_rig(const RigConfig& rig) {
   if (rig.frame.empty()) throw std::invalid_argument("rig.frame is empty");
 }
 
-void check_sensors_have_sources(const RigConfig& rig, const std::vector<NamedTopic>& topics) {
+// Transforms have the times and frame ids of messages.
+void check_replay(const std::vector<std::string>& sources, const ReplayOptions& options) {
+  if (options.loops > 1) throw std::invalid_argument("the sources of a rig cannot be repeated");
+  if (!options.frame_id.empty())
+    throw std::invalid_argument("a rig has the frame ids of its clouds and no options.frame_id");
+  for (const std::string& source : sources)
+    if (source_kind(source).times != source_kind(sources.front()).times)
+      throw std::invalid_argument("the sources of a rig are of different kinds and have no common stamps: " +
+                                  sources.front() + ", " + source);
+}
+
+// One pose cannot be that of two sensors.
+void check_sensors_have_one_source(const RigConfig& rig, const std::vector<NamedTopic>& topics) {
   for (const RigSensor& sensor : rig.sensors) {
-    if (std::any_of(topics.begin(), topics.end(),
-                    [&](const NamedTopic& named) { return named.topic == sensor.topic; }))
-      continue;
+    std::vector<std::string> having;
+    for (const NamedTopic& named : topics)
+      if (is_for(sensor, named)) having.push_back(named.source);
+    if (having.size() == 1) continue;
+    if (having.size() > 1)
+      throw std::invalid_argument(printable("rig.sensors: " + having[0] + " and " + having[1] +
+                                            " have the topic " + sensor.topic +
+                                            "; give each of them a row with `source`"));
     std::string known;
     for (const NamedTopic& named : topics)
       known += (known.empty() ? "" : ", ") + named.topic;
@@ -110,7 +135,7 @@ void check_recorded_odometry(const std::vector<std::string>& sources, const std:
 
 // Adds the fixed joints of the URDF and the transforms of recordings and live topics.
 void add_transforms_of(const std::vector<std::string>& sources, const RigConfig& rig, RigInputs& inputs) {
-  if (!rig.urdf.empty()) read_urdf(rig.urdf).add_joints(inputs.transforms);
+  if (!rig.urdf.empty()) read_urdf(rig.urdf, UrdfContent::joints).add_joints(inputs.transforms);
   bool live = false;
   std::vector<std::string> recordings;
   for (const std::string& source : sources) {
@@ -144,11 +169,13 @@ std::optional<RegionConfig> robot_body(const RigConfig& rig, std::vector<std::st
 }
 
 std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
-                                      const ReplayOptions& options) {
+                                      const ReplayOptions& given) {
   check_rig(rig);
-  if (options.loops > 1) throw std::invalid_argument("the sources of a rig cannot be repeated");
+  check_replay(sources, given);
+  ReplayOptions options = given;
+  options.own_stamps = given.own_stamps || (!sources.empty() && is_recorded(sources.front()));
   const std::vector<NamedTopic> topics = topics_of(sources, rig, options);
-  check_sensors_have_sources(rig, topics);
+  check_sensors_have_one_source(rig, topics);
   if (topics.empty()) throw std::invalid_argument("open_rig: no source");
   RigInputs inputs;
   for (const NamedTopic& named : topics)
@@ -162,7 +189,7 @@ std::unique_ptr<FrameSource> detail::open_live_rig(Middleware& middleware, const
   check_rig(rig);
   if (rig.sensors.empty()) throw std::invalid_argument("rig.sensors is empty");
   RigInputs inputs;
-  if (!rig.urdf.empty()) read_urdf(rig.urdf).add_joints(inputs.transforms);
+  if (!rig.urdf.empty()) read_urdf(rig.urdf, UrdfContent::joints).add_joints(inputs.transforms);
   inputs.feeds.push_back(live_transforms(middleware, rig.odometry));
   ReplayOptions clouds;
   clouds.class_field = options.class_field;

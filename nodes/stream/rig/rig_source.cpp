@@ -85,11 +85,21 @@ void RigSource::check_clock(Sensor& sensor, const Frame& cloud) {
       live ? std::chrono::nanoseconds(cloud.taken.time_since_epoch()).count() : cloud.recorded_ns;
   const auto number = static_cast<std::size_t>(&sensor - sensors_.data());
   const SensorClocks::Found found = clocks_.note(number, cloud.header.stamp_ns, measured);
+  if (found.jumped) drop_jumped(sensors_[*found.jumped]);
   if (!found.reference) return;
   const std::string text = found.text(sensors_[*found.reference].input.name);
   if (found.unusable)
     throw_lost(sensor, cloud, text + "; the clouds can be merged when the clocks are synchronized");
   warn(sensor, text + ": clouds of the same moment get into different frames");
+}
+
+// Drops a cloud whose stamp is of another time. It would wait for the other sensors' clouds until then.
+void RigSource::drop_jumped(Sensor& sensor) {
+  if (!sensor.next) return;
+  warn(sensor, "a cloud is dropped: its stamp " + seconds_text(sensor.next->header.stamp_ns) +
+                   " is of another time than those of the other sensors");
+  sensor.next.reset();
+  sensor.last.reset();
 }
 
 void RigSource::warn(const Sensor& sensor, const std::string& what) {
@@ -178,11 +188,6 @@ void RigSource::drop_unmatched() {
   }
 }
 
-FoundTransform RigSource::find_pose(const Sensor& sensor) {
-  if (sensor.input.pose) return {sensor.input.pose, {}, false};
-  return poses_.of_sensor(sensor.input.frame, *sensor.next);
-}
-
 // Returns whether the transforms of the next frame are there or are not waited for.
 bool RigSource::has_transforms() {
   if (!live_) return true;
@@ -194,76 +199,10 @@ bool RigSource::has_transforms() {
   });
 }
 
-// Returns the clouds of the next frame with their poses, one element for each sensor.
-std::vector<MountedCloud> RigSource::mounted_clouds(std::int64_t stamp_ns) {
-  std::vector<MountedCloud> clouds;
-  for (Sensor& sensor : sensors_) {
-    const bool present = is_member(sensor, stamp_ns);
-    if (present) {
-      const FoundTransform found = find_pose(sensor);
-      if (!found.pose) {
-        Frame lost = std::move(*sensor.next);
-        sensor.next.reset();
-        throw_lost(sensor, std::move(lost), "no pose in " + rig_.frame + ": " + found.problem);
-      }
-      sensor.pose = *found.pose;
-    }
-    clouds.push_back({present ? &*sensor.next : nullptr, sensor.input.name, sensor.pose});
-  }
-  return clouds;
-}
-
-// Adds what the merged frame has of the header of a cloud.
-void RigSource::add_cloud(Sensor& sensor, Frame& frame) {
-  const Frame& cloud = *sensor.next;
-  ++sensor.used;
-  frame.decode_ms += cloud.decode_ms;
-  frame.recorded_ns = std::max(frame.recorded_ns, cloud.recorded_ns);
-  const bool earlier = frame.taken == Clock::time_point() || cloud.taken < frame.taken;
-  if (earlier) frame.taken = cloud.taken;
-  if (!cloud.note.empty())
-    frame.note.append(frame.note.empty() ? "" : "; ")
-        .append(sensor.input.name)
-        .append(": ")
-        .append(cloud.note);
-  sensor.next.reset();
-}
-
-void RigSource::add_pose(Frame& frame) {
-  const FoundTransform found = poses_.of_rig(frame.header.stamp_ns, frame.recorded_ns);
-  frame.pose = found.pose;
-  frame.fixed_frame = rig_.fixed_frame;
-  if (found.pose || found.problem.empty()) {
-    frames_without_pose_ = 0;
-  } else if (is_power_of_ten(++frames_without_pose_)) {
-    warnings_.push_back(printable(std::to_string(frames_without_pose_) + " frames without a pose in " +
-                                  rig_.fixed_frame + ": " + found.problem));
-  }
-}
-
-void RigSource::merge(Frame& frame) {
-  const std::int64_t stamp = first_stamp();
-  const std::vector<MountedCloud> clouds = mounted_clouds(stamp);
-  const auto begin = Clock::now();
-  frame = Frame();
-  frame.header = {seq_, stamp, rig_.frame, 0};
-  frame.file = "rig";
-  merger_.merge(clouds, frame);
-  for (std::size_t k = 0; k < sensors_.size(); ++k) {
-    const bool present = clouds[k].frame != nullptr;
-    warn(sensors_[k], sensors_[k].presence.note_frame(present, stamp));
-    if (present) add_cloud(sensors_[k], frame);
-  }
-  add_pose(frame);
-  frame.decode_ms += std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  last_stamp_ = stamp;
-  ++seq_;
-}
-
 // A sensor whose clouds were all lost is a mistake in the rig, although the other sensors' frames went on.
 void RigSource::end() {
   for (Sensor& sensor : sensors_) {
-    if (sensor.late > 1 && !is_power_of_ten(sensor.late))
+    if (sensor.late > 0 && !is_power_of_ten(sensor.late))
       warn(sensor, std::to_string(std::exchange(sensor.late, 0)) + " late clouds dropped in all");
     if (sensor.clouds > 0 && sensor.used == 0)
       throw std::runtime_error(sensor.input.name + ": none of its clouds was used" +

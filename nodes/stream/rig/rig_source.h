@@ -66,6 +66,7 @@ class RigSource final : public FrameSource {
   bool is_late(const Sensor& sensor, const Frame& cloud) const;
   void drop_late(Sensor& sensor, const Frame& cloud);
   void drop_unmatched();
+  void drop_jumped(Sensor& sensor);
   void begin_repetition();
   void warn(const Sensor& sensor, const std::string& what);
   void check_clock(Sensor& sensor, const Frame& cloud);

@@ -18,7 +18,7 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// One sensor's clock is the reference: that of the first cloud. Simulated time may run faster or slower than
 /// real time, so a cloud is compared with the latest one of the reference. Another sensor becomes the
-/// reference if the reference is silent, or if its stamps jump while those of another sensor do not.
+/// reference if the reference is silent, or if the stamp of its latest cloud jumped and the others' did not.
 class SensorClocks {
  public:
   /// `sync_ns`: the largest difference of clocks that is not noticed.
@@ -29,6 +29,8 @@ class SensorClocks {
     std::optional<std::size_t> reference;  ///< Not set if the clock agrees with the reference.
     std::int64_t difference_ns = 0;        ///< To the reference.
     bool unusable = false;                 ///< The clocks differ by more than one second.
+    /// The sensor whose latest cloud has a stamp of another time, which this cloud shows.
+    std::optional<std::size_t> jumped;
 
     /// Returns how the clock differs, such as "its clock is 1.910 s ahead of that of /rear/points".
     std::string text(const std::string& reference_name) const;
@@ -43,16 +45,16 @@ class SensorClocks {
 
  private:
   struct Sensor {
-    std::optional<double> ahead;  // nanoseconds, of the latest cloud: stamp minus measured time
-    int differing = 0;            // successive clouds that differ in the same direction
+    int differing = 0;  // successive clouds that differ in the same direction
     bool reported = false;
   };
 
-  void choose_reference(std::size_t sensor, double ahead);
+  bool note_reference(std::size_t sensor, double ahead);
 
   std::vector<Sensor> sensors_;
   double sync_ns_;
   std::optional<std::size_t> reference_;
+  double latest_ = 0, before_ = 0;      // of the last two clouds of the reference: stamp minus measured time
   std::uint64_t clouds_of_others_ = 0;  // since the latest one of the reference
 };
 

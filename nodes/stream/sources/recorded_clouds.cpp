@@ -85,7 +85,11 @@ std::unique_ptr<RecordingReader> open_named_recording(const std::string& recordi
 
 std::vector<std::string> recorded_cloud_topics(const std::string& recording) {
   std::vector<std::string> names;
-  if (is_capture(recording)) return names;
+  if (is_capture(recording)) {
+    names = sensors_in_capture(recording);
+    if (names.size() < 2) names.clear();
+    return names;
+  }
   const auto reader = open_named_recording(recording);
   for (const RecordedTopic& topic : reader->topics())
     if (has_clouds(topic) && std::find(names.begin(), names.end(), topic.name) == names.end())

@@ -52,8 +52,8 @@ std::vector<SourceKind> recording_kinds();
 /// open_recording(), with errors that begin with the name of the file.
 std::unique_ptr<RecordingReader> open_named_recording(const std::string& recording);
 
-/// Returns the topics with clouds of a recording, none for a capture of packets. Throws as
-/// open_named_recording().
+/// Returns the topics with clouds of a recording. Returns the sensors of a capture of packets
+/// (sensors_in_capture()) if there are several, otherwise none. Throws as open_named_recording().
 std::vector<std::string> recorded_cloud_topics(const std::string& recording);
 
 /// Returns whether the file has the extension of a recording or capture: .bag, .mcap, .db3, .pcap, .pcapng.

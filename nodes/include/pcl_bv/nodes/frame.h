@@ -38,6 +38,7 @@ struct SensorPart {
   std::size_t count = 0;      ///< Number of its points; 0 if the sensor sent no cloud for this frame.
   std::int64_t stamp_ns = 0;  ///< Stamp of its cloud.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< Of the sensor in the frame of the points, metres.
+                                                       ///< Without a cloud: the last one.
 };
 
 /// A cloud of any point type with its header.

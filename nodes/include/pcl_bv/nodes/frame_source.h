@@ -133,13 +133,16 @@ std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOp
 
 /// A sensor of a rig.
 struct RigSensor {
-  /// Topic of its clouds, or the name of its source if the source has no topics.
+  /// Topic of its clouds, or the name of its source if the source has no topics. In a capture of packets of
+  /// several sensors: ADDRESS:PORT.
   std::string topic{};
   std::string frame{};  ///< Frame id of the sensor. If empty: the frame id of its clouds.
   /// Pose of the sensor in RigConfig::frame: x, y, z in metres, then roll, pitch, yaw in radians (rotations
   /// about the fixed axes x, y, z, in this order, as in URDF) or a quaternion x, y, z, w. If empty: from
   /// transforms.
   std::vector<double> pose{};
+  /// Name of the source that has the topic. Only needed if several sources have it.
+  std::string source{};
 };
 
 /// Several sensors whose clouds become one cloud.
@@ -173,13 +176,14 @@ struct RigConfig {
 /// Clouds belong to one frame if their stamps are less than `rig.sync_ms` after the first one, whose stamp
 /// the frame has. Frame::seconds has the time of each point, also of sensors without own times, so that
 /// deskewing compensates the different stamps. If a sensor sends nothing, the other sensors' frames go on,
-/// and take_warnings() tells which sensor is silent. A cloud of a
-/// sensor whose clock differs from the others' by more than 1 s gives a FrameError. Points without a return,
-/// at (0, 0, 0), become NaN.
+/// and take_warnings() tells which sensor is silent. A cloud of a sensor whose clock differs from the others'
+/// by more than 1 s gives a FrameError. Points without a return, at (0, 0, 0), become NaN. Clouds of
+/// recordings have their own stamps, whatever ReplayOptions::own_stamps is.
 ///
 /// Throws as open_source() for each source, std::invalid_argument if a sensor of `rig.sensors` has no source
-/// or the other way round, or if no recording has the topic `rig.odometry`, and IoError if the URDF cannot be
-/// read.
+/// or the other way round, or if several sources have its topic and it names none of them, if sources are of
+/// different kinds (FrameTimes), if `options` has loops or a frame_id, or if no recording has the topic
+/// `rig.odometry`, and IoError if the URDF cannot be read.
 std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, const RigConfig& rig,
                                       const ReplayOptions& options = {});
 

@@ -50,6 +50,10 @@ RawCloud raw_cloud_of(const SensorSweep& sweep);
 /// Returns whether the first bytes of the file are those of a capture of packets (.pcap, .pcapng).
 bool is_capture(const std::filesystem::path& file);
 
+/// Returns the source addresses and destination ports of the sensors in the first 20 000 UDP packets of a
+/// capture, such as "192.168.1.201:2368", in ascending order. Throws IoError if the file is not a capture.
+std::vector<std::string> sensors_in_capture(const std::filesystem::path& file);
+
 /// Reads the sweeps in a capture. The families of sensors are:
 /// - Velodyne (VLP-16, HDL-32E, VLP-32C). Ring 0 is the lowest beam. y is at azimuth 0, x at azimuth 90
 ///   degrees. The intensity is 0 to 255. Azimuths are as in PCL's grabbers: all returns of a block have the
