@@ -128,23 +128,7 @@ std::string deskew_warning(const FrameResult& result) {
     const std::string reason = result.config->deskew == Deskew::on ? reason_not_moved(result) : "";
     return reason.empty() ? "" : "points cannot be moved to the stamp: " + reason;
   }
-  std::string text;
-  char line[160];
-  if (times.origin == DeskewTimes::Origin::first_point) {
-    std::snprintf(
-        line, sizeof line,
-        "the times of the points differ from the stamp by %.6g s: the first point is assumed to have "
-        "the time of the stamp",
-        times.clock_difference);
-    text = line;
-  }
-  if (times.outside > 0) {
-    std::snprintf(line, sizeof line,
-                  "%s%zu points have no time of the sweep, or a time far from its median: they are not moved",
-                  text.empty() ? "" : "; ", times.outside);
-    text += line;
-  }
-  return text;
+  return detail::times_warning(times);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_bv {
@@ -125,6 +126,20 @@ inline std::vector<std::string> fragments_of(const std::string& ip, unsigned ide
 }
 
 // Times count `time` on, in units of the power of ten `resolution`.
+// A capture of packets from these addresses of 192.168.1.0/24.
+inline std::string pcap_of(const std::vector<std::pair<std::uint8_t, std::string>>& packets) {
+  std::string file = pcap({});
+  unsigned microseconds = 0;
+  for (const auto& [address, payload] : packets) {
+    std::string one = pcap({payload}).substr(24);
+    one.replace(4, 4, bytes_of(microseconds, 4));
+    one.replace(16 + 14 + 12, 4, std::string("\xC0\xA8\x01", 3) + static_cast<char>(address));
+    file += one;
+    microseconds += 663;
+  }
+  return file;
+}
+
 inline std::string pcapng(const std::vector<std::string>& payloads, bool big, unsigned resolution = 9,
                           std::uint64_t time = 100'000'000'000) {
   std::string file =

@@ -128,19 +128,6 @@ TEST_F(Velodyne, ThatTurnsTheOtherWayHasTurns) {
   EXPECT_EQ(sweeps[1].points.size(), 900U * 32);
 }
 
-std::string pcap_of(const std::vector<std::pair<std::uint8_t, std::string>>& packets) {
-  std::string file = pcap({});
-  unsigned microseconds = 0;
-  for (const auto& [address, payload] : packets) {
-    std::string one = pcap({payload}).substr(24);
-    one.replace(4, 4, pcl_bv::bytes_of(microseconds, 4));
-    one.replace(16 + 14 + 12, 4, std::string("\xC0\xA8\x01", 3) + static_cast<char>(address));
-    file += one;
-    microseconds += 663;
-  }
-  return file;
-}
-
 TEST_F(Velodyne, OfSeveralSensorsGivesTheTurnsOfEach) {
   const std::vector<std::string> one = three_turns();
   for (const unsigned apart : {18'000U, 9'000U, 100U}) {

@@ -64,7 +64,7 @@ void FragmentBuffer::begin(Datagram& datagram, const IpPacket& fragment, std::in
 }
 
 // Returns the datagram of the fragment. A new one replaces the oldest, complete or not. A complete datagram
-// is kept as long as possible, so that repeated fragments are recognised.
+// is retained as long as possible, so that repeated fragments are recognised.
 FragmentBuffer::Datagram& FragmentBuffer::datagram_of(const IpPacket& fragment, std::int64_t time_ns) {
   const auto found = std::find_if(datagrams_.begin(), datagrams_.end(),
                                   [&](const Datagram& datagram) { return datagram.is_of(fragment); });

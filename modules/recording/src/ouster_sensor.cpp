@@ -66,8 +66,8 @@ OusterGeometry::OusterGeometry(const OusterMetadata& metadata) {
     return metadata.lidar_to_sensor[4 * row + column];
   };
   for (std::size_t m = 0; m < metadata.columns_per_frame; ++m) {
-    const double turn = static_cast<double>(m) / static_cast<double>(metadata.columns_per_frame);
-    const double encoder = 2 * kOusterPi * (1 - turn);
+    const double part = static_cast<double>(m) / static_cast<double>(metadata.columns_per_frame);
+    const double encoder = 2 * kOusterPi * (1 - part);  // of a rotation
     const double c = std::cos(encoder), s = std::sin(encoder);
     Column& column = columns.emplace_back();
     for (std::size_t row = 0; row < 3; ++row) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "visit_numbers.h"
 
@@ -15,10 +16,6 @@ namespace {
 constexpr std::array<TimeUnit, 4> kUnits{{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
 constexpr std::size_t kSampleSize = 1024;
 constexpr double kShortestSweep = 1e-3, kLongestSweep = 1;  // seconds
-
-bool has_return(const Coordinates& point) {
-  return is_valid(point) && (point.x != 0 || point.y != 0 || point.z != 0);
-}
 
 // Returns numbers below `count` that are spread evenly for i = 0, 1, ... (multiples of the golden ratio,
 // modulo 1). With a constant step, all points of a sample could be those of one beam.
@@ -152,6 +149,26 @@ DeskewTimes PointTimes::read(const FieldView& field, const PointView& points, st
   find_time_limits(seconds, points.count, times);
   if (outside > 0) times.outside = count_outside(field, points, median, max_offset);
   return times;
+}
+
+std::string times_warning(const DeskewTimes& times) {
+  std::string text;
+  char line[160];
+  if (times.origin == DeskewTimes::Origin::first_point) {
+    std::snprintf(
+        line, sizeof line,
+        "the times of the points differ from the stamp by %.6g s: the first point is assumed to have "
+        "the time of the stamp",
+        times.clock_difference);
+    text = line;
+  }
+  if (times.outside > 0) {
+    std::snprintf(line, sizeof line,
+                  "%s%zu points have no time of the sweep, or a time far from its median: they are not moved",
+                  text.empty() ? "" : "; ", times.outside);
+    text += line;
+  }
+  return text;
 }
 
 }  // namespace pcl_bv::detail

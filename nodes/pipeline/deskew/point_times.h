@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
@@ -14,6 +15,11 @@
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
+
+/// Returns whether the point is a return: drivers write (0, 0, 0) or NaN for rays without one.
+inline bool has_return(const Coordinates& point) {
+  return is_valid(point) && (point.x != 0 || point.y != 0 || point.z != 0);
+}
 
 /// Reads the times of points. Drivers write them in seconds, milliseconds, microseconds or nanoseconds, since
 /// the stamp, since the start of the sensor, or since 1970.
@@ -37,6 +43,10 @@ class PointTimes {
 
   std::vector<double> sample_;
 };
+
+/// Returns a warning if the times are relative to an unknown origin, or if points have no time of the sweep;
+/// otherwise an empty text.
+std::string times_warning(const DeskewTimes& times);
 
 /// Sets the smallest and largest of at least one time.
 void find_time_limits(const float* seconds, std::size_t count, DeskewTimes& times);

@@ -75,6 +75,12 @@ std::optional<Eigen::Vector3d> mean_position(const std::vector<SensorPart>& part
   return count > 0 ? stored_sensor_position(sum / count) : std::nullopt;
 }
 
+bool has_any_return(const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i)
+    if (has_return(load_point(points, i))) return true;
+  return false;
+}
+
 }  // namespace
 
 // New memory costs a page fault for each 4096 bytes, which takes longer than the transform.
@@ -96,6 +102,17 @@ std::shared_ptr<CloudMerger::Memory> CloudMerger::take_memory() {
           }};
 }
 
+// Warns once for each sensor.
+void CloudMerger::warn_of_times(const MountedCloud& cloud, const DeskewTimes& times) {
+  std::string warning = times_warning(times);
+  if (times.problem == DeskewTimes::Problem::no_sweep)
+    warning = "the times of its points are not those of a sweep; they are ignored";
+  if (times.problem == DeskewTimes::Problem::no_time && has_any_return(cloud.frame->points))
+    warning = "no point has a time";
+  if (warning.empty() || !warned_.insert(cloud.name).second) return;
+  warnings_.push_back(printable(cloud.name + ": " + warning));
+}
+
 // Writes the seconds of each point after the stamp of the merged cloud.
 void CloudMerger::write_times(const MountedCloud& cloud, std::int64_t stamp_ns, float* seconds) {
   const Frame& frame = *cloud.frame;
@@ -104,12 +121,7 @@ void CloudMerger::write_times(const MountedCloud& cloud, std::int64_t stamp_ns, 
   if (frame.times) {
     const DeskewTimes times = point_times_.read(*frame.times, frame.points, frame.header.stamp_ns, seconds);
     known = times.problem == DeskewTimes::Problem::none;
-    if (!known && !frame.points.empty() &&
-        std::find(warned_.begin(), warned_.end(), cloud.name) == warned_.end()) {
-      warned_.push_back(cloud.name);
-      warnings_.push_back(
-          printable(cloud.name + ": the times of its points are not those of a sweep; they are ignored"));
-    }
+    warn_of_times(cloud, times);
   }
   if (!known) {
     std::fill_n(seconds, frame.points.count, offset);
@@ -119,48 +131,52 @@ void CloudMerger::write_times(const MountedCloud& cloud, std::int64_t stamp_ns, 
   }
 }
 
+// Copies a cloud to its part of the merged cloud.
+void CloudMerger::copy(const MountedCloud& cloud, const SensorPart& part, ScalarType scalar, Memory& memory) {
+  const PointView& points = cloud.frame->points;
+  const RigidTransform transform = rows_of(cloud.pose);
+  std::byte* const xyz = reinterpret_cast<std::byte*>(memory.xyz.data()) + part.first * 3 * size_of(scalar);
+  if (points.scalar == scalar) {
+    transform_points(isa_, points, transform, xyz);
+  } else {
+    transform_to_double(isa_, points, transform, xyz);
+  }
+  if (memory.has_intensity) {
+    float* const values = memory.intensity.data() + part.first;
+    visit_numbers(*cloud.frame->intensity, part.count,
+                  [&](std::size_t i, double value) { values[i] = static_cast<float>(value); });
+  }
+  if (memory.has_classes)
+    memory.classes.insert(memory.classes.end(), cloud.frame->classes->begin(), cloud.frame->classes->end());
+}
+
 void CloudMerger::merge(const std::vector<MountedCloud>& clouds, Frame& merged) {
   const FloatEnvironment environment;
   std::size_t total = 0;
   merged.sensors = parts_of(clouds, total);
   merged.sensor = mean_position(merged.sensors);
   const ScalarType scalar = widest_scalar(clouds);
-  const std::size_t step = 3 * size_of(scalar);
   const std::shared_ptr<Memory> memory = take_memory();
-  const bool intensity = all_have(clouds, [](const Frame&frame) { return frame.intensity.has_value(); }),
-             classes = all_have(clouds, [](const Frame&frame) { return frame.classes != nullptr; });
-  memory->xyz.resize((total * step + sizeof(double) - 1) / sizeof(double));
+  memory->has_intensity = all_have(clouds, [](const Frame& frame) { return frame.intensity.has_value(); });
+  memory->has_classes = all_have(clouds, [](const Frame& frame) { return frame.classes != nullptr; });
+  memory->xyz.resize((total * 3 * size_of(scalar) + sizeof(double) - 1) / sizeof(double));
   if (times_) memory->seconds.resize(total);
-  if (intensity) memory->intensity.resize(total);
+  if (memory->has_intensity) memory->intensity.resize(total);
   memory->classes.clear();
-  auto* const xyz = reinterpret_cast<std::byte*>(memory->xyz.data());
   for (std::size_t k = 0; k < clouds.size(); ++k) {
     const SensorPart& part = merged.sensors[k];
     if (part.count == 0) continue;
-    const Frame& frame = *clouds[k].frame;
-    const RigidTransform transform = rows_of(clouds[k].pose);
-    std::byte* const to = xyz + part.first * step;
-    if (frame.points.scalar == scalar) {
-      transform_points(isa_, frame.points, transform, to);
-    } else {
-      transform_to_double(isa_, frame.points, transform, to);
-    }
+    copy(clouds[k], part, scalar, *memory);
     if (times_) write_times(clouds[k], merged.header.stamp_ns, memory->seconds.data() + part.first);
-    if (intensity) {
-      float* const values = memory->intensity.data() + part.first;
-      visit_numbers(*frame.intensity, part.count,
-                    [&](std::size_t i, double value) { values[i] = static_cast<float>(value); });
-    }
-    if (classes) memory->classes.insert(memory->classes.end(), frame.classes->begin(), frame.classes->end());
   }
-  merged.points = packed_points(xyz, scalar, total);
+  merged.points = packed_points(reinterpret_cast<const std::byte*>(memory->xyz.data()), scalar, total);
   merged.seconds = times_ ? memory->seconds.data() : nullptr;
   merged.intensity.reset();
-  if (intensity && total > 0)
+  if (memory->has_intensity && total > 0)
     merged.intensity =
         FieldView{reinterpret_cast<const std::byte*>(memory->intensity.data()), sizeof(float), 'F', 4};
   merged.classes.reset();
-  if (classes) merged.classes = {memory, &memory->classes};
+  if (memory->has_classes) merged.classes = {memory, &memory->classes};
   merged.owner = memory;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,8 +25,8 @@ struct MountedCloud {
   Pose pose = Pose::Identity();
 };
 
-/// Merges the clouds of several sensors into one. Each point is copied once, transformed. Keeps the memory of
-/// merged clouds that nobody uses any more for the next ones.
+/// Merges the clouds of several sensors into one. Each point is copied once, transformed. Reuses the memory
+/// of released clouds.
 class CloudMerger {
  public:
   /// If `times`, merged clouds have Frame::seconds. The instruction set does not change the result.
@@ -35,8 +36,9 @@ class CloudMerger {
   /// are set if all clouds have them. `merged.header.stamp_ns` must be set. O(points).
   void merge(const std::vector<MountedCloud>& clouds, Frame& merged);
 
-  /// Returns the warnings since the last call, one line each. There is one if the times of the points of a
-  /// sensor cannot be read; its points then get the stamp of their cloud.
+  /// Returns the warnings since the last call, one line each. There is one for each sensor
+  /// whose times of points are unusual (times_warning()) or cannot be read; without times, points get the
+  /// stamp of their cloud.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -44,6 +46,7 @@ class CloudMerger {
     std::vector<double> xyz;  // as float32 or float64
     std::vector<float> seconds, intensity;
     std::vector<std::int64_t> classes;
+    bool has_intensity = false, has_classes = false;
   };
   // Memory of frames that have been processed, by any thread.
   struct Pool {
@@ -52,13 +55,16 @@ class CloudMerger {
   };
 
   std::shared_ptr<Memory> take_memory();
+  void copy(const MountedCloud& cloud, const SensorPart& part, ScalarType scalar, Memory& memory);
+  void warn_of_times(const MountedCloud& cloud, const DeskewTimes& times);
   void write_times(const MountedCloud& cloud, std::int64_t stamp_ns, float* seconds);
 
   bool times_;
   UsableIsa isa_;
   PointTimes point_times_;
   std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
-  std::vector<std::string> warnings_, warned_;  // names of sensors that a warning named
+  std::vector<std::string> warnings_;
+  std::set<std::string> warned_;  // names of sensors that a warning named
 };
 
 }  // namespace detail

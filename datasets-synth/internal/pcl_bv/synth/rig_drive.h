@@ -55,7 +55,8 @@ struct RigSweep {
 /// The yard and the robot in it. The same options give the same bits on the same machine.
 class RigDrive {
  public:
-  /// Throws std::invalid_argument unless the numbers are positive (the noise may be 0).
+  /// Throws std::invalid_argument unless the numbers are positive (the noise may be 0) and there
+  /// are at least two beams.
   explicit RigDrive(const RigDriveOptions& options);
 
   /// Returns the pose of the robot in the fixed frame. The robot's origin is on the ground.
@@ -72,11 +73,12 @@ class RigDrive {
   std::vector<RigObject> standing_;
 };
 
-/// Parses "rig[:FRAMES[:SEED]]" (300 frames, seed 1). Throws std::invalid_argument for another text.
+/// Length and seed of a recording of the drive.
 struct RigSequence {
   std::size_t frames = 300;
   std::uint64_t seed = 1;
 };
+/// Parses "rig[:FRAMES[:SEED]]". Throws std::invalid_argument for another text.
 RigSequence parse_rig_sequence(const std::string& text);
 /// Returns whether the text begins as those of parse_rig_sequence().
 bool is_rig_sequence(const std::string& text);

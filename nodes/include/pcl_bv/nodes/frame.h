@@ -64,7 +64,7 @@ struct Frame {
   /// Same as `times`, but in seconds after the stamp, one for each point. Used instead of `times` if not
   /// null.
   const float* seconds = nullptr;
-  std::optional<Pose> pose;   ///< Pose of the sensor in a fixed frame, if known.
+  std::optional<Pose> pose;   ///< Of the frame of the points (a sensor or a rig) in a fixed frame, if known.
   std::string fixed_frame{};  ///< Name of that fixed frame, if known.
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.
