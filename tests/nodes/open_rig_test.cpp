@@ -95,7 +95,7 @@ TEST_F(OpenRig, RefusesWhatItCannotMerge) {
 TEST_F(OpenRig, HasASensorForEachAddressInACapture) {
   std::vector<std::pair<std::uint8_t, std::string>> packets;
   for (unsigned azimuth = 0; azimuth < 80'000; azimuth += 480)
-    for (const std::uint8_t address : {201, 202})
+    for (const std::uint8_t address : {std::uint8_t{201}, std::uint8_t{202}})
       packets.emplace_back(address, packet(azimuth % 36'000, 40, 0x37, 0x22));
   write("two.pcap", pcap_of(packets));
   const std::string capture = (path_ / "two.pcap").string();
