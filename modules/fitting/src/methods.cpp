@@ -192,17 +192,23 @@ EstimationResult fit_method(const Method& method, const PointView& points, const
   return method.implementation->fit(points, options, volume, execution);
 }
 
+std::optional<DirectionSet> directions_of(const std::vector<const Method*>& among) {
+  std::optional<DirectionSet> widest;
+  for (const Method* method : among) {
+    const std::optional<DirectionSet>& directions = method->implementation->directions;
+    if (directions) widest = !widest ? *directions : union_of(*widest, *directions);
+  }
+  return widest;
+}
+
 FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
                             const FitExecution& execution, Supports& supports) {
   std::size_t with_supports = 0, with_hull = 0;
-  std::optional<DirectionSet> widest;
   for (const Method* method : among) {
     with_hull += method->implementation->needs_hull ? 1 : 0;
-    const std::optional<DirectionSet>& directions = method->implementation->directions;
-    if (!directions) continue;
-    ++with_supports;
-    widest = !widest ? *directions : union_of(*widest, *directions);
+    with_supports += method->implementation->directions ? 1 : 0;
   }
+  const std::optional<DirectionSet> widest = directions_of(among);
   const bool hull = with_hull > 1;
   if (!hull && (with_supports < 2 || *widest == DirectionSet::dop6)) return execution;
   supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);

@@ -95,7 +95,7 @@ Summary summarize(const PointView& points, const FitExecution& execution) {
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
       [&](const ChunkSupports& found) { search.merge(found); });
-  summary.supports = supports_of_search(search, set, points);
+  summary.supports = supports_of_search(search, set, points, search.dropped());
   summary.supports.rank = point_rank(points, summary.supports, execution);
   finish(moments, summary);
   return summary;

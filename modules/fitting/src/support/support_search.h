@@ -72,9 +72,10 @@ class SupportSearch {
 Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,
                         const SupportPoint& high);
 
-/// Returns the supports that a search along the directions of `set` has found among all points of a view. The
-/// rank is not set.
-Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
+/// Returns the supports that a search along the directions of `set` has found for all points of a view, of
+/// which `dropped` are not valid. The rank is not set.
+Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points,
+                            std::size_t dropped);
 
 /// These functions compute the supports of the axis-aligned box chunk by chunk. empty_bounds() returns the
 /// start value, merge_bounds() adds the box of a chunk, and finish_bounds() sets the number of valid points.

@@ -47,7 +47,7 @@ Supports find_bounds(const PointView& points, const FitExecution& execution) {
 Supports find_points(const PointView& points, DirectionSet set, const FitExecution& execution) {
   SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
   search.run(points, execution);
-  return supports_of_search(search, set, points);
+  return supports_of_search(search, set, points, search.dropped());
 }
 
 }  // namespace
@@ -110,12 +110,13 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
   return {project_down(n, low.point), project_up(n, high.point), low, high};
 }
 
-Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points) {
+Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points,
+                            std::size_t dropped) {
   Supports supports;
   supports.set = set;
   supports.detail = SupportDetail::points;
   supports.points = points;
-  supports.dropped = search.dropped();
+  supports.dropped = dropped;
   supports.used = points.count - supports.dropped;
   for (std::size_t k = 0; k < direction_count(set) && supports.used > 0; ++k)
     supports.along[k] = search.along(k);
@@ -152,6 +153,31 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
     return part_of(*execution.supports, set);
   const bool bounds = set == DirectionSet::dop6 && detail == SupportDetail::bounds;
   Supports supports = bounds ? find_bounds(points, execution) : find_points(points, set, execution);
+  supports.rank = point_rank(points, supports, execution);
+  return supports;
+}
+
+Supports find_supports_among(const PointView& points, const std::vector<PointView>& candidates,
+                             DirectionSet set, std::size_t dropped, const FitExecution& execution) {
+  const FloatEnvironment environment;
+  SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
+  for (const PointView& part : candidates)
+    search.merge(search.find(LoadedPoints(part, 0, part.count).view()));
+  Supports supports = supports_of_search(search, set, points, dropped);
+  supports.rank = point_rank(points, supports, execution);
+  return supports;
+}
+
+Supports supports_of_bounds(const PointView& points, const std::array<float, 3>& low,
+                            const std::array<float, 3>& high, std::size_t dropped,
+                            const FitExecution& execution) {
+  const FloatEnvironment environment;
+  Supports supports = empty_bounds(points);
+  const auto as_double = [](const std::array<float, 3>& p) {
+    return std::array<double, 3>{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0};
+  };
+  merge_bounds({as_double(low), as_double(high), dropped}, supports);
+  finish_bounds(supports);
   supports.rank = point_rank(points, supports, execution);
   return supports;
 }

@@ -61,6 +61,10 @@ struct MethodFit {
 EstimationResult fit_method(const Method& method, const PointView& points, const MethodOptions& options,
                             AnyVolume& volume, const FitExecution& execution);
 
+/// Returns the smallest set with all directions whose supports the methods find first; nothing if no method
+/// finds any.
+std::optional<DirectionSet> directions_of(const std::vector<const Method*>& among);
+
 /// Prepares the fits of several methods to the same points, and returns the execution for these fits. If two
 /// or more methods need the convex hull, computes the supports along dop26 and the hull. Otherwise, if two or
 /// more methods find supports first, computes the supports along all their directions, unless these are only

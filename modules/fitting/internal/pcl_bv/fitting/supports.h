@@ -78,6 +78,19 @@ struct FitExecution : Execution {
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const FitExecution& execution = {});
 
+/// Returns the supports that find_supports() finds for `points` with SupportDetail::points, if the caller has
+/// rejected points. `candidates` must have every support point, as views of parts of `points` with at most
+/// kChunkPoints points each: slices, or copies with the indices of the cloud. `dropped` is the number of
+/// points of the cloud that are not valid. `points` is only read for the rank.
+Supports find_supports_among(const PointView& points, const std::vector<PointView>& candidates,
+                             DirectionSet set, std::size_t dropped, const FitExecution& execution);
+
+/// Returns the supports that find_supports() finds for `points` along dop6 with SupportDetail::bounds, from
+/// the smallest and largest coordinates of the valid points. `points` is only read for the rank.
+Supports supports_of_bounds(const PointView& points, const std::array<float, 3>& low,
+                            const std::array<float, 3>& high, std::size_t dropped,
+                            const FitExecution& execution);
+
 /// Returns the axis-aligned box, or the k-DOP along all directions of supports.set. The volume is empty
 /// without a valid point.
 Aabb aabb_of(const Supports& supports);
