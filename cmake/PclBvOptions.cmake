@@ -1,6 +1,6 @@
 # What to build. As a subproject: only the libraries whose dependencies are few, nothing to install, no commands.
 # `segmentation` is a part of core; the name is still accepted.
-set(all_components core pcl segmentation io report messages recording nodes dds draco live ros1 mpi python)
+set(all_components core pcl segmentation io report messages recording gpu nodes dds draco live ros1 mpi python)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
 else()

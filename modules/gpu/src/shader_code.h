@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The compiled shaders. The build compiles modules/gpu/shaders/NAME.comp to SPIR-V and writes NAME_code().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_bv::detail {
+
+struct ShaderCode {
+  const std::uint32_t* words;
+  std::size_t bytes;
+};
+
+ShaderCode extremes_code();
+ShaderCode candidates_code();
+
+}  // namespace pcl_bv::detail

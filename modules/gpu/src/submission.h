@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <vector>
+
+#include "compute_pipeline.h"
+#include "device_buffer.h"
+
+namespace pcl_bv::detail {
+
+/// A part of a buffer as a shader sees it. `offset` must be a multiple of GpuContext::binding_alignment().
+struct Binding {
+  const DeviceBuffer* buffer;
+  std::size_t offset = 0;
+  std::size_t bytes = VK_WHOLE_SIZE;
+};
+
+/// A list of commands for the device. Each command sees what the commands before it have written.
+class Submission {
+ public:
+  explicit Submission(std::shared_ptr<GpuContext> context);
+  ~Submission();
+  Submission(const Submission&) = delete;
+  Submission& operator=(const Submission&) = delete;
+
+  void copy(const DeviceBuffer& from, std::size_t from_offset, const DeviceBuffer& to, std::size_t to_offset,
+            std::size_t bytes);
+  void fill(const DeviceBuffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value);
+
+  /// Runs a shader with `groups` workgroups, at most 65535. `push` has the size that the shader declares.
+  template <typename Push>
+  void dispatch(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings, const Push& push,
+                std::uint32_t groups) {
+    dispatch(pipeline, bindings, &push, sizeof push, groups);
+  }
+
+  /// Executes the commands and waits for them. To be called once.
+  void run();
+
+ private:
+  void dispatch(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings, const void* push,
+                std::size_t push_bytes, std::uint32_t groups);
+  VkDescriptorSet descriptors(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings);
+  void wait_for_earlier_commands();
+
+  std::shared_ptr<GpuContext> context_;
+  CommandSlot slot_;
+  std::vector<VkDescriptorPool> pools_;
+  std::size_t sets_in_pool_ = 0;
+};
+
+}  // namespace pcl_bv::detail
