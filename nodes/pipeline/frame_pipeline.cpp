@@ -88,6 +88,7 @@ struct FramePipeline::State {
   void refine_clusters(const Prepared& now, const Frame& frame, FrameResult& result);
   void make_views(const PointView& cloud, const FrameResult& result);
   void limit_extents(const Prepared& now, const PointView& cloud, FrameResult& result);
+  void find_supports_by_device(const Prepared& now);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
 
   mutable std::mutex mutex;
@@ -101,6 +102,7 @@ struct FramePipeline::State {
   ClassClusterer class_clusterer;
   ClusterRefiner refiner;
   std::vector<PointView> views;  // points of each cluster
+  std::shared_ptr<SupportFinder> supports_by_device;
   ExtentLimits extents;
   TrackedVolumes tracks;
 };
@@ -260,8 +262,15 @@ void FramePipeline::State::refine_clusters(const Prepared& now, const Frame& fra
                         result.refinements, result.counts);
 }
 
+// Lets the device, if there is one, find the supports that any class of clusters needs.
+void FramePipeline::State::find_supports_by_device(const Prepared& now) {
+  const std::optional<DirectionSet> set = directions_of(now.methods);
+  if (supports_by_device != nullptr && set) supports_by_device->find(views, *set, now.execution);
+}
+
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
   make_views(cloud, result);
+  find_supports_by_device(now);
   const std::size_t methods = now.methods.size();
   result.methods.assign(now.methods.begin(), now.methods.end());
   reserve_ahead(result.volumes, views.size() * methods);
@@ -273,9 +282,10 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
     const std::vector<const Method*>& requested_methods = now.classes.methods_of(
         result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
+    const Supports* const known = supports_by_device ? supports_by_device->found(cluster) : nullptr;
     detail::Supports supports;
     const detail::FitExecution shared =
-        detail::share_supports(views[cluster], requested_methods, execution, supports);
+        detail::share_supports(views[cluster], requested_methods, {execution, known}, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
       result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) !=
@@ -310,6 +320,10 @@ void FramePipeline::set_config(PipelineConfig config) {
 
 PipelineConfig FramePipeline::config() const {
   return state_->current()->config;
+}
+
+void FramePipeline::set_support_finder(std::shared_ptr<SupportFinder> finder) {
+  state_->supports_by_device = std::move(finder);
 }
 
 void FramePipeline::process(const Frame& frame, FrameResult& result) {

@@ -13,6 +13,10 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+namespace detail {
+class SupportFinder;
+}
+
 /// Processes frames of any point type: filter, ground removal, clustering, volume fitting and tracking.
 ///
 /// Each stage gives the next stage a list of indices into the frame's cloud, not a copy of the points. A
@@ -49,6 +53,10 @@ class FramePipeline {
   /// sweep twice and then deletes all tracks, so call it before the sensor's first frame. Only the capacity
   /// of `result` is meaningful afterwards.
   void reserve(std::size_t points, FrameResult& result);
+
+  /// Private. Lets a device find the supports of the clusters, which changes no bit. Null: the processor
+  /// does.
+  void set_support_finder(std::shared_ptr<detail::SupportFinder> finder);
 
  private:
   struct State;

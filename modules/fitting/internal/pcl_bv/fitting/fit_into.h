@@ -73,5 +73,19 @@ std::optional<DirectionSet> directions_of(const std::vector<const Method*>& amon
 FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
                             const FitExecution& execution, Supports& supports);
 
+/// Finds supports of several views of a cloud before they are fitted, on a device other than the processor.
+class SupportFinder {
+ public:
+  virtual ~SupportFinder() = default;
+
+  /// Finds supports along `set` for as many of the views as it pays for, and forgets those of earlier calls.
+  /// May throw.
+  virtual void find(const std::vector<PointView>& views, DirectionSet set, const Execution& execution) = 0;
+
+  /// Returns the supports of view i, or null if they were not found. Several threads may call found() at a
+  /// time.
+  virtual const Supports* found(std::size_t i) const = 0;
+};
+
 }  // namespace detail
 }  // namespace pcl_bv

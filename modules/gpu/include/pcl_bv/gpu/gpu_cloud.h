@@ -79,4 +79,4 @@ class GpuCloud {
   std::shared_ptr<const detail::DevicePoints> points_;
 };
 
-}  // namespacepcl_bv
+}  // namespace pcl_bv

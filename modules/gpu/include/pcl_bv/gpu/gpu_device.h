@@ -94,4 +94,4 @@ class GpuDevice {
   std::shared_ptr<detail::GpuContext> context_;
 };
 
-}  // namespacepcl_bv
+}  // namespace pcl_bv

@@ -29,4 +29,4 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 std::vector<Fitted<AnyVolume>> fit(const GpuCloud& cloud, const std::vector<const Method*>& methods,
                                    const MethodOptions& options = {}, const Execution& execution = {});
 
-}  // namespacepcl_bv
+}  // namespace pcl_bv
