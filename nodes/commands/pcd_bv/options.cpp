@@ -12,6 +12,7 @@
 #include "commands/shared/command_line.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
+#include "gpu_supports.h"
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/report/picture.h"
@@ -49,7 +50,8 @@ const char* name_of(PcdBvCommand command) {
 /// The values of the command line as texts, before they are parsed.
 struct Texts {
   std::vector<std::string> inputs;
-  std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part;
+  std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
+      gpu;
   bool together = false, merge = false, check = false, info = false, timings = false, progress = false;
 };
 
@@ -67,6 +69,8 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
     line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
+    line.option("--gpu", texts.gpu, "DEVICE",
+                "Fit on a graphics card: auto, its number or a part of its name;\nwith --version: list them");
   }
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
@@ -220,6 +224,8 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   options.tiled = texts.together;
   options.threads_given = line.given("--threads");
   if (command == PcdBvCommand::serial) read_parts(line, texts, options);
+  options.gpu = texts.gpu;
+  if (!options.gpu.empty()) reject_combinations(line, "--gpu", {"--partial", "--merge"});
   if (options.tiled || options.merge) reject_for_tiled_cloud(line, options);
   return options;
 }
@@ -233,7 +239,10 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
   Texts texts;
   declare(line, texts, command);
   SettingOptions settings(line, {whole_cloud_config(), {}}, false);
-  if (auto text = line.parse(argc, argv)) return *std::move(text);
+  if (auto text = line.parse(argc, argv)) {
+    if (!texts.gpu.empty() && line.given("--version")) *text += gpu_list();
+    return *std::move(text);
+  }
   std::string range_from;
   StreamConfig config = settings.config(&range_from);
   if (settings.print_config()) return to_yaml(config);

@@ -45,6 +45,7 @@ struct Options {
   bool merge = false;  ///< Whether inputs are files of partial results.
   std::optional<std::filesystem::path> partial;  ///< File for partial results instead of volumes.
   ShareOption share;                             ///< The share of points that the partial results cover.
+  std::string gpu;                               ///< Value of --gpu; empty without it.
   bool threads_given = false;                    ///< Whether --threads was given.
   bool check = false;
   bool info = false;

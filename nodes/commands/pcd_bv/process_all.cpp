@@ -8,6 +8,7 @@
 #include <malloc.h>
 
 #include "commands/shared/interruption.h"
+#include "gpu_supports.h"
 #include "ordered_results.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
@@ -24,9 +25,11 @@ void keep_freed_memory() {
 #endif
 }
 
-void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& order) {
+void work(const std::vector<Job>& jobs, const Options& options, const MakeSupportFinder& make_finder,
+          OrderedResults& order) {
   try {
     FramePipeline pipeline(options.pipeline);
+    if (make_finder) pipeline.set_support_finder(make_finder());
     while (const auto job = order.next()) {
       const auto early = [&](auto& messages, auto& text) { return order.write_early(*job, messages, text); };
       order.add_result(*job, do_job(jobs[*job], options, pipeline, early));
@@ -43,12 +46,13 @@ Status process_all(const std::vector<Job>& jobs, const Options& options) {
   const ParallelPolicy policy = options.pipeline.execution().parallel;
   const unsigned threads = thread_count(policy);
   const unsigned workers = jobs.size() >= threads ? threads : 1;
+  const MakeSupportFinder make_finder = options.gpu.empty() ? MakeSupportFinder() : open_gpu(options.gpu);
   Options each = options;
   if (workers > 1) each.pipeline.threads = 1;
   if (jobs.size() > 1) keep_freed_memory();
   OrderedResults order(options, jobs.size(), workers);
   const Interruption interruption([&] { order.interrupt(); });
-  for_each_chunk(policy, workers, [&](std::size_t) { work(jobs, each, order); });
+  for_each_chunk(policy, workers, [&](std::size_t) { work(jobs, each, make_finder, order); });
   return order.finish();
 }
 
