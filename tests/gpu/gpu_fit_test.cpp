@@ -228,6 +228,10 @@ TEST(GpuFit, IsCleanUnderTheValidationLayer) {
     const GpuCloud on_device(*device, cloud.view(), HostPoints::release);
     for (const std::vector<const Method*>& methods : method_lists())
       expect_same(fit(on_device, methods), fit_methods(cloud.view(), methods), methods);
+    const std::vector<const Method*> boxes = test::methods_named({"dop26"});
+    EXPECT_EQ(fit(on_device, std::vector<std::size_t>{0, 1000, 150'000, 200'000}, boxes).size(), 3U);
+    IndexLists lists{{5, 6, 7, 8, 9}, {0, 5}};
+    EXPECT_EQ(fit(GpuCloud(*device, cloud.view().slice(0, 100)), lists, boxes).size(), 1U);
   }
   EXPECT_EQ(device->validation_messages(), std::vector<std::string>());
 }

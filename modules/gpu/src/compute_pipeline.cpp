@@ -18,8 +18,10 @@ ShaderLayout layout_of(Shader shader) {
   switch (shader) {
     case Shader::extremes:
       return {extremes_code(), 3, 28};
+    case Shader::candidates:
+      return {candidates_code(), 3, 20};
     default:
-      return {candidates_code(), 3, 24};
+      return {clusters_code(), 5, 20};
   }
 }
 

@@ -12,8 +12,9 @@ namespace pcl_bv::detail {
 
 /// The shaders in modules/gpu/shaders.
 enum class Shader : std::uint8_t {
-  extremes,   ///< extremes.comp: the extremes of each block and of the cloud.
-  candidates  ///< candidates.comp: lists the blocks that can have a support.
+  extremes,    ///< extremes.comp: the extremes of each block and of the cloud.
+  candidates,  ///< candidates.comp: lists the blocks that can have a support.
+  clusters     ///< clusters.comp: the slabs of clusters.
 };
 
 /// Threads of a workgroup in every shader.

@@ -206,10 +206,15 @@ std::vector<PointView> DevicePoints::blocks(const std::vector<std::uint32_t>& nu
   std::vector<PointView> views;
   for (const std::uint32_t number : numbers)
     views.push_back(block_of(points(), number));
-  if (kept_ || numbers.empty()) return views;
+  return in_memory(std::move(views), storage);
+}
+
+std::vector<PointView> DevicePoints::in_memory(std::vector<PointView> views,
+                                               std::vector<std::byte>& storage) const {
   std::size_t total = 0;
   for (const PointView& view : views)
     total += view.count * stride_;
+  if (kept_ || total == 0) return views;
   storage.resize(total);
   download(views, storage.data());
   const std::byte* at = storage.data();

@@ -52,6 +52,14 @@ class DevicePoints : public PointSource {
   std::vector<PointView> blocks(const std::vector<std::uint32_t>& numbers,
                                 std::vector<std::byte>& storage) const;
 
+  /// Like blocks(), for any slices of points().
+  std::vector<PointView> in_memory(std::vector<PointView> slices, std::vector<std::byte>& storage) const;
+
+  /// Whether positions in the cloud are also the indices that IndexLists use, so that lists need no
+  /// translation.
+  bool numbered_from_zero() const { return !kept_ || (host_.indices == nullptr && host_.first == 0); }
+  bool kept() const { return kept_; }
+
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:

@@ -16,5 +16,6 @@ struct ShaderCode {
 
 ShaderCode extremes_code();
 ShaderCode candidates_code();
+ShaderCode clusters_code();
 
 }  // namespace pcl_bv::detail

@@ -6,6 +6,7 @@
 // (docs/gpu.md).
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
@@ -13,6 +14,10 @@
 #include "pcl_bv/parallel/execution.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+namespace detail {
+class ClusterFitter;
+}
 
 /// Fits several methods to the points of a cloud. Returns the fits in the order of `methods`. Volumes,
 /// status, rank and counts have the same bits as those of fit_methods() for the points. Empty, flat and
@@ -28,5 +33,48 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// lost. Exceptions of the source of the uploaded points are passed on.
 std::vector<Fitted<AnyVolume>> fit(const GpuCloud& cloud, const std::vector<const Method*>& methods,
                                    const MethodOptions& options = {}, const Execution& execution = {});
+
+/// The fits of several methods to each cluster of a cloud, stored without a copy of what k-DOPs have in
+/// common.
+class ClusterFits {
+ public:
+  std::size_t size() const { return results_.size(); }  ///< Number of clusters.
+
+  /// Status, rank and counts of a cluster, which are the same for every method. O(1), without bounds checks.
+  const EstimationResult& result(std::size_t cluster) const { return results_[cluster]; }
+
+  /// Returns the fit of method number `method` of the list. Throws std::out_of_range for a cluster or a
+  /// method that does not exist.
+  Fitted<AnyVolume> fitted(std::size_t cluster, std::size_t method) const;
+
+ private:
+  friend class detail::ClusterFitter;
+
+  std::vector<const Method*> methods_;
+  std::vector<EstimationResult> results_;
+  std::vector<std::size_t> directions_;  // of the stored slabs, in the order of the 26-DOP
+  std::vector<double> slabs_;            // minimum and maximum along each direction, for each cluster
+  std::vector<std::vector<AnyVolume>>
+      others_;  // for each method: its volumes, or none if they are made of slabs
+};
+
+/// Fits several methods to each cluster. Cluster i has the points with the positions offsets[i] to offsets[i
+/// + 1] - 1 in GpuCloud::points(), or those whose indices are in list i. The fits have the same bits as
+/// fit_methods() for the points of each cluster.
+///
+/// The device computes aabb and dop* of float points exactly, except for clusters of more than 32 768 points,
+/// clusters that are not clearly solid, and coordinates whose bits span more than 60 powers of two. The
+/// processor fits these clusters and all other methods. For lists, the cloud must be in one buffer
+/// (GpuInfo::max_binding, 11 million points) and must have been made of points with an index from 0 on;
+/// otherwise the processor fits all clusters.
+///
+/// Throws std::invalid_argument for a null method, for offsets that are empty or descend, and for lists of a
+/// cloud that was not uploaded from memory or imported. Throws std::out_of_range for offsets and indices
+/// beyond the cloud. Throws GpuError as fit() for a cloud does.
+ClusterFits fit(const GpuCloud& cloud, const std::vector<std::size_t>& offsets,
+                const std::vector<const Method*>& methods, const MethodOptions& options = {},
+                const Execution& execution = {});
+ClusterFits fit(const GpuCloud& cloud, const IndexLists& clusters, const std::vector<const Method*>& methods,
+                const MethodOptions& options = {}, const Execution& execution = {});
 
 }  // namespace pcl_bv
