@@ -125,6 +125,31 @@ TEST(ClusterFits, HaveTheBitsOfTheProcessorOnRandomClusters) {
   EXPECT_GT(count_found(cloud, offsets, detail::DirectionSet::dop26), clusters / 2);
 }
 
+// Extreme points whose sums have up to 63 bits and must be rounded, or more than the device can hold.
+TEST(ClusterFits, HaveTheBitsOfTheProcessorWhereSumsNeedMoreBitsThanADouble) {
+  PCL_BV_NEEDS_DEVICE();
+  std::mt19937_64 random(11);
+  std::normal_distribution<float> normal;
+  TestCloud<float> all{"many bits", {}};
+  std::vector<std::size_t> offsets{0};
+  for (int c = 0; c < 3000; ++c) {
+    const int tiny = 5 - c % 30;
+    for (int i = 0; i < 40; ++i) {
+      for (int axis = 0; axis < 3; ++axis)
+        all.xyz.push_back(std::ldexp(normal(random), i < 12 ? tiny : 20));
+      if (i < 12)
+        all.xyz[all.xyz.size() - 3 + i % 3] =
+            std::ldexp(normal(random) < 0 ? -8.0F : 8.0F, 20) * (1 + 0.01F * static_cast<float>(i));
+    }
+    offsets.push_back(all.size());
+  }
+  const GpuCloud cloud(small_buffers(), all.view());
+  expect_same_clusters(cloud, all.view(), offsets, slab_methods());
+  const std::size_t found = count_found(cloud, offsets, detail::DirectionSet::dop26);
+  EXPECT_GT(found, 500U);
+  EXPECT_LT(found, 2500U);
+}
+
 TEST(ClusterFits, TakeListsOfIndicesInAnyOrder) {
   PCL_BV_NEEDS_DEVICE();
   const TestCloud<float> points = test::gaussian<float>(20'000, 6, 5, 100);
@@ -157,7 +182,7 @@ TEST(ClusterFits, TakeListsOfIndicesInAnyOrder) {
 
 TEST(ClusterFits, HaveTheBitsOfTheProcessorAcrossBuffers) {
   PCL_BV_NEEDS_DEVICE();
-  const TestCloud<float> points = test::gaussian<float>(250'000, 7, 20, -40);
+  const TestCloud<float> points = test::gaussian<float>(250'000, 7, 20, -400);
   std::vector<std::size_t> offsets{0};
   std::mt19937_64 random(8);
   while (offsets.back() < points.size())
