@@ -282,10 +282,11 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
     const std::vector<const Method*>& requested_methods = now.classes.methods_of(
         result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
-    const Supports* const known = supports_by_device ? supports_by_device->found(cluster) : nullptr;
+    const FitExecution known =
+        supports_by_device ? supports_by_device->known(cluster, execution) : FitExecution(execution);
     detail::Supports supports;
     const detail::FitExecution shared =
-        detail::share_supports(views[cluster], requested_methods, {execution, known}, supports);
+        detail::share_supports(views[cluster], requested_methods, known, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
       result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) !=

@@ -214,7 +214,9 @@ FitExecution share_supports(const PointView& points, const std::vector<const Met
   supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);
   if (hull && supports.used > 0)
     supports.hull = shared_hull(points, supports, LocalFrame(supports), execution);
-  return {execution, &supports};
+  FitExecution shared = execution;
+  shared.supports = &supports;
+  return shared;
 }
 
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,

@@ -37,16 +37,22 @@ std::optional<Supports> supports_on_device(const DevicePoints& cloud, DirectionS
 
 void ClusterSupports::find(const std::vector<PointView>& views, DirectionSet set,
                            const Execution& execution) {
-  found_.assign(views.size(), std::nullopt);
+  found_.clear();
+  found_.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (views[i].count < kFewestPoints || views[i].count > GpuCloud::max_points) continue;
     const GpuCloud cloud(device_, views[i], HostPoints::keep, execution);
-    found_[i] = supports_on_device(cloud.on_device(), set, SupportDetail::points, execution);
+    found_[i] = {cloud, supports_on_device(cloud.on_device(), set, SupportDetail::points, execution),
+                 far_blocks_on_device(cloud.on_device())};
   }
 }
 
-const Supports* ClusterSupports::found(std::size_t i) const {
-  return i < found_.size() && found_[i] ? &*found_[i] : nullptr;
+FitExecution ClusterSupports::known(std::size_t i, const Execution& execution) const {
+  FitExecution known(execution);
+  if (i >= found_.size() || !found_[i]) return known;
+  if (found_[i]->supports) known.supports = &*found_[i]->supports;
+  known.far_blocks = found_[i]->far_blocks.get();
+  return known;
 }
 
 }  // namespace pcl_bv::detail

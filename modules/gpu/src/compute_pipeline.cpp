@@ -20,8 +20,10 @@ ShaderLayout layout_of(Shader shader) {
       return {extremes_code(), 3, 28};
     case Shader::candidates:
       return {candidates_code(), 3, 20};
-    default:
+    case Shader::clusters:
       return {clusters_code(), 5, 20};
+    default:
+      return {distances_code(), 2, 44};
   }
 }
 

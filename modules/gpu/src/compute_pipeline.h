@@ -14,7 +14,8 @@ namespace pcl_bv::detail {
 enum class Shader : std::uint8_t {
   extremes,    ///< extremes.comp: the extremes of each block and of the cloud.
   candidates,  ///< candidates.comp: lists the blocks that can have a support.
-  clusters     ///< clusters.comp: the slabs of clusters.
+  clusters,    ///< clusters.comp: the slabs of clusters.
+  distances    ///< distances.comp: lists the blocks with points far from a centre.
 };
 
 /// Threads of a workgroup in every shader.

@@ -33,6 +33,8 @@ std::vector<Fitted<AnyVolume>> fit(const GpuCloud& cloud, const std::vector<cons
   std::optional<Supports> supports;
   if (set && !cloud.empty()) supports = supports_on_device(cloud.on_device(), *set, detail, known);
   if (supports) known.supports = &*supports;
+  const std::unique_ptr<FarBlocks> far_blocks = far_blocks_on_device(cloud.on_device());
+  known.far_blocks = far_blocks.get();
   Supports shared;
   const FitExecution prepared = share_supports(points, methods, known, shared);
   std::vector<Fitted<AnyVolume>> all;

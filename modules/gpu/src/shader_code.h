@@ -17,5 +17,6 @@ struct ShaderCode {
 ShaderCode extremes_code();
 ShaderCode candidates_code();
 ShaderCode clusters_code();
+ShaderCode distances_code();
 
 }  // namespace pcl_bv::detail

@@ -25,6 +25,21 @@ constexpr std::size_t kFewBlocks = 4;
 constexpr double kRoundUp = 1 + 0x1p-44;
 constexpr double kRoundDown = 1 - 0x1p-44;
 
+// Consecutive blocks, at most a chunk.
+struct BlockRun {
+  std::size_t first, count;
+};
+
+std::vector<BlockRun> runs_of(const std::vector<std::uint32_t>& blocks) {
+  std::vector<BlockRun> runs;
+  for (const std::uint32_t block : blocks) {
+    const bool next = !runs.empty() && runs.back().first + runs.back().count == block;
+    if (!next || runs.back().count == kBlocksPerChunk) runs.push_back({block, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
 double distance_up(const DistanceCenter& a, const DistanceCenter& b) {
   return std::sqrt(squared_distance({a.x, a.y, a.z}, b)) * kRoundUp;
 }
@@ -55,7 +70,8 @@ DistanceScan::DistanceScan(const PointView& points, const FitExecution& executio
       parallel_(execution.parallel),
       isa_(execution.isa),
       filter_(FloatFilter::off),
-      blocks_(block_count(points.count)) {
+      blocks_(block_count(points.count)),
+      far_blocks_(execution.far_blocks) {
   if (points.scalar == ScalarType::float32 && blocks_ > kFewBlocks) filter_ = FloatFilter::reject;
 }
 
@@ -72,20 +88,29 @@ ParallelPolicy DistanceScan::policy(std::size_t expected) const {
   return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
 }
 
-// Calls visit(chunk, first block, number of blocks) for all chunks. `expected` is the expected number of
-// inspected blocks, from which the number of threads is chosen.
+// Calls visit(first block, number of blocks) for runs of consecutive blocks, which together have all points
+// with a squared distance of at least `limit`: all chunks or, with a device, the blocks that it does not
+// reject.
 template <typename Visit>
-void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const {
+void DistanceScan::visit_far_blocks(const DistanceCenter& center, double limit, const Visit& visit) const {
+  std::vector<std::uint32_t> far;
+  if (far_blocks_ != nullptr && far_blocks_->find(center, limit, far)) {
+    const std::vector<BlockRun> runs = runs_of(far);
+    for_each_chunk(policy(far.size()), runs.size(),
+                   [&](std::size_t run) { visit(runs[run].first, runs[run].count); });
+    return;
+  }
   const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
-  for_each_chunk(policy(expected), chunks, [&](std::size_t chunk) {
+  for_each_chunk(policy(blocks_), chunks, [&](std::size_t chunk) {
     const std::size_t first = chunk * kBlocksPerChunk;
-    visit(chunk, first, std::min(kBlocksPerChunk, blocks_ - first));
+    visit(first, std::min(kBlocksPerChunk, blocks_ - first));
   });
 }
 
 void DistanceScan::block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const {
   maxima.resize(blocks_);
-  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+  if (has_device()) std::fill(maxima.begin(), maxima.end(), -1.0);  // of the blocks that it rejects
+  visit_far_blocks(center, limit, [&](std::size_t first, std::size_t count) {
     const LoadedPoints points = blocks(first, count);
     OctantScan scan{center, limit, filter_};
     for (std::size_t b = 0; b < count; ++b) {
@@ -97,7 +122,7 @@ void DistanceScan::block_maxima(const DistanceCenter& center, double limit, Bloc
 
 double DistanceScan::greatest(const DistanceCenter& center, double at_least) const {
   std::atomic<double> greatest = at_least;
-  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+  visit_far_blocks(center, at_least, [&](std::size_t first, std::size_t count) {
     const LoadedPoints points = blocks(first, count);
     OctantScan scan{center, at_least, filter_};
     for (std::size_t b = 0; b < count; ++b) {
@@ -179,16 +204,17 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
   // The array is not initialised, because the kernel writes every bound. Points of a source get no bounds,
-  // because every scan has to load all points of a source.
-  if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
+  // because every scan has to load all points of a source. A device does without bounds.
+  if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr && !has_device())
     bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
   scan_center_ = center;
   SharedOctants best;
-  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+  visit_far_blocks(center, limit, [&](std::size_t first, std::size_t count) {
     scan_chunk(first, count, center, limit, best);
   });
   found = best.points();
+  if (has_device()) return;
   // If the float filter rejected few points in most chunks, most points are near the surface, and bounds do
   // not help either.
   if (2 * best.chunks_filtered() < (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk) {

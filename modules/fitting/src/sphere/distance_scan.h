@@ -33,6 +33,9 @@ class DistanceScan {
   /// Returns whether a pass over all points would run in one thread.
   bool serial() const;
 
+  /// Returns whether a device rejects blocks (FitExecution::far_blocks).
+  bool has_device() const { return far_blocks_ != nullptr; }
+
   /// Sets `maxima` to the largest squared distance of a valid point in each block. If that distance is below
   /// `limit`, the value is -1.
   void block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const;
@@ -61,7 +64,7 @@ class DistanceScan {
 
   ParallelPolicy policy(std::size_t expected_blocks) const;
   template <typename Visit>
-  void visit_chunks(std::size_t expected_blocks, const Visit& visit) const;
+  void visit_far_blocks(const DistanceCenter& center, double limit, const Visit& visit) const;
   LoadedPoints blocks(std::size_t first, std::size_t count) const;
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
@@ -74,6 +77,7 @@ class DistanceScan {
   UsableIsa isa_;
   FloatFilter filter_;
   std::size_t blocks_;
+  const FarBlocks* far_blocks_;
 
   std::unique_ptr<float[]> bounds_;  // upper bounds of distances from scan_center_, set by scan_all()
   DistanceCenter scan_center_;

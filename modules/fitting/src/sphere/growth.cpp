@@ -102,7 +102,7 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   GrowingSphere sphere(frame, center, squared_radius);
   if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
     grow_by_index(scan, sphere);
-  } else if (growth == SphereGrowth::deferred && !scan.serial()) {
+  } else if (scan.has_device() || (growth == SphereGrowth::deferred && !scan.serial())) {
     // Each block is compared with the sphere that has grown over the blocks before. The comparison skips only
     // points that would not change the sphere.
     for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });

@@ -82,9 +82,9 @@ class SupportFinder {
   /// May throw.
   virtual void find(const std::vector<PointView>& views, DirectionSet set, const Execution& execution) = 0;
 
-  /// Returns the supports of view i, or null if they were not found. Several threads may call found() at a
-  /// time.
-  virtual const Supports* found(std::size_t i) const = 0;
+  /// Returns the execution for view i, with what is known about its points. Several threads may call this
+  /// function at a time. What the execution refers to lives until the next call of find().
+  virtual FitExecution known(std::size_t i, const Execution& execution) const = 0;
 };
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,7 @@ enum class SupportDetail {
   points   ///< Also the points with the minimum and maximum projection.
 };
 
+struct DistanceCenter;
 struct LocalHull;
 struct Moments;
 
@@ -56,7 +58,19 @@ struct Supports {
   std::shared_ptr<const Moments> moments;
 };
 
-/// An Execution, and optionally the supports of the points, which save a fit the search for supports.
+/// Rejects blocks of a cloud that are near a centre, on a device other than the processor.
+class FarBlocks {
+ public:
+  virtual ~FarBlocks() = default;
+
+  /// Sets `blocks` to the numbers, ascending, of blocks of kBlockPoints points. These are all blocks that
+  /// have a valid point with a squared_distance() (kernels/distances.h) of at least `limit` from the centre,
+  /// and maybe others. Returns false if the processor has to scan all blocks. Several threads may call find()
+  /// at a time. May throw.
+  virtual bool find(const DistanceCenter& center, double limit, std::vector<std::uint32_t>& blocks) const = 0;
+};
+
+/// An Execution, and optionally what is known about the points, which saves a fit passes over them.
 struct FitExecution : Execution {
   FitExecution() = default;
   FitExecution(const Execution& execution, const Supports* known = nullptr)
@@ -66,6 +80,9 @@ struct FitExecution : Execution {
   /// `supports` has the directions and the detail that the fit needs. The fit throws std::invalid_argument if
   /// the supports were found for another view (same_memory() in point_view.h).
   const Supports* supports = nullptr;
+
+  /// Rejects blocks of the points of the fit, or is null. Spheres then only inspect the other blocks.
+  const FarBlocks* far_blocks = nullptr;
 };
 
 /// Finds the supports of all valid points along the directions of `set`. Without a valid point, `used` is 0

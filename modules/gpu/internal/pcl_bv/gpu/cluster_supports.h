@@ -4,6 +4,7 @@
 // Supports of the clusters of a frame, found on a graphics card.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,10 @@ class DevicePoints;
 std::optional<Supports> supports_on_device(const DevicePoints& cloud, DirectionSet set, SupportDetail detail,
                                            const FitExecution& execution);
 
+/// Returns an object that rejects blocks of the cloud on its device, or null if the device cannot (double
+/// points). The cloud must outlive the object.
+std::unique_ptr<FarBlocks> far_blocks_on_device(const DevicePoints& cloud);
+
 /// Uploads each view of at least kFewestPoints points and finds its supports on the device.
 class ClusterSupports : public SupportFinder {
  public:
@@ -30,14 +35,21 @@ class ClusterSupports : public SupportFinder {
   explicit ClusterSupports(const GpuDevice& device) : device_(device) {}
 
   void find(const std::vector<PointView>& views, DirectionSet set, const Execution& execution) override;
-  const Supports* found(std::size_t i) const override;
+  FitExecution known(std::size_t i, const Execution& execution) const override;
 
  protected:
   void forget() { found_.clear(); }
 
  private:
+  // What is known about a view that was uploaded.
+  struct Found {
+    GpuCloud cloud;
+    std::optional<Supports> supports;
+    std::unique_ptr<FarBlocks> far_blocks;
+  };
+
   GpuDevice device_;
-  std::vector<std::optional<Supports>> found_;
+  std::vector<std::optional<Found>> found_;
 };
 
 }  // namespace detail
