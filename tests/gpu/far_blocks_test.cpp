@@ -58,6 +58,30 @@ TEST(FarBlocks, HaveEachPointThatIsAsFarAsTheLimit) {
   }
 }
 
+TEST(FarBlocks, HaveAPointAtTheLimitThatIsAloneInItsBlock) {
+  PCL_BV_NEEDS_DEVICE();
+  std::mt19937_64 random(12);
+  std::normal_distribution<float> normal;
+  for (const float offset : {0.0F, 7.0F, 123456.0F}) {
+    SCOPED_TRACE(testing::Message() << "offset " << offset);
+    constexpr std::size_t blocks = 200;
+    TestCloud<float> points{"one far point in each block", std::vector<float>(3 * 1024 * blocks, offset)};
+    for (std::size_t b = 0; b < blocks; ++b) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        points.xyz[3 * (1024 * b + b) + axis] += normal(random);
+    }
+    const GpuCloud cloud(small_buffers(), points.view());
+    const auto far_blocks = detail::far_blocks_on_device(cloud.on_device());
+    const detail::DistanceCenter center{offset + 0.1 / 3, offset - 0.1 / 7, offset + 0.01 / 9, 1};
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      std::vector<std::uint32_t> found;
+      const double limit = detail::squared_distance(load_point(points.view(), 1024 * b + b), center);
+      ASSERT_TRUE(far_blocks->find(center, limit, found));
+      ASSERT_TRUE(std::binary_search(found.begin(), found.end(), b)) << "block " << b;
+    }
+  }
+}
+
 TEST(FarBlocks, AreFewOfALargeCloud) {
   PCL_BV_NEEDS_DEVICE();
   const TestCloud<float> points = sweep(200'000, 6, 30, 1000);
