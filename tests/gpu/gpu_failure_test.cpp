@@ -40,29 +40,63 @@ GpuFailure failure_of(const Call& call) {
   return GpuFailure::other;
 }
 
-TEST(GpuFailure, TooLittleMemoryLeavesDeviceAndCloudUsable) {
-  PCL_BV_NEEDS_DEVICE();
-  const GpuDevice device("0", {false, std::size_t{1} << 20});
-  const TestCloud<float> points = test::gaussian<float>(200'000, 1);
-  const std::vector<const Method*> methods = test::methods_named({"dop26", "sphere-epos26"});
-  const std::vector<Fitted<AnyVolume>> expected = fit_methods(points.view(), methods);
+// A device whose allocations are counted. Its first fits allocate memory, which later ones use again.
+GpuDevice failing_device() {
+  GpuDevice device("0", {false, std::size_t{1} << 20});
   real_allocate = device.context()->vk.vkAllocateMemory;
   device.context()->vk.vkAllocateMemory = failing_allocate;
+  return device;
+}
+
+TEST(GpuFailure, TooLittleMemoryForACloudLeavesTheDeviceUsable) {
+  PCL_BV_NEEDS_DEVICE();
+  const GpuDevice device = failing_device();
+  const TestCloud<float> points = test::gaussian<float>(200'000, 1);
+  const std::vector<const Method*> methods = test::methods_named({"dop26"});
   for (int before = 0; before < 3; ++before) {
     SCOPED_TRACE(before);
     calls_before_failure = before;
     EXPECT_EQ(failure_of([&] { GpuCloud(device, points.view()); }), GpuFailure::out_of_memory);
   }
   calls_before_failure = -1;
-  const GpuCloud cloud(device, points.view(), HostPoints::release);
-  for (int before = 0; before < 5; ++before) {
+  test::expect_same(fit(GpuCloud(device, points.view()), methods), fit_methods(points.view(), methods),
+                    methods);
+}
+
+TEST(GpuFailure, TooLittleMemoryForAFitLeavesTheCloudUsable) {
+  PCL_BV_NEEDS_DEVICE();
+  const TestCloud<float> points = test::gaussian<float>(200'000, 1);
+  const std::vector<const Method*> methods = test::methods_named({"dop26", "sphere-epos26"});
+  const std::vector<Fitted<AnyVolume>> expected = fit_methods(points.view(), methods);
+  for (int before = 0; before < 4; ++before) {
     SCOPED_TRACE(before);
+    const GpuDevice device = failing_device();
+    calls_before_failure = -1;
+    const GpuCloud cloud(device, points.view(), HostPoints::release);
     calls_before_failure = before;
     EXPECT_EQ(failure_of([&] { fit(cloud, methods); }), GpuFailure::out_of_memory);
+    calls_before_failure = -1;
+    EXPECT_FALSE(device.lost());
+    test::expect_same(fit(cloud, methods), expected, methods);
   }
-  calls_before_failure = -1;
-  EXPECT_FALSE(device.lost());
-  test::expect_same(fit(cloud, methods), expected, methods);
+}
+
+TEST(GpuFailure, TooLittleMemoryForClustersLeavesTheCloudUsable) {
+  PCL_BV_NEEDS_DEVICE();
+  const TestCloud<float> points = test::gaussian<float>(1000, 1);
+  const std::vector<const Method*> methods = test::methods_named({"aabb"});
+  const std::vector<std::size_t> offsets = {0, 400, 1000};
+  for (int before = 0; before < 5; ++before) {
+    SCOPED_TRACE(before);
+    const GpuDevice device = failing_device();
+    calls_before_failure = -1;
+    const GpuCloud cloud(device, points.view());
+    calls_before_failure = before;
+    EXPECT_EQ(failure_of([&] { fit(cloud, offsets, methods); }), GpuFailure::out_of_memory);
+    calls_before_failure = -1;
+    test::expect_same({fit(cloud, offsets, methods).fitted(1, 0)},
+                      fit_methods(points.view().slice(400, 600), methods), methods);
+  }
 }
 
 TEST(GpuFailure, ALostDeviceStaysLost) {

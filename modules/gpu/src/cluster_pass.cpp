@@ -60,11 +60,11 @@ class SlabPass {
         words_(2 + 4 * direction_count(set)),
         out_(out),
         input_bytes_(4 * (most_clusters + 1 + most_indices)),
-        offsets_(cloud.context(), 4 * (most_clusters + 1), BufferUse::device),
-        indices_(cloud.context(), 4 * most_indices, BufferUse::device),
-        results_(cloud.context(), 4 * words_ * most_clusters, BufferUse::device),
-        input_(cloud.context(), input_bytes_, BufferUse::upload),
-        answer_(cloud.context(), 4 * words_ * most_clusters, BufferUse::download) {}
+        offsets_(*cloud.context(), 4 * (most_clusters + 1), BufferUse::device),
+        indices_(*cloud.context(), 4 * most_indices, BufferUse::device),
+        results_(*cloud.context(), 4 * words_ * most_clusters, BufferUse::device),
+        input_(*cloud.context(), input_bytes_, BufferUse::upload),
+        answer_(*cloud.context(), 4 * words_ * most_clusters, BufferUse::download) {}
 
   void run(const ClusterSlice& slice) {
     const std::uint32_t* const offsets = &clusters_.offsets[slice.first];
@@ -80,7 +80,8 @@ class SlabPass {
     const PointPart& second = cloud_.parts()[std::min(slice.part + 1, cloud_.parts().size() - 1)];
     const SlicePush push{first.first_word, second.first_word, static_cast<std::uint32_t>(first.first),
                          static_cast<std::uint32_t>(first.count), offsets[0]};
-    submission.dispatch(pipeline_, {first.binding, second.binding, {&offsets_}, {&indices_}, {&results_}},
+    submission.dispatch(pipeline_,
+                        {first.binding, second.binding, {offsets_.get()}, {indices_.get()}, {results_.get()}},
                         push, static_cast<std::uint32_t>(slice.count));
     submission.copy(results_, 0, answer_, 0, 4 * words_ * slice.count);
     submission.run();
@@ -104,7 +105,7 @@ class SlabPass {
   std::size_t words_;  // of the results of a cluster
   ClusterSlabs& out_;
   std::size_t input_bytes_;
-  DeviceBuffer offsets_, indices_, results_, input_, answer_;
+  ScratchBuffer offsets_, indices_, results_, input_, answer_;
 };
 
 }  // namespace

@@ -24,26 +24,25 @@ VkBufferCreateInfo description(std::size_t bytes) {
 
 }  // namespace
 
-DeviceBuffer::DeviceBuffer(std::shared_ptr<GpuContext> context, std::size_t bytes)
-    : context_(std::move(context)), bytes_(std::max<std::size_t>(bytes, 4)) {
-  context_->require_alive();
+DeviceBuffer::DeviceBuffer(GpuContext& context, std::size_t bytes)
+    : context_(context), bytes_(std::max<std::size_t>(bytes, 4)) {
+  context_.require_alive();
 }
 
-DeviceBuffer::DeviceBuffer(std::shared_ptr<GpuContext> context, std::size_t bytes, BufferUse use)
-    : DeviceBuffer(std::move(context), bytes) {
+DeviceBuffer::DeviceBuffer(GpuContext& context, std::size_t bytes, BufferUse use)
+    : DeviceBuffer(context, bytes) {
   make(use);  // the destructor runs if this throws, because the other constructor has finished
 }
 
-std::unique_ptr<DeviceBuffer> DeviceBuffer::import(std::shared_ptr<GpuContext> context, int fd,
-                                                   std::size_t bytes) {
-  std::unique_ptr<DeviceBuffer> buffer(new DeviceBuffer(std::move(context), bytes));
+std::unique_ptr<DeviceBuffer> DeviceBuffer::import(GpuContext& context, int fd, std::size_t bytes) {
+  std::unique_ptr<DeviceBuffer> buffer(new DeviceBuffer(context, bytes));
   buffer->make_imported(fd);
   return buffer;
 }
 
 DeviceBuffer::~DeviceBuffer() {
-  context_->vk.vkDestroyBuffer(context_->device, buffer_, nullptr);
-  context_->vk.vkFreeMemory(context_->device, memory_, nullptr);  // which also unmaps it
+  context_.vk.vkDestroyBuffer(context_.device, buffer_, nullptr);
+  context_.vk.vkFreeMemory(context_.device, memory_, nullptr);  // which also unmaps it
 }
 
 void DeviceBuffer::allocate(std::uint32_t type, std::size_t bytes, const void* next) {
@@ -51,54 +50,53 @@ void DeviceBuffer::allocate(std::uint32_t type, std::size_t bytes, const void* n
   info.pNext = next;
   info.allocationSize = bytes;
   info.memoryTypeIndex = type;
-  context_->check(context_->vk.vkAllocateMemory(context_->device, &info, nullptr, &memory_),
-                  "allocate a buffer");
-  context_->check(context_->vk.vkBindBufferMemory(context_->device, buffer_, memory_, 0),
-                  "allocate a buffer");
+  context_.check(context_.vk.vkAllocateMemory(context_.device, &info, nullptr, &memory_),
+                 "allocate a buffer");
+  context_.check(context_.vk.vkBindBufferMemory(context_.device, buffer_, memory_, 0), "allocate a buffer");
 }
 
 void DeviceBuffer::make(BufferUse use) {
-  const VulkanApi& vk = context_->vk;
+  const VulkanApi& vk = context_.vk;
   const VkBufferCreateInfo info = description(bytes_);
-  context_->check(vk.vkCreateBuffer(context_->device, &info, nullptr, &buffer_), "make a buffer");
+  context_.check(vk.vkCreateBuffer(context_.device, &info, nullptr, &buffer_), "make a buffer");
   VkMemoryRequirements needs;
-  vk.vkGetBufferMemoryRequirements(context_->device, buffer_, &needs);
-  const bool mapped = use != BufferUse::device || context_->shares_memory();
+  vk.vkGetBufferMemoryRequirements(context_.device, buffer_, &needs);
+  const bool mapped = use != BufferUse::device || context_.shares_memory();
   std::uint32_t type = 0;
   if (use == BufferUse::download) {
-    type = context_->memory_type(needs.memoryTypeBits, {kMapped | kCached, kMapped});
+    type = context_.memory_type(needs.memoryTypeBits, {kMapped | kCached, kMapped});
   } else if (use == BufferUse::upload) {
-    type = context_->memory_type(needs.memoryTypeBits, {kMapped});
+    type = context_.memory_type(needs.memoryTypeBits, {kMapped});
   } else if (mapped) {
     type =
-        context_->memory_type(needs.memoryTypeBits, {kLocal | kMapped | kCached, kLocal | kMapped, kMapped});
+        context_.memory_type(needs.memoryTypeBits, {kLocal | kMapped | kCached, kLocal | kMapped, kMapped});
   } else {
-    type = context_->memory_type(needs.memoryTypeBits, {kLocal, 0});
+    type = context_.memory_type(needs.memoryTypeBits, {kLocal, 0});
   }
   allocate(type, needs.size, nullptr);
   if (!mapped) return;
   void* address = nullptr;
-  context_->check(vk.vkMapMemory(context_->device, memory_, 0, VK_WHOLE_SIZE, 0, &address), "map a buffer");
+  context_.check(vk.vkMapMemory(context_.device, memory_, 0, VK_WHOLE_SIZE, 0, &address), "map a buffer");
   mapped_ = static_cast<std::byte*>(address);
 }
 
 void DeviceBuffer::make_imported(int fd) {
-  const VulkanApi& vk = context_->vk;
-  if (!context_->info().imports)
+  const VulkanApi& vk = context_.vk;
+  if (!context_.info().imports)
     throw GpuError(GpuFailure::other,
-                   context_->info().name + ": the driver cannot use memory of other programs");
+                   context_.info().name + ": the driver cannot use memory of other programs");
   auto external =
       vulkan_struct<VkExternalMemoryBufferCreateInfo>(VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO);
   external.handleTypes = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
   VkBufferCreateInfo info = description(bytes_);
   info.pNext = &external;
-  context_->check(vk.vkCreateBuffer(context_->device, &info, nullptr, &buffer_), "make a buffer");
+  context_.check(vk.vkCreateBuffer(context_.device, &info, nullptr, &buffer_), "make a buffer");
   VkMemoryRequirements needs;
-  vk.vkGetBufferMemoryRequirements(context_->device, buffer_, &needs);
+  vk.vkGetBufferMemoryRequirements(context_.device, buffer_, &needs);
   auto imported = vulkan_struct<VkImportMemoryFdInfoKHR>(VK_STRUCTURE_TYPE_IMPORT_MEMORY_FD_INFO_KHR);
   imported.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
   imported.fd = fd;
-  allocate(context_->memory_type(needs.memoryTypeBits, {kLocal, 0}), needs.size, &imported);
+  allocate(context_.memory_type(needs.memoryTypeBits, {kLocal, 0}), needs.size, &imported);
 }
 
 }  // namespace pcl_bv::detail

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
@@ -109,7 +110,7 @@ DevicePoints::DevicePoints(std::shared_ptr<GpuContext> context, const PointView&
 DevicePoints::DevicePoints(std::shared_ptr<GpuContext> context, int fd, const ImportedPoints& layout)
     : context_(std::move(context)), size_(layout.count), stride_(layout.stride) {
   check_layout(layout);
-  buffers_.push_back(DeviceBuffer::import(context_, fd, layout.bytes));
+  buffers_.push_back(DeviceBuffer::import(*context_, fd, layout.bytes));
   divide(layout.offset);
   const Coordinates origin = middle_point(points());
   center_ = {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)};
@@ -127,7 +128,7 @@ void DevicePoints::divide(std::size_t offset) {
   for (std::size_t first = 0; first < size_; first += most) {
     const std::size_t count = std::min(most, size_ - first);
     if (!imported)
-      buffers_.push_back(std::make_unique<DeviceBuffer>(context_, copied_bytes(count), BufferUse::device));
+      buffers_.push_back(std::make_unique<DeviceBuffer>(*context_, copied_bytes(count), BufferUse::device));
     const std::size_t byte = imported ? offset + first * stride_ : 0;
     const std::size_t begin = byte / alignment * alignment;
     parts_.push_back({{buffers_.back().get(), begin, byte - begin + copied_bytes(count)},
@@ -139,7 +140,7 @@ void DevicePoints::divide(std::size_t offset) {
 }
 
 void DevicePoints::upload(const PointView& points, const Coordinates& origin, const Execution& execution) {
-  std::unique_ptr<DeviceBuffer> staging;
+  std::optional<ScratchBuffer> staging;
   for (const PointPart& part : parts_) {
     const std::size_t first_chunk = part.first / kChunkPoints, chunks = chunk_count(part.count);
     if (std::byte* const mapped = part.binding.buffer->mapped()) {
@@ -149,9 +150,8 @@ void DevicePoints::upload(const PointView& points, const Coordinates& origin, co
     for (std::size_t chunk = 0; chunk < chunks; chunk += kStagedChunks) {
       const std::size_t taken = std::min(kStagedChunks, chunks - chunk);
       const std::size_t begin = chunk * kChunkPoints * 12;
-      if (staging == nullptr)
-        staging = std::make_unique<DeviceBuffer>(
-            context_, std::min(kStagedChunks, chunks) * kChunkPoints * 12, BufferUse::upload);
+      if (!staging)
+        staging.emplace(*context_, std::min(kStagedChunks, chunks) * kChunkPoints * 12, BufferUse::upload);
       pack(points, first_chunk + chunk, taken, origin, execution, staging->mapped());
       Submission submission(context_);
       submission.copy(*staging, 0, *part.binding.buffer, begin,
@@ -184,7 +184,7 @@ void DevicePoints::download(const std::vector<PointView>& slices, std::byte* to)
   std::size_t total = 0;
   for (const PointView& slice : slices)
     total += slice.count * stride_;
-  const DeviceBuffer buffer(context_, total, BufferUse::download);
+  const ScratchBuffer buffer(*context_, total, BufferUse::download);
   Submission submission(context_);
   std::size_t at = 0;
   for (const PointView& slice : slices) {
@@ -192,7 +192,7 @@ void DevicePoints::download(const std::vector<PointView>& slices, std::byte* to)
       const PointPart& part = part_of(first);
       const std::size_t count = std::min(end, part.first + part.count) - first;
       submission.copy(*part.binding.buffer, part.byte + (first - part.first) * stride_, buffer, at,
-                      copied_bytes(count));
+                      copied_bytes(count), Order::beside_previous);
       at += count * stride_;
       first += count;
     }

@@ -81,4 +81,9 @@ class DevicePoints : public PointSource {
   bool kept_ = false;
 };
 
+/// Returns the order for a pass over all parts: the parts run beside one another.
+inline Order order_in(const DevicePoints& cloud, const PointPart& part) {
+  return &part == &cloud.parts().front() ? Order::after_earlier : Order::beside_previous;
+}
+
 }  // namespace pcl_bv::detail

@@ -40,7 +40,8 @@ class DeviceFarBlocks : public FarBlocks {
     if (!float_limit || center.scale != 1) return false;
     const std::shared_ptr<GpuContext>& context = cloud_.context();
     const std::size_t bytes = 4 * (1 + capacity_);
-    const DeviceBuffer list(context, bytes, BufferUse::device), answer(context, bytes, BufferUse::download);
+    const ScratchBuffer list(*context, bytes, BufferUse::device),
+        answer(*context, bytes, BufferUse::download);
     DistancePush push{
         {static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
         {},
@@ -59,7 +60,8 @@ class DeviceFarBlocks : public FarBlocks {
       push.points = static_cast<std::uint32_t>(part.count);
       push.first_block = static_cast<std::uint32_t>(part.first / kBlockPoints);
       submission.dispatch(context->pipeline(Shader::distances, {cloud_.stride_words()}),
-                          {part.binding, {&list}}, push, static_cast<std::uint32_t>(block_count(part.count)));
+                          {part.binding, {list.get()}}, push,
+                          static_cast<std::uint32_t>(block_count(part.count)), order_in(cloud_, part));
     }
     submission.copy(list, 0, answer, 0, bytes);
     submission.run();

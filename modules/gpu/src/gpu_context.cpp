@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compute_pipeline.h"
+#include "device_buffer.h"
 #include "device_choice.h"
 
 namespace pcl_bv::detail {
@@ -16,6 +17,9 @@ constexpr std::size_t kLargestBinding = std::size_t{128} << 20;
 
 // A wait is given up after this time. No pass takes a second; a driver that hangs does not always say so.
 constexpr std::uint64_t kNanosecondsToWait = 60'000'000'000;
+
+// The memory of free buffers. The results of 65535 clusters take 14 MiB, on the device and mapped.
+constexpr std::size_t kMostFreeBytes = std::size_t{64} << 20;
 
 }  // namespace
 
@@ -33,6 +37,7 @@ GpuContext::~GpuContext() {
   for (const CommandSlot& slot : free_slots_)
     destroy_slot(slot);
   pipelines_.clear();
+  free_buffers_.clear();
   vk.vkDestroyDevice(device, nullptr);
 }
 
@@ -117,6 +122,34 @@ const ComputePipeline& GpuContext::pipeline(Shader shader, const std::vector<std
   std::unique_ptr<ComputePipeline>& made = pipelines_[{shader, constants}];
   if (made == nullptr) made = std::make_unique<ComputePipeline>(*this, shader, constants);
   return *made;
+}
+
+std::unique_ptr<DeviceBuffer> GpuContext::borrow_buffer(std::size_t bytes, BufferUse use) {
+  require_alive();
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(free_buffers_.begin(), free_buffers_.end(), [&](const auto& entry) {
+      return entry.first == use && entry.second->bytes() >= bytes;
+    });
+    if (found != free_buffers_.end()) {
+      std::unique_ptr<DeviceBuffer> buffer = std::move(found->second);
+      free_buffers_.erase(found);
+      free_bytes_ -= buffer->bytes();
+      return buffer;
+    }
+  }
+  return std::make_unique<DeviceBuffer>(*this, bytes, use);
+}
+
+void GpuContext::return_buffer(std::unique_ptr<DeviceBuffer> buffer, BufferUse use) {
+  const std::lock_guard lock(mutex_);
+  if (lost_ || free_bytes_ + buffer->bytes() > kMostFreeBytes) return;  // which frees it
+  free_bytes_ += buffer->bytes();
+  // Small ones come first, so that a small request does not take a large one.
+  const auto larger = std::find_if(free_buffers_.begin(), free_buffers_.end(), [&](const auto& entry) {
+    return entry.second->bytes() > buffer->bytes();
+  });
+  free_buffers_.emplace(larger, use, std::move(buffer));
 }
 
 CommandSlot GpuContext::borrow_slot() {

@@ -19,6 +19,15 @@
 namespace pcl_bv::detail {
 
 class ComputePipeline;
+class DeviceBuffer;
+
+/// Where the memory of a buffer is.
+enum class BufferUse : std::uint8_t {
+  device,   ///< In the device's own memory. Mapped only if the device shares memory with the processor.
+  upload,   ///< Mapped; the processor writes and the device reads.
+  download  ///< Mapped; the device writes and the processor reads.
+};
+
 enum class Shader : std::uint8_t;
 
 /// Destroys the instance at the end.
@@ -86,6 +95,11 @@ class GpuContext {
   /// Returns the pipeline of a shader with these specialization constants. Makes it at the first call.
   const ComputePipeline& pipeline(Shader shader, const std::vector<std::uint32_t>& constants);
 
+  /// Returns a buffer of at least `bytes`, for ScratchBuffer. Its content is undefined.
+  std::unique_ptr<DeviceBuffer> borrow_buffer(std::size_t bytes, BufferUse use);
+  /// Keeps a borrowed buffer for the next one who borrows, or frees it if many are kept already.
+  void return_buffer(std::unique_ptr<DeviceBuffer> buffer, BufferUse use);
+
   CommandSlot borrow_slot();
   void return_slot(const CommandSlot& slot);
   /// Ends the recording, submits it and waits until the device has executed it.
@@ -110,8 +124,10 @@ class GpuContext {
   std::size_t binding_alignment_ = 1;
   bool shares_memory_ = false;
   std::atomic<bool> lost_ = false;
-  std::mutex mutex_;  // protects the queue, the slots and the pipelines
+  std::mutex mutex_;  // protects the queue, the slots, the pipelines and the free buffers
   std::vector<CommandSlot> free_slots_;
+  std::vector<std::pair<BufferUse, std::unique_ptr<DeviceBuffer>>> free_buffers_;
+  std::size_t free_bytes_ = 0;  // of free_buffers_
   std::map<std::pair<Shader, std::vector<std::uint32_t>>, std::unique_ptr<ComputePipeline>> pipelines_;
 };
 

@@ -28,7 +28,8 @@ Submission::~Submission() {
   context_->return_slot(slot_);
 }
 
-void Submission::wait_for_earlier_commands() {
+void Submission::begin_command(Order order) {
+  if (order == Order::beside_previous) return;
   auto barrier = vulkan_struct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
   barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
   barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
@@ -41,16 +42,16 @@ void Submission::wait_for_earlier_commands() {
 }
 
 void Submission::copy(const DeviceBuffer& from, std::size_t from_offset, const DeviceBuffer& to,
-                      std::size_t to_offset, std::size_t bytes) {
+                      std::size_t to_offset, std::size_t bytes, Order order) {
+  begin_command(order);
   const VkBufferCopy part{from_offset, to_offset, bytes};
   context_->vk.vkCmdCopyBuffer(slot_.commands, from.handle(), to.handle(), 1, &part);
-  wait_for_earlier_commands();
 }
 
-void Submission::fill(const DeviceBuffer& buffer, std::size_t offset, std::size_t bytes,
-                      std::uint32_t value) {
+void Submission::fill(const DeviceBuffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value,
+                      Order order) {
+  begin_command(order);
   context_->vk.vkCmdFillBuffer(slot_.commands, buffer.handle(), offset, bytes, value);
-  wait_for_earlier_commands();
 }
 
 VkDescriptorSet Submission::descriptors(const ComputePipeline& pipeline,
@@ -93,19 +94,20 @@ VkDescriptorSet Submission::descriptors(const ComputePipeline& pipeline,
 }
 
 void Submission::dispatch(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings,
-                          const void* push, std::size_t push_bytes, std::uint32_t groups) {
+                          const void* push, std::size_t push_bytes, std::uint32_t groups, Order order) {
   const VulkanApi& vk = context_->vk;
   const VkDescriptorSet set = descriptors(pipeline, bindings);
+  begin_command(order);
   vk.vkCmdBindPipeline(slot_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
   vk.vkCmdBindDescriptorSets(slot_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
                              nullptr);
   vk.vkCmdPushConstants(slot_.commands, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                         static_cast<std::uint32_t>(push_bytes), push);
   vk.vkCmdDispatch(slot_.commands, groups, 1, 1);
-  wait_for_earlier_commands();
 }
 
 void Submission::run() {
+  begin_command(Order::after_earlier);  // the processor sees what the last command has written
   context_->execute(slot_);
 }
 

@@ -20,7 +20,13 @@ struct Binding {
   std::size_t bytes = VK_WHOLE_SIZE;
 };
 
-/// A list of commands for the device. Each command sees what the commands before it have written.
+/// Whether a command waits for the commands before it.
+enum class Order : std::uint8_t {
+  after_earlier,   ///< It sees what they have written.
+  beside_previous  ///< It runs at the same time as the command before it.
+};
+
+/// A list of commands for the device.
 class Submission {
  public:
   explicit Submission(std::shared_ptr<GpuContext> context);
@@ -29,14 +35,15 @@ class Submission {
   Submission& operator=(const Submission&) = delete;
 
   void copy(const DeviceBuffer& from, std::size_t from_offset, const DeviceBuffer& to, std::size_t to_offset,
-            std::size_t bytes);
-  void fill(const DeviceBuffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value);
+            std::size_t bytes, Order order = Order::after_earlier);
+  void fill(const DeviceBuffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value,
+            Order order = Order::after_earlier);
 
   /// Runs a shader with `groups` workgroups, at most 65535. `push` has the size that the shader declares.
   template <typename Push>
   void dispatch(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings, const Push& push,
-                std::uint32_t groups) {
-    dispatch(pipeline, bindings, &push, sizeof push, groups);
+                std::uint32_t groups, Order order = Order::after_earlier) {
+    dispatch(pipeline, bindings, &push, sizeof push, groups, order);
   }
 
   /// Executes the commands and waits for them. To be called once.
@@ -44,9 +51,9 @@ class Submission {
 
  private:
   void dispatch(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings, const void* push,
-                std::size_t push_bytes, std::uint32_t groups);
+                std::size_t push_bytes, std::uint32_t groups, Order order);
   VkDescriptorSet descriptors(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings);
-  void wait_for_earlier_commands();
+  void begin_command(Order order);
 
   std::shared_ptr<GpuContext> context_;
   CommandSlot slot_;

@@ -59,29 +59,30 @@ DeviceExtremes find_extremes(const DevicePoints& cloud, DirectionSet set, bool l
   const std::array<float, 3>& center = cloud.center();
   const ComputePipeline& extremes = context->pipeline(Shader::extremes, {directions, cloud.stride_words()});
 
-  const DeviceBuffer block_keys(context, 4 * supports * blocks, BufferUse::device);
-  const DeviceBuffer results(context, sizeof(CloudResults), BufferUse::device);
-  const DeviceBuffer candidates(context, list ? 4 * capacity : 4, BufferUse::device);
-  const DeviceBuffer answer(context, sizeof(CloudResults) + candidates.bytes(), BufferUse::download);
+  const ScratchBuffer block_keys(*context, 4 * supports * blocks, BufferUse::device);
+  const ScratchBuffer results(*context, sizeof(CloudResults), BufferUse::device);
+  const std::size_t list_bytes = list ? 4 * capacity : 4;
+  const ScratchBuffer candidates(*context, list_bytes, BufferUse::device);
+  const ScratchBuffer answer(*context, sizeof(CloudResults) + list_bytes, BufferUse::download);
 
   Submission submission(context);
   submission.fill(results, 0, offsetof(CloudResults, dropped), static_cast<std::uint32_t>(kNoKey));
-  submission.fill(results, offsetof(CloudResults, dropped), 8, 0);
+  submission.fill(results, offsetof(CloudResults, dropped), 8, 0, Order::beside_previous);
   for (const PointPart& part : cloud.parts()) {
     const PartPush push{{center[0], center[1], center[2]},
                         part.first_word,
                         static_cast<std::uint32_t>(part.count),
                         static_cast<std::uint32_t>(part.first / kBlockPoints),
                         blocks};
-    submission.dispatch(extremes, {part.binding, {&block_keys}, {&results}}, push,
-                        static_cast<std::uint32_t>(block_count(part.count)));
+    submission.dispatch(extremes, {part.binding, {block_keys.get()}, {results.get()}}, push,
+                        static_cast<std::uint32_t>(block_count(part.count)), order_in(cloud, part));
   }
   if (list) {
     const LimitsPush push{{center[0], center[1], center[2]}, blocks, capacity};
     submission.dispatch(context->pipeline(Shader::candidates, {directions}),
-                        {{&block_keys}, {&results}, {&candidates}}, push,
+                        {{block_keys.get()}, {results.get()}, {candidates.get()}}, push,
                         (blocks + kWorkgroup - 1) / kWorkgroup);
-    submission.copy(candidates, 0, answer, sizeof(CloudResults), candidates.bytes());
+    submission.copy(candidates, 0, answer, sizeof(CloudResults), list_bytes);
   }
   submission.copy(results, 0, answer, 0, sizeof(CloudResults));
   submission.run();
