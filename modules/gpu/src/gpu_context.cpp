@@ -15,8 +15,9 @@ namespace {
 constexpr std::size_t kSmallestBinding = std::size_t{1} << 20;
 constexpr std::size_t kLargestBinding = std::size_t{128} << 20;
 
-// A wait is given up after this time. No pass takes a second; a driver that hangs does not always say so.
-constexpr std::uint64_t kNanosecondsToWait = 60'000'000'000;
+// A wait is given up after this time. A pass takes at most seconds, also on software drivers; a driver
+// that hangs does not always say so.
+constexpr std::uint64_t kNanosecondsToWait = 600'000'000'000;
 
 // The memory of free buffers. The results of 65535 clusters take 14 MiB, on the device and mapped.
 constexpr std::size_t kMostFreeBytes = std::size_t{64} << 20;
