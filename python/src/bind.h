@@ -23,5 +23,6 @@ void bind_pipeline(pybind11::module_& module);
 void bind_result(pybind11::module_& module);
 void bind_picture(pybind11::module_& module);
 void bind_read(pybind11::module_& module);
+void bind_gpu(pybind11::module_& module);  // in builds with the component gpu
 
 }  // namespace pcl_bv::python

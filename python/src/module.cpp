@@ -44,6 +44,9 @@ PYBIND11_MODULE(_pcl_bv, module) {
   for (const auto bind : {bind_volumes, bind_shapes, bind_fit, bind_partial, bind_segmentation, bind_result,
                           bind_pipeline, bind_picture, bind_read})
     bind(module);
+#if defined(PCL_BV_GPU)
+  bind_gpu(module);
+#endif
   pybind11::list sets;
   for (const pcl_bv::Isa isa : pcl_bv::usable_isas())
     sets.append(std::string(pcl_bv::isa_name(isa)));
