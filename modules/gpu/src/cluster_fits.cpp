@@ -12,6 +12,7 @@
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/gpu/gpu_fit.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/points/select_points.h"
 #include "pcl_bv/volumes/kdop_sets.h"
 
 namespace pcl_bv {
@@ -105,7 +106,7 @@ class ClusterFitter {
     if (clusters_.indices != nullptr) points = cloud_.in_memory({points}, storage).front();
     for (const std::size_t c : numbers) {
       const std::size_t begin = clusters_.offsets[c], count = clusters_.offsets[c + 1] - begin;
-      views.push_back(clusters_.indices != nullptr ? points.subset(clusters_.indices + begin, count)
+      views.push_back(clusters_.indices != nullptr ? select_points(points, clusters_.indices + begin, count)
                                                    : points.slice(begin, count));
     }
     return clusters_.indices != nullptr ? views : cloud_.in_memory(std::move(views), storage);

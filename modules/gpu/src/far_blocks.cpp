@@ -38,33 +38,8 @@ class DeviceFarBlocks : public FarBlocks {
   bool find(const DistanceCenter& center, double limit, std::vector<std::uint32_t>& blocks) const override {
     const std::optional<float> float_limit = limit_on_device(center, limit);
     if (!float_limit || center.scale != 1) return false;
-    const std::shared_ptr<GpuContext>& context = cloud_.context();
-    const std::size_t bytes = 4 * (1 + capacity_);
-    const ScratchBuffer list(*context, bytes, BufferUse::device),
-        answer(*context, bytes, BufferUse::download);
-    DistancePush push{
-        {static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
-        {},
-        *float_limit,
-        0,
-        0,
-        0,
-        static_cast<std::uint32_t>(capacity_)};
-    push.rest[0] = static_cast<float>(center.x - push.center[0]);
-    push.rest[1] = static_cast<float>(center.y - push.center[1]);
-    push.rest[2] = static_cast<float>(center.z - push.center[2]);
-    Submission submission(context);
-    submission.fill(list, 0, 4, 0);
-    for (const PointPart& part : cloud_.parts()) {
-      push.first_word = part.first_word;
-      push.points = static_cast<std::uint32_t>(part.count);
-      push.first_block = static_cast<std::uint32_t>(part.first / kBlockPoints);
-      submission.dispatch(context->pipeline(Shader::distances, {cloud_.stride_words()}),
-                          {part.binding, {list.get()}}, push,
-                          static_cast<std::uint32_t>(block_count(part.count)), order_in(cloud_, part));
-    }
-    submission.copy(list, 0, answer, 0, bytes);
-    submission.run();
+    const ScratchBuffer answer(*cloud_.context(), 4 * (1 + capacity_), BufferUse::download);
+    list_blocks(center, *float_limit, answer);
     std::uint32_t listed;
     std::memcpy(&listed, answer.mapped(), sizeof listed);
     if (listed > capacity_) return false;
@@ -75,6 +50,33 @@ class DeviceFarBlocks : public FarBlocks {
   }
 
  private:
+  // Writes the number of blocks, and then the numbers of as many as the capacity allows.
+  void list_blocks(const DistanceCenter& center, float limit, const ScratchBuffer& answer) const {
+    const std::shared_ptr<GpuContext>& context = cloud_.context();
+    const std::size_t bytes = 4 * (1 + capacity_);
+    const ScratchBuffer list(*context, bytes, BufferUse::device);
+    const ComputePipeline& pipeline = context->pipeline(Shader::distances, {cloud_.stride_words()});
+    DistancePush push{};
+    const double exact[3] = {center.x, center.y, center.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      push.center[axis] = static_cast<float>(exact[axis]);
+      push.rest[axis] = static_cast<float>(exact[axis] - push.center[axis]);
+    }
+    push.limit = limit;
+    push.capacity = static_cast<std::uint32_t>(capacity_);
+    Submission submission(context);
+    submission.fill(list, 0, 4, 0);
+    for (const PointPart& part : cloud_.parts()) {
+      push.first_word = part.first_word;
+      push.points = static_cast<std::uint32_t>(part.count);
+      push.first_block = static_cast<std::uint32_t>(part.first / kBlockPoints);
+      submission.dispatch(pipeline, {part.binding, {list.get()}}, push,
+                          static_cast<std::uint32_t>(block_count(part.count)), order_in(cloud_, part));
+    }
+    submission.copy(list, 0, answer, 0, bytes);
+    submission.run();
+  }
+
   const DevicePoints& cloud_;
   std::size_t capacity_;
 };

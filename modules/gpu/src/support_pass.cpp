@@ -48,60 +48,87 @@ bool sums_are_finite(const DeviceExtremes& extremes, const std::array<float, 3>&
   return sum < kLargestSum;
 }
 
+// The buffers and commands of one search.
+class ExtremesPass {
+ public:
+  ExtremesPass(const DevicePoints& cloud, DirectionSet set, bool list)
+      : cloud_(cloud),
+        set_(static_cast<std::uint32_t>(set)),
+        list_(list),
+        blocks_(static_cast<std::uint32_t>(block_count(cloud.size()))),
+        capacity_(static_cast<std::uint32_t>(max_candidates(blocks_))),
+        list_bytes_(list ? 4 * capacity_ : 4),
+        block_keys_(*cloud.context(), 8 * direction_count(set) * blocks_, BufferUse::device),
+        results_(*cloud.context(), sizeof(CloudResults), BufferUse::device),
+        candidates_(*cloud.context(), list_bytes_, BufferUse::device),
+        answer_(*cloud.context(), sizeof(CloudResults) + list_bytes_, BufferUse::download) {}
+
+  void run() {
+    Submission submission(cloud_.context());
+    submission.fill(results_, 0, offsetof(CloudResults, dropped), static_cast<std::uint32_t>(kNoKey));
+    submission.fill(results_, offsetof(CloudResults, dropped), 8, 0, Order::beside_previous);
+    find_extremes(submission);
+    if (list_) list_candidates(submission);
+    submission.copy(results_, 0, answer_, 0, sizeof(CloudResults));
+    submission.run();
+  }
+
+  DeviceExtremes found() const {
+    CloudResults results;
+    std::memcpy(&results, answer_.mapped(), sizeof results);
+    DeviceExtremes found;
+    found.dropped = results.dropped;
+    for (std::size_t axis = 0; axis < 3 && results.dropped < cloud_.size(); ++axis) {
+      found.low[axis] = float_of(~results.keys[2 * axis]);
+      found.high[axis] = float_of(results.keys[2 * axis + 1]);
+    }
+    found.complete = list_ && results.listed <= capacity_ && sums_are_finite(found, cloud_.center());
+    if (!found.complete || results.listed == 0) return found;
+    found.candidates.resize(results.listed);
+    std::memcpy(found.candidates.data(), answer_.mapped() + sizeof results, 4 * found.candidates.size());
+    std::sort(found.candidates.begin(), found.candidates.end());
+    return found;
+  }
+
+ private:
+  void find_extremes(Submission& submission) const {
+    const std::array<float, 3>& center = cloud_.center();
+    const ComputePipeline& pipeline =
+        cloud_.context()->pipeline(Shader::extremes, {set_, cloud_.stride_words()});
+    for (const PointPart& part : cloud_.parts()) {
+      const PartPush push{{center[0], center[1], center[2]},
+                          part.first_word,
+                          static_cast<std::uint32_t>(part.count),
+                          static_cast<std::uint32_t>(part.first / kBlockPoints),
+                          blocks_};
+      submission.dispatch(pipeline, {part.binding, {block_keys_.get()}, {results_.get()}}, push,
+                          static_cast<std::uint32_t>(block_count(part.count)), order_in(cloud_, part));
+    }
+  }
+
+  void list_candidates(Submission& submission) const {
+    const std::array<float, 3>& center = cloud_.center();
+    const LimitsPush push{{center[0], center[1], center[2]}, blocks_, capacity_};
+    submission.dispatch(cloud_.context()->pipeline(Shader::candidates, {set_}),
+                        {{block_keys_.get()}, {results_.get()}, {candidates_.get()}}, push,
+                        (blocks_ + kWorkgroup - 1) / kWorkgroup);
+    submission.copy(candidates_, 0, answer_, sizeof(CloudResults), list_bytes_);
+  }
+
+  const DevicePoints& cloud_;
+  std::uint32_t set_;
+  bool list_;
+  std::uint32_t blocks_, capacity_;
+  std::size_t list_bytes_;
+  ScratchBuffer block_keys_, results_, candidates_, answer_;
+};
+
 }  // namespace
 
 DeviceExtremes find_extremes(const DevicePoints& cloud, DirectionSet set, bool list) {
-  const std::shared_ptr<GpuContext>& context = cloud.context();
-  const auto blocks = static_cast<std::uint32_t>(block_count(cloud.size()));
-  const auto capacity = static_cast<std::uint32_t>(max_candidates(blocks));
-  const std::size_t supports = 2 * direction_count(set);
-  const auto directions = static_cast<std::uint32_t>(set);
-  const std::array<float, 3>& center = cloud.center();
-  const ComputePipeline& extremes = context->pipeline(Shader::extremes, {directions, cloud.stride_words()});
-
-  const ScratchBuffer block_keys(*context, 4 * supports * blocks, BufferUse::device);
-  const ScratchBuffer results(*context, sizeof(CloudResults), BufferUse::device);
-  const std::size_t list_bytes = list ? 4 * capacity : 4;
-  const ScratchBuffer candidates(*context, list_bytes, BufferUse::device);
-  const ScratchBuffer answer(*context, sizeof(CloudResults) + list_bytes, BufferUse::download);
-
-  Submission submission(context);
-  submission.fill(results, 0, offsetof(CloudResults, dropped), static_cast<std::uint32_t>(kNoKey));
-  submission.fill(results, offsetof(CloudResults, dropped), 8, 0, Order::beside_previous);
-  for (const PointPart& part : cloud.parts()) {
-    const PartPush push{{center[0], center[1], center[2]},
-                        part.first_word,
-                        static_cast<std::uint32_t>(part.count),
-                        static_cast<std::uint32_t>(part.first / kBlockPoints),
-                        blocks};
-    submission.dispatch(extremes, {part.binding, {block_keys.get()}, {results.get()}}, push,
-                        static_cast<std::uint32_t>(block_count(part.count)), order_in(cloud, part));
-  }
-  if (list) {
-    const LimitsPush push{{center[0], center[1], center[2]}, blocks, capacity};
-    submission.dispatch(context->pipeline(Shader::candidates, {directions}),
-                        {{block_keys.get()}, {results.get()}, {candidates.get()}}, push,
-                        (blocks + kWorkgroup - 1) / kWorkgroup);
-    submission.copy(candidates, 0, answer, sizeof(CloudResults), list_bytes);
-  }
-  submission.copy(results, 0, answer, 0, sizeof(CloudResults));
-  submission.run();
-
-  CloudResults found;
-  std::memcpy(&found, answer.mapped(), sizeof found);
-  DeviceExtremes extremes_found;
-  extremes_found.dropped = found.dropped;
-  for (std::size_t axis = 0; axis < 3 && found.dropped < cloud.size(); ++axis) {
-    extremes_found.low[axis] = float_of(~found.keys[2 * axis]);
-    extremes_found.high[axis] = float_of(found.keys[2 * axis + 1]);
-  }
-  extremes_found.complete = list && found.listed <= capacity && sums_are_finite(extremes_found, center);
-  if (!extremes_found.complete) return extremes_found;
-  std::vector<std::uint32_t>& numbers = extremes_found.candidates;
-  numbers.resize(found.listed);
-  if (!numbers.empty()) std::memcpy(numbers.data(), answer.mapped() + sizeof found, 4 * numbers.size());
-  std::sort(numbers.begin(), numbers.end());
-  return extremes_found;
+  ExtremesPass pass(cloud, set, list);
+  pass.run();
+  return pass.found();
 }
 
 }  // namespace pcl_bv::detail
