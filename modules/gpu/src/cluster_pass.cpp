@@ -111,8 +111,10 @@ class SlabPass {
 }  // namespace
 
 bool can_find_slabs(const DevicePoints& cloud, bool lists) {
-  return cloud.size() > 0 && !cloud.rounded() &&
-         (!lists || (cloud.parts().size() == 1 && cloud.numbered_from_zero()));
+  if (cloud.size() == 0 || cloud.rounded()) return false;
+  if (cloud.parts().size() == 1) return !lists || cloud.numbered_from_zero();
+  // A shader sees two parts, which must have the whole cluster.
+  return !lists && cloud.parts().front().count >= kLargestCluster;
 }
 
 ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& clusters, DirectionSet set) {

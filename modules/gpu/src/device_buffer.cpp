@@ -4,6 +4,7 @@
 #include "device_buffer.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace pcl_bv::detail {
@@ -34,9 +35,10 @@ DeviceBuffer::DeviceBuffer(GpuContext& context, std::size_t bytes, BufferUse use
   make(use);  // the destructor runs if this throws, because the other constructor has finished
 }
 
-std::unique_ptr<DeviceBuffer> DeviceBuffer::import(GpuContext& context, int fd, std::size_t bytes) {
-  std::unique_ptr<DeviceBuffer> buffer(new DeviceBuffer(context, bytes));
-  buffer->make_imported(fd);
+std::unique_ptr<DeviceBuffer> DeviceBuffer::import(GpuContext& context, int fd, std::size_t memory_bytes,
+                                                   std::size_t buffer_bytes) {
+  std::unique_ptr<DeviceBuffer> buffer(new DeviceBuffer(context, buffer_bytes));
+  buffer->make_imported(fd, memory_bytes);
   return buffer;
 }
 
@@ -80,7 +82,7 @@ void DeviceBuffer::make(BufferUse use) {
   mapped_ = static_cast<std::byte*>(address);
 }
 
-void DeviceBuffer::make_imported(int fd) {
+void DeviceBuffer::make_imported(int fd, std::size_t memory_bytes) {
   const VulkanApi& vk = context_.vk;
   if (!context_.info().imports)
     throw GpuError(GpuFailure::other,
@@ -96,7 +98,12 @@ void DeviceBuffer::make_imported(int fd) {
   auto imported = vulkan_struct<VkImportMemoryFdInfoKHR>(VK_STRUCTURE_TYPE_IMPORT_MEMORY_FD_INFO_KHR);
   imported.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
   imported.fd = fd;
-  allocate(context_.memory_type(needs.memoryTypeBits, {kLocal, 0}), needs.size, &imported);
+  if (needs.size > memory_bytes)
+    throw GpuError(GpuFailure::other, context_.info().name +
+                                          ": the imported memory is too small, buffers need " +
+                                          std::to_string(needs.size) + " bytes");
+  // The size must be that of the exporter's allocation.
+  allocate(context_.memory_type(needs.memoryTypeBits, {kLocal, 0}), memory_bytes, &imported);
 }
 
 }  // namespace pcl_bv::detail

@@ -17,9 +17,11 @@ class DeviceBuffer {
   /// Makes an uninitialised buffer of at least one byte. Throws GpuError.
   DeviceBuffer(GpuContext& context, std::size_t bytes, BufferUse use);
 
-  /// Takes over memory of another program, of which `fd` is an opaque handle. On success, the driver owns
-  /// `fd`; after an exception, the caller does. Throws GpuError, also if the device cannot import memory.
-  static std::unique_ptr<DeviceBuffer> import(GpuContext& context, int fd, std::size_t bytes);
+  /// Takes over memory of another program, of which `fd` is an opaque handle, and makes a buffer of its first
+  /// bytes. On success, the driver owns `fd`; after an exception, the caller does. Throws GpuError, also if
+  /// the device cannot import memory.
+  static std::unique_ptr<DeviceBuffer> import(GpuContext& context, int fd, std::size_t memory_bytes,
+                                              std::size_t buffer_bytes);
 
   ~DeviceBuffer();
   DeviceBuffer(const DeviceBuffer&) = delete;
@@ -33,7 +35,7 @@ class DeviceBuffer {
  private:
   DeviceBuffer(GpuContext& context, std::size_t bytes);
   void make(BufferUse use);
-  void make_imported(int fd);
+  void make_imported(int fd, std::size_t memory_bytes);
   void allocate(std::uint32_t type, std::size_t bytes, const void* next);
 
   GpuContext& context_;

@@ -17,6 +17,9 @@ namespace {
 // Chunks that are copied at a time to a device with memory of its own: 12 MiB.
 constexpr std::size_t kStagedChunks = 32;
 
+// Bytes that are copied at a time from the device.
+constexpr std::size_t kDownloadedBytes = std::size_t{16} << 20;
+
 // Returns a valid point from the middle of the cloud; the origin if that chunk has none. Every choice gives
 // the same volumes, but rejects more or fewer points.
 Coordinates middle_point(const PointView& points) {
@@ -72,6 +75,10 @@ void pack(const PointView& points, std::size_t first_chunk, std::size_t chunks, 
   });
 }
 
+std::size_t needed_bytes(const ImportedPoints& layout) {
+  return layout.count == 0 ? 0 : layout.offset + (layout.count - 1) * layout.stride + 12;
+}
+
 void check_layout(const ImportedPoints& layout) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument("ImportedPoints: " + what); };
   if (layout.stride % 4 != 0 || layout.stride < 12 || layout.stride > 1024)
@@ -80,8 +87,7 @@ void check_layout(const ImportedPoints& layout) {
     refuse("offset is " + std::to_string(layout.offset) + ", must be a multiple of 4 bytes");
   if (layout.count > GpuCloud::max_points)
     refuse("count is " + std::to_string(layout.count) + ", must be at most 2^30");
-  const std::size_t needed = layout.count == 0 ? 0 : layout.offset + (layout.count - 1) * layout.stride + 12;
-  if (layout.offset > layout.bytes || needed > layout.bytes)
+  if (layout.offset > layout.bytes || needed_bytes(layout) > layout.bytes)
     refuse(std::to_string(layout.bytes) + " bytes are too few for " + std::to_string(layout.count) +
            " points");
 }
@@ -110,7 +116,7 @@ DevicePoints::DevicePoints(std::shared_ptr<GpuContext> context, const PointView&
 DevicePoints::DevicePoints(std::shared_ptr<GpuContext> context, int fd, const ImportedPoints& layout)
     : context_(std::move(context)), size_(layout.count), stride_(layout.stride) {
   check_layout(layout);
-  buffers_.push_back(DeviceBuffer::import(*context_, fd, layout.bytes));
+  buffers_.push_back(DeviceBuffer::import(*context_, fd, layout.bytes, needed_bytes(layout)));
   divide(layout.offset);
   const Coordinates origin = middle_point(points());
   center_ = {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)};
@@ -181,24 +187,37 @@ PointView DevicePoints::view_of_bytes(const std::byte* bytes, std::size_t first,
 }
 
 void DevicePoints::download(const std::vector<PointView>& slices, std::byte* to) const {
-  std::size_t total = 0;
-  for (const PointView& slice : slices)
-    total += slice.count * stride_;
-  const ScratchBuffer buffer(*context_, total, BufferUse::download);
-  Submission submission(context_);
-  std::size_t at = 0;
+  const std::size_t most_points = kDownloadedBytes / stride_;
+  std::vector<Download> batch;
+  std::size_t bytes = 0;
+  const auto run = [&] {
+    run_downloads(batch, bytes, to);
+    to += bytes;
+    bytes = 0;
+    batch.clear();
+  };
   for (const PointView& slice : slices) {
     for (std::size_t first = slice.first, end = slice.first + slice.count; first < end;) {
       const PointPart& part = part_of(first);
-      const std::size_t count = std::min(end, part.first + part.count) - first;
-      submission.copy(*part.binding.buffer, part.byte + (first - part.first) * stride_, buffer, at,
-                      copied_bytes(count), Order::beside_previous);
-      at += count * stride_;
+      const std::size_t count = std::min({end - first, part.first + part.count - first, most_points});
+      if (bytes + count * stride_ > kDownloadedBytes) run();
+      batch.push_back({&part, part.byte + (first - part.first) * stride_, bytes, copied_bytes(count)});
+      bytes += count * stride_;
       first += count;
     }
   }
+  if (!batch.empty()) run();
+}
+
+// Copies the ranges, and then all bytes that they are in, also those between points.
+void DevicePoints::run_downloads(const std::vector<Download>& batch, std::size_t bytes, std::byte* to) const {
+  const ScratchBuffer buffer(*context_, bytes, BufferUse::download);
+  Submission submission(context_);
+  for (const Download& range : batch)
+    submission.copy(*range.part->binding.buffer, range.from, buffer, range.to, range.bytes,
+                    Order::beside_previous);
   submission.run();
-  std::memcpy(to, buffer.mapped(), total);
+  std::memcpy(to, buffer.mapped(), bytes);
 }
 
 std::vector<PointView> DevicePoints::blocks(const std::vector<std::uint32_t>& numbers,

@@ -67,7 +67,13 @@ class DevicePoints : public PointSource {
   void upload(const PointView& points, const Coordinates& origin, const Execution& execution);
   const PointPart& part_of(std::size_t point) const;
   PointView view_of_bytes(const std::byte* bytes, std::size_t first, std::size_t count) const;
+  // A range of a part's buffer, and where its bytes go.
+  struct Download {
+    const PointPart* part;
+    std::size_t from, to, bytes;
+  };
   void download(const std::vector<PointView>& slices, std::byte* to) const;
+  void run_downloads(const std::vector<Download>& batch, std::size_t bytes, std::byte* to) const;
   std::size_t copied_bytes(std::size_t points) const { return (points - 1) * stride_ + 12; }
 
   std::shared_ptr<GpuContext> context_;

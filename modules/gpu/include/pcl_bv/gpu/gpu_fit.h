@@ -24,10 +24,11 @@ class ClusterFitter;
 /// invalid input gives what that function gives.
 ///
 /// The device finds the support points of all methods that begin with them, in one pass: aabb, dop*,
-/// sphere-*, and those that search the hull. Everything else is done by the processor, which reads the points
-/// from GpuCloud::points(). The processor also searches supports itself, so that the fit only takes longer,
-/// if more than a sixteenth of the blocks of 1024 points could have a support (equal coordinates, as on a
-/// grid), or if coordinates span more than 2^126.
+/// sphere-*, and those that search the hull. For spheres of float points it also rejects points near the
+/// centre. Everything else is done by the processor, which reads the points from GpuCloud::points(). The
+/// processor also searches supports itself, so that the fit only takes longer, if more than a sixteenth of
+/// the blocks of 1024 points could have a support (equal coordinates, as on a grid), or if coordinates span
+/// more than 2^126.
 ///
 /// Throws std::invalid_argument for a null method. Throws GpuError if the device has too little memory or is
 /// lost. Exceptions of the source of the uploaded points are passed on.
@@ -54,13 +55,13 @@ class ClusterFits {
   std::vector<EstimationResult> results_;
   std::vector<std::size_t> directions_;  // of the stored slabs, in the order of the 26-DOP
   std::vector<double> slabs_;            // minimum and maximum along each direction, for each cluster
-  std::vector<std::vector<AnyVolume>>
-      others_;  // for each method: its volumes, or none if they are made of slabs
+  // For each method its volumes, or none if they are made of slabs.
+  std::vector<std::vector<AnyVolume>> others_;
 };
 
-/// Fits several methods to each cluster. Cluster i has the points with the positions offsets[i] to offsets[i
-/// + 1] - 1 in GpuCloud::points(), or those whose indices are in list i. The fits have the same bits as
-/// fit_methods() for the points of each cluster.
+/// Fits several methods to each cluster. Cluster i has the visited points of GpuCloud::points() from
+/// offsets[i] up to offsets[i + 1], exclusive, or those whose indices are in list i. The fits have the same
+/// bits as fit_methods() for the points of each cluster.
 ///
 /// The device computes aabb and dop* of float points exactly, except for clusters of more than 32 768 points,
 /// clusters that are not clearly solid, and coordinates whose bits span more than 60 powers of two. The
