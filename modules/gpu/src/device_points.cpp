@@ -223,6 +223,7 @@ void DevicePoints::run_downloads(const std::vector<Download>& batch, std::size_t
 std::vector<PointView> DevicePoints::blocks(const std::vector<std::uint32_t>& numbers,
                                             std::vector<std::byte>& storage) const {
   std::vector<PointView> views;
+  views.reserve(numbers.size());
   for (const std::uint32_t number : numbers)
     views.push_back(block_of(points(), number));
   return in_memory(std::move(views), storage);
