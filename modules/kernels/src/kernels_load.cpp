@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 
 #include "axis_extents.cpp"
+#include "convert_times.cpp"
 #include "deskew.cpp"
 #include "half_spaces.cpp"
 #include "region_states.cpp"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scalar references except those of supports and axis extents (support_reference.cpp) and of trees
-// (tree_reference.cpp). They are compiled with -O3 -fno-tree-vectorize, because benchmarks use them as the
-// scalar baseline.
+// The scalar references except those of supports and axis extents (support_reference.cpp), of times
+// (times_reference.cpp) and of trees (tree_reference.cpp). They are compiled with -O3 -fno-tree-vectorize,
+// because benchmarks use them as the scalar baseline.
 
 #include "references.h"
 

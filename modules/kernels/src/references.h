@@ -6,6 +6,7 @@
 
 #include "nearest_set.h"
 #include "pcl_bv/kernels/axis_extents.h"
+#include "pcl_bv/kernels/convert_times.h"
 #include "pcl_bv/kernels/deskew.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
@@ -32,6 +33,8 @@ void chosen_states_reference(const PointView& points, const RegionTests::Prepare
                              const ChosenRegions& chosen, std::uint8_t* states);
 void deskew_reference(const PointView& points, const float* seconds, const SensorMotion& motion,
                       std::byte* xyz);
+ConvertedTimes convert_times_reference(const TimeRecords& records, const TimeConversion& to, float* seconds);
+TimeLimits find_time_limits_reference(const float* seconds, std::size_t count);
 void transform_points_reference(const PointView& points, const RigidTransform& transform, std::byte* xyz);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
