@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "pcl_bv/kernels/convert_times.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
 #include "sensor_motion.h"
@@ -46,15 +47,17 @@ std::optional<SensorMotion> Deskewer::motion_of(const Frame& frame) const {
 }
 
 // Returns the seconds of each point after the stamp. They are undefined if the times have a problem.
-const float* Deskewer::read_times(const Frame& frame, DeskewTimes& times) {
+const float* Deskewer::read_times(const Frame& frame, UsableIsa isa, DeskewTimes& times) {
   static constexpr TimeUnit kSeconds{"s", 1};
   if (frame.seconds == nullptr) {
     seconds_.resize(frame.points.count);
-    times = point_times_.read(*frame.times, frame.points, frame.header.stamp_ns, seconds_.data());
+    times = point_times_.read(isa, *frame.times, frame.points, frame.header.stamp_ns, seconds_.data());
     return seconds_.data();
   }
   times.unit = &kSeconds;
-  if (!frame.points.empty()) find_time_limits(frame.seconds, frame.points.count, times);
+  const TimeLimits limits = find_time_limits(isa, frame.seconds, frame.points.count);
+  times.first = limits.first;
+  times.last = limits.last;
   return frame.seconds;
 }
 
@@ -70,7 +73,7 @@ void Deskewer::apply(const Frame& frame, const Execution& execution, DeskewResul
     result.outcome = DeskewOutcome::no_motion;
     return;
   }
-  const float* const seconds = read_times(frame, result.times);
+  const float* const seconds = read_times(frame, execution.isa, result.times);
   if (result.times.problem != DeskewTimes::Problem::none) {
     result.outcome = DeskewOutcome::bad_times;
   } else if (!(max_rotation_angle(*motion, result.times) <= kMaxDeskewAngle)) {

@@ -38,7 +38,7 @@ class Deskewer {
   };
 
   std::optional<SensorMotion> motion_of(const Frame& frame) const;
-  const float* read_times(const Frame& frame, DeskewTimes& times);
+  const float* read_times(const Frame& frame, UsableIsa isa, DeskewTimes& times);
   void move(const Frame& frame, const float* seconds, const SensorMotion& motion, const Execution& execution,
             DeskewResult& result);
 

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
+#include "pcl_bv/kernels/convert_times.h"
 #include "visit_numbers.h"
 
 namespace pcl_bv::detail {
@@ -42,23 +44,37 @@ double earliest(const FieldView& field, std::size_t count, double median, double
   return first;
 }
 
-// How numbers become seconds after the stamp.
-struct Conversion {
-  double median, unit_seconds, stamp_offset;
-  double max_offset;  // of points of the sweep, from the median
-};
+std::optional<TimeType> type_of(const FieldView& field) {
+  if (field.type == 'F' && field.size == 4) return TimeType::float32;
+  if (field.type == 'F' && field.size == 8) return TimeType::float64;
+  if (field.type == 'U' && field.size == 4) return TimeType::uint32;
+  return std::nullopt;
+}
 
-// Returns the number of points outside the sweep. They get the time 0.
-std::size_t write_seconds(const FieldView& field, const Conversion& to, std::size_t count, float* seconds) {
-  std::size_t outside = 0;
-  visit_numbers(field, count, [&](std::size_t i, double number) {
-    const double offset = number - to.median;
-    const auto time = static_cast<float>(offset * to.unit_seconds - to.stamp_offset);
-    const bool inside = std::abs(offset) <= to.max_offset;
-    seconds[i] = inside ? time : 0.F;
-    outside += !inside;
-  });
-  return outside;
+// Converts times of a type that the kernel does not know, which is rare, through doubles.
+ConvertedTimes write_seconds_of_doubles(UsableIsa isa, const FieldView& field, const TimeConversion& to,
+                                        std::size_t count, float* seconds) {
+  std::array<double, 512> numbers;
+  ConvertedTimes all;
+  for (std::size_t begin = 0; begin < count; begin += numbers.size()) {
+    const std::size_t size = std::min(numbers.size(), count - begin);
+    for (std::size_t i = 0; i < size; ++i)
+      numbers[i] = field.number(begin + i);
+    const TimeRecords records{reinterpret_cast<const std::byte*>(numbers.data()), sizeof(double), size,
+                              TimeType::float64};
+    const ConvertedTimes block = convert_times(isa, records, to, seconds + begin);
+    all.limits.first = begin == 0 ? block.limits.first : std::min(all.limits.first, block.limits.first);
+    all.limits.last = begin == 0 ? block.limits.last : std::max(all.limits.last, block.limits.last);
+    all.outside += block.outside;
+  }
+  return all;
+}
+
+ConvertedTimes write_seconds(UsableIsa isa, const FieldView& field, const TimeConversion& to,
+                             std::size_t count, float* seconds) {
+  if (const std::optional<TimeType> type = type_of(field))
+    return convert_times(isa, {field.data, field.stride, count, *type}, to, seconds);
+  return write_seconds_of_doubles(isa, field, to, count, seconds);
 }
 
 // Returns the number of points with a return that are more than `max_offset` from the median, or have no
@@ -91,29 +107,8 @@ double PointTimes::ranked(std::size_t rank) {
   return *at;
 }
 
-// A single minimum would wait for the one before: one minimum for each of 8 residues takes a quarter of the
-// time.
-void find_time_limits(const float* seconds, std::size_t count, DeskewTimes& times) {
-  constexpr std::size_t lanes = 8;
-  std::array<float, lanes> first, last;
-  first.fill(seconds[0]);
-  last.fill(seconds[0]);
-  const auto include = [&](std::size_t i, std::size_t lane) {
-    first[lane] = seconds[i] < first[lane] ? seconds[i] : first[lane];
-    last[lane] = seconds[i] > last[lane] ? seconds[i] : last[lane];
-  };
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes)
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      include(i + lane, lane);
-  for (; i < count; ++i)
-    include(i, 0);
-  times.first = *std::min_element(first.begin(), first.end());
-  times.last = *std::max_element(last.begin(), last.end());
-}
-
-DeskewTimes PointTimes::read(const FieldView& field, const PointView& points, std::int64_t stamp_ns,
-                             float* seconds) {
+DeskewTimes PointTimes::read(UsableIsa isa, const FieldView& field, const PointView& points,
+                             std::int64_t stamp_ns, float* seconds) {
   DeskewTimes times;
   sample(field, points);
   if (sample_.empty()) {
@@ -144,10 +139,11 @@ DeskewTimes PointTimes::read(const FieldView& field, const PointView& points, st
     times.clock_difference = since_stamp;
     stamp_offset = earliest(field, points.count, median, max_offset) * unit_seconds;
   }
-  const std::size_t outside =
-      write_seconds(field, {median, unit_seconds, stamp_offset, max_offset}, points.count, seconds);
-  find_time_limits(seconds, points.count, times);
-  if (outside > 0) times.outside = count_outside(field, points, median, max_offset);
+  const ConvertedTimes converted =
+      write_seconds(isa, field, {median, unit_seconds, stamp_offset, max_offset}, points.count, seconds);
+  times.first = converted.limits.first;
+  times.last = converted.limits.last;
+  if (converted.outside > 0) times.outside = count_outside(field, points, median, max_offset);
   return times;
 }
 

@@ -11,6 +11,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
@@ -34,8 +35,10 @@ class PointTimes {
  public:
   /// Writes the times relative to the stamp to `seconds`, one for each point. `points` are the points of the
   /// field's records. Returns what was found. `seconds` is undefined unless DeskewTimes::problem is `none`.
-  /// O(points); allocates only if it needs more memory than before.
-  DeskewTimes read(const FieldView& field, const PointView& points, std::int64_t stamp_ns, float* seconds);
+  /// The instruction set does not change the result. The caller must hold a FloatEnvironment. O(points);
+  /// allocates only if it needs more memory than before.
+  DeskewTimes read(UsableIsa isa, const FieldView& field, const PointView& points, std::int64_t stamp_ns,
+                   float* seconds);
 
  private:
   void sample(const FieldView& field, const PointView& points);
@@ -47,9 +50,6 @@ class PointTimes {
 /// Returns a warning if the times are relative to an unknown origin, or if points have no time of the sweep;
 /// otherwise an empty text.
 std::string times_warning(const DeskewTimes& times);
-
-/// Sets the smallest and largest of at least one time.
-void find_time_limits(const float* seconds, std::size_t count, DeskewTimes& times);
 
 }  // namespace detail
 }  // namespace pcl_bv

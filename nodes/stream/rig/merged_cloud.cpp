@@ -119,7 +119,8 @@ void CloudMerger::write_times(const MountedCloud& cloud, std::int64_t stamp_ns, 
   const auto offset = static_cast<float>(1e-9 * static_cast<double>(frame.header.stamp_ns - stamp_ns));
   bool known = false;
   if (frame.times) {
-    const DeskewTimes times = point_times_.read(*frame.times, frame.points, frame.header.stamp_ns, seconds);
+    const DeskewTimes times =
+        point_times_.read(isa_, *frame.times, frame.points, frame.header.stamp_ns, seconds);
     known = times.problem == DeskewTimes::Problem::none;
     warn_of_times(cloud, times);
   }
