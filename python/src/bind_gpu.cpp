@@ -114,8 +114,8 @@ Raises Error without the Vulkan loader.
 
 constexpr const char* gpu_device_doc = R"(Device(which='auto')
 
-An open device. which: 'auto' for the best graphics card, a number of devices(), or a part of a name in any case.
-'auto' takes no software driver. Raises Error if there is no such device.
+An open device. which: 'auto' for the best graphics card, a number of devices(), or a part of a name in any
+case. 'auto' takes no software driver. Raises Error if there is no such device.
 
 >>> import pcl_bv.gpu
 >>> device = pcl_bv.gpu.Device(0)
@@ -125,8 +125,8 @@ An open device. which: 'auto' for the best graphics card, a number of devices(),
 
 constexpr const char* gpu_cloud_doc = R"(Cloud(points, device, *, threads=1)
 
-A copy of points in the memory of a device. points: as for pcl_bv.fit(). The array is kept, and must not change:
-fits read from it the few points that the device cannot decide on. Raises Error for too little memory.
+A copy of points in the memory of a device. points: as for pcl_bv.fit(). The array is kept, and must not
+change: fits read from it the few points that the device cannot decide on. Raises Error for too little memory.
 
 >>> import numpy, pcl_bv.gpu
 >>> corners = numpy.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]], numpy.float32)
@@ -138,10 +138,10 @@ constexpr const char* gpu_fit_doc =
     "fit(self, method, offsets=None, *, up='z', growth='deferred', concave_length=None, threads=1)\n--\n\n"
     R"(Fits volumes to the points, with the bits of pcl_bv.fit().
 
-method and the other arguments: as for pcl_bv.fit(). offsets: where clusters begin; cluster i has the points offsets[i]
-to offsets[i + 1] - 1. Returns a volume, or a list of volumes for a list of methods; with offsets a list of these, one
-for each cluster. Raises Error if the device is lost or has too little memory, IndexError for offsets beyond the cloud
-and ValueError for offsets that descend.
+method and the other arguments: as for pcl_bv.fit(). offsets: where clusters begin; cluster i has the points
+offsets[i] to offsets[i + 1] - 1. Returns a volume, or a list of volumes for a list of methods; with offsets a
+list of these, one for each cluster. Raises Error if the device is lost or has too little memory, IndexError
+for offsets beyond the cloud and ValueError for offsets that descend.
 
 >>> import numpy, pcl_bv.gpu
 >>> corners = numpy.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]], numpy.float32)

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists the blocks that can have a support point, one thread per block. A block is listed if one of its extremes is
-// within the error band of the cloud's extreme. docs/numerics.md proves that every support point is in a listed block.
+// Lists the blocks that can have a support point, one thread per block. A block is listed if one of its
+// extremes is within the error band of the cloud's extreme. docs/numerics.md proves that every support point
+// is in a listed block.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "float_keys.glsl"
@@ -34,8 +35,8 @@ float magnitude(uint axis, float center) {
   return max(abs(low), abs(high));
 }
 
-// Whether this block's key is within `band` of the cloud's. A NaN or an overflow lists the block; the host notices
-// magnitudes for which this can happen, and does not use the list.
+// Whether this block's key is within `band` of the cloud's. A NaN or an overflow lists the block; the host
+// notices magnitudes for which this can happen, and does not use the list.
 bool near(uint block, uint support, float band) {
   const int key = cloud_keys[support];
   const bool low = (support & 1u) == 0;

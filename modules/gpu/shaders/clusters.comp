@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Computes the slabs of clusters, one workgroup per cluster, exactly: coordinates are integers in a unit of the cluster.
-// A cluster is left to the processor if its coordinates have too many different exponents, or if it is not clear that it
-// spans three dimensions.
+// Computes the slabs of clusters, one workgroup per cluster, exactly: coordinates are integers in a unit of
+// the cluster. A cluster is left to the processor if its coordinates have too many different exponents, or if
+// it is not clear that it spans three dimensions.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "fixed_point.glsl"
@@ -11,7 +11,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kSet = 3;     // directions: 0 axes, 1 dop14, 2 dop18, 3 dop26
 layout(constant_id = 1) const uint kStride = 3;  // words from one point to the next
-layout(constant_id = 2) const bool kListed = false;  // whether clusters are lists of indices, or ranges of points
+layout(constant_id = 2) const bool kListed = false;  // whether clusters are lists of indices, not ranges
 
 // A cluster begins in the first part of the cloud and can end in the second one.
 layout(std430, binding = 0) readonly buffer FirstPart { uint first_words[]; };
@@ -19,8 +19,8 @@ layout(std430, binding = 1) readonly buffer SecondPart { uint second_words[]; };
 // Where each cluster begins, and where the last one ends: a point or, for lists, a position in `indices`.
 layout(std430, binding = 2) readonly buffer Offsets { uint offsets[]; };
 layout(std430, binding = 3) readonly buffer Indices { uint indices[]; };
-// For each cluster: the number of valid points; 1 if the slabs are those of the cluster, which has rank 3, else 0; for
-// each direction the minimum and the maximum as doubles, low words first.
+// For each cluster: the number of valid points; 1 if the slabs are those of the cluster, which has rank 3,
+// else 0; for each direction the minimum and the maximum as doubles, low words first.
 layout(std430, binding = 4) writeonly buffer Results { uint results[]; };
 layout(push_constant) uniform Slice {
   uint first_word, second_word;  // of the first point of each part
@@ -84,10 +84,12 @@ Point point_of(uvec3 bits, int unit) {
   return Point(fixed_point(bits.x, unit), fixed_point(bits.y, unit), fixed_point(bits.z, unit));
 }
 
-// Returns a difference, shifted so that the longest side has its highest bit at bit 20, as a float without rounding.
+// Returns a difference, shifted so that the longest side has its highest bit at bit 20, as a float without
+// rounding.
 float shortened(uvec2 difference, uint side_top) {
   const uvec2 magnitude = magnitude_of(difference);
-  const float value = float(side_top > 20u ? shift_right(magnitude, side_top - 20u).x : magnitude.x << (20u - side_top));
+  const float value =
+      float(side_top > 20u ? shift_right(magnitude, side_top - 20u).x : magnitude.x << (20u - side_top));
   return is_negative(difference) ? -value : value;
 }
 
@@ -96,11 +98,12 @@ vec3 shortened_difference(Point a, Point b, uint side_top) {
               shortened(subtract(a.z, b.z), side_top));
 }
 
-// Whether a tetrahedron of four of the cluster's points is clearly a solid: one with the first point and those at a
-// third and two thirds of the cluster. Coordinates are cut to 21 bits of the longest side. The determinant then has an
-// error below 2^48 (docs/numerics.md), and 2^51 proves the rank.
+// Whether a tetrahedron of four of the cluster's points is clearly a solid: one with the first point and
+// those at a third and two thirds of the cluster. Coordinates are cut to 21 bits of the longest side. The
+// determinant then has an error below 2^48 (docs/numerics.md), and 2^51 proves the rank.
 void find_solid(uint begin, uint count, int unit) {
-  const uvec3 origin_bits = bits_of(begin), a_bits = bits_of(begin + count / 3), b_bits = bits_of(begin + count / 3 * 2);
+  const uvec3 origin_bits = bits_of(begin);
+  const uvec3 a_bits = bits_of(begin + count / 3), b_bits = bits_of(begin + count / 3 * 2);
   if (!is_valid(origin_bits) || !is_valid(a_bits) || !is_valid(b_bits)) return;
   uvec2 side = uvec2(0u);
   for (uint axis = 0; axis < 3; ++axis) {
@@ -180,7 +183,8 @@ void main() {
     results[cluster * kResultWords] = valid_points;
     results[cluster * kResultWords + 1] = 0;
   }
-  // Sums of three coordinates of 61 bits have 63 bits. Without any coordinate but 0, `unit` is too large, too.
+  // Sums of three coordinates of 61 bits have 63 bits. Without any coordinate but 0, `unit` is too large,
+  // too.
   if (valid_points < 4u || highest_exponent - unit > 60 || unit > 300) return;
 
   const Slab none = Slab(uvec2(0xffffffffu, 0x7fffffffu), uvec2(0u, 0x80000000u));

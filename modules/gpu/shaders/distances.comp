@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists the blocks that have a point far from a centre, one workgroup per block. docs/numerics.md bounds the error of the
-// distances, which the limit includes.
+// Lists the blocks that have a point far from a centre, one workgroup per block. docs/numerics.md bounds the
+// error of the distances, which the limit includes.
 #version 450
 
 layout(local_size_x = 64) in;

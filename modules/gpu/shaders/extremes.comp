@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the extremes of blocks of 1024 points along the directions of a k-DOP, one workgroup per block, and the
-// extremes of the cloud. Projections are those of p - center in float; docs/numerics.md bounds their error. Along the
-// axes, the keys are those of the coordinates themselves, without any arithmetic.
+// Finds the extremes of blocks of 1024 points along the directions of a k-DOP, one workgroup per block, and
+// the extremes of the cloud. Projections are those of p - center in float; docs/numerics.md bounds their
+// error. Along the axes, the keys are those of the coordinates themselves, without any arithmetic.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "float_keys.glsl"
@@ -13,8 +13,8 @@ layout(constant_id = 0) const uint kSet = 3;     // directions: 0 axes, 1 dop14,
 layout(constant_id = 1) const uint kStride = 3;  // words from one point to the next
 
 layout(std430, binding = 0) readonly buffer Points { uint words[]; };
-// The key of support s of block b is keys[s * blocks + b]. Support 2k is the minimum along direction k, support
-// 2k + 1 the maximum. The key of a minimum is inverted, so that of all keys the largest counts.
+// The key of support s of block b is keys[s * blocks + b]. Support 2k is the minimum along direction k,
+// support 2k + 1 the maximum. The key of a minimum is inverted, so that of all keys the largest counts.
 layout(std430, binding = 1) writeonly buffer BlockKeys { int block_keys[]; };
 layout(std430, binding = 2) coherent buffer Cloud {
   int cloud_keys[26];
@@ -133,7 +133,8 @@ void main() {
     for (uint thread = 0; thread < kThreads; ++thread)
       key = max(key, thread_keys[support * kRow + thread]);
     block_keys[support * blocks + first_block + block] = key;
-    // Nearly all blocks are inside the extremes of the blocks before them, so few atomic operations are needed.
+    // Nearly all blocks are inside the extremes of the blocks before them, so few atomic operations are
+    // needed.
     if (key > cloud_keys[support]) atomicMax(cloud_keys[support], key);
   }
   barrier();

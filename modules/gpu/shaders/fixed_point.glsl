@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Signed integers of 64 bits as pairs (low word, high word), and floats as multiples of a power of two. No device rounds
-// integers, so sums and comparisons are exact.
+// Signed integers of 64 bits as pairs (low word, high word), and floats as multiples of a power of two. No
+// device rounds integers, so sums and comparisons are exact.
 
 const uint kExponentBias = 150;  // a float is its significand times 2^(exponent - 150)
 
@@ -59,8 +59,8 @@ uint highest_bit(uvec2 a) {
   return a.y != 0u ? 32u + uint(findMSB(a.y)) : uint(findMSB(a.x));
 }
 
-// Returns a float as a multiple of 2^(unit - kExponentBias). `unit` must not exceed the exponent of the float's lowest
-// set bit, nor be more than 60 below the exponent of its highest.
+// Returns a float as a multiple of 2^(unit - kExponentBias). `unit` must not exceed the exponent of the
+// float's lowest set bit, nor be more than 60 below the exponent of its highest.
 uvec2 fixed_point(uint bits, int unit) {
   const Parts parts = parts_of(bits);
   const int shift = parts.exponent - unit;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Integer keys of floats, in the order of the floats. Integers keep denormal numbers, which a device may replace
-// by 0 in float arithmetic.
+// Integer keys of floats, in the order of the floats. Integers keep denormal numbers, which a device may
+// replace by 0 in float arithmetic.
 
 const int kNoKey = -0x7fffffff - 1;  // below the key of every float
 

@@ -52,8 +52,8 @@ class GpuCloud {
 
   /// Uses memory that another program or library has exported (VK_KHR_external_memory_fd, opaque handles:
   /// Vulkan; CUDA with CU_MEM_HANDLE_TYPE_POSIX_FILE_DESCRIPTOR). Copies nothing. The memory must be of the
-  /// same device, in its own memory (device-local), and ImportedPoints::bytes must be the size that the exporter
-  /// has allocated.
+  /// same device, in its own memory (device-local), and ImportedPoints::bytes must be the size that the
+  /// exporter has allocated.
   ///
   /// On success the cloud owns `fd` and closes it; after an exception the caller still owns it. The memory
   /// lives until the exporter and all copies of the cloud have released it. The exporter must have finished
