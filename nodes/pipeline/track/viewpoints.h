@@ -58,5 +58,5 @@ class Viewpoints {
 Eigen::Vector3d nearest_sensor(const std::vector<SensorPart>& sensors, const Eigen::Vector3d& point,
                                const Eigen::Vector3d& otherwise);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
