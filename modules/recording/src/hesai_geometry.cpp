@@ -9,31 +9,17 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr double kHesaiDegree = 3.14159265358979323846 / 180;
-constexpr std::size_t kHesaiTurn = 36'000;  // hundredths of a degree
-
-const std::vector<HesaiRotation>& hesai_rotations() {
-  static const auto all = [] {
-    std::vector<HesaiRotation> table(kHesaiTurn);
-    for (std::size_t i = 0; i < kHesaiTurn; ++i) {
-      const double angle = static_cast<double>(i) / 100 * kHesaiDegree;
-      table[i] = {std::sin(angle), std::cos(angle)};
-    }
-    return table;
-  }();
-  return all;
-}
-
 double metres_per_unit(const HesaiModel& model) {
   return model.unit_mm / 1000.0;
 }
 
 }  // namespace
 
-HesaiRotation hesai_rotation(double angle) {
+SineCosine hesai_rotation(double angle) {
   const double whole = std::floor(angle);
-  const auto index = static_cast<long long>(whole) % static_cast<long long>(kHesaiTurn);
-  const auto [s, c] = hesai_rotations()[static_cast<std::size_t>(
-      index < 0 ? index + static_cast<long long>(kHesaiTurn) : index)];
+  const auto index = static_cast<long long>(whole) % static_cast<long long>(kFullCircle);
+  const auto [s, c] = sine_cosine_table()[static_cast<std::size_t>(
+      index < 0 ? index + static_cast<long long>(kFullCircle) : index)];
   if (whole == angle) return {s, c};
   const double rest = (angle - whole) / 100 * kHesaiDegree, cosine = 1 - rest * rest / 2;
   return {s * cosine + c * rest, c * cosine - s * rest};
@@ -56,7 +42,7 @@ HesaiGeometry::HesaiGeometry(const HesaiModel& sensor, const HesaiCorrection& co
 
 long long HesaiGeometry::frame_at(double unwrapped) const {
   if (mirrors) return mirrors->frame_at(unwrapped);
-  return static_cast<long long>(std::floor(unwrapped / static_cast<double>(kHesaiTurn)));
+  return static_cast<long long>(std::floor(unwrapped / static_cast<double>(kFullCircle)));
 }
 
 void HesaiGeometry::mirror(double azimuth, std::vector<HesaiDirection>& directions) const {

@@ -9,6 +9,7 @@
 
 #include "hesai_mirrors.h"
 #include "hesai_model.h"
+#include "packet_numbers.h"
 #include "sensor_point.h"
 
 namespace pcl_bv::detail {
@@ -48,11 +49,7 @@ struct HesaiGeometry {
   void mirror(double azimuth, std::vector<HesaiDirection>& directions) const;
 };
 
-struct HesaiRotation {
-  double sine, cosine;
-};
-
 /// Returns the rotation by an angle in hundredths of a degree, with an error below 1e-11.
-HesaiRotation hesai_rotation(double angle);
+SineCosine hesai_rotation(double angle);
 
 }  // namespace pcl_bv::detail

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
+#include "packet_numbers.h"
 #include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
@@ -20,23 +20,22 @@ constexpr double kMirrorCircle = 36'000;  // hundredths of a degree
 // Reads the parts of the file in their order.
 class MirrorFile {
  public:
-  explicit MirrorFile(std::string_view bytes) : at_(bytes.data() + kMirrorHeader) {}
+  explicit MirrorFile(std::string_view bytes)
+      : at_(reinterpret_cast<const std::byte*>(bytes.data()) + kMirrorHeader) {}
 
   // `unit` is in hundredths of a degree.
   template <class Integer>
   std::vector<double> take(std::size_t count, double unit) {
     std::vector<double> numbers(count);
     for (double& number : numbers) {
-      Integer value;
-      std::memcpy(&value, at_, sizeof value);  // the host is little-endian, as elsewhere in this module
-      at_ += sizeof value;
-      number = value * unit;
+      number = little_endian<Integer>(at_) * unit;
+      at_ += sizeof(Integer);
     }
     return numbers;
   }
 
  private:
-  const char* at_;
+  const std::byte* at_;
 };
 
 bool are_within(const std::vector<double>& angles, double limit) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "packet_numbers.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -18,24 +20,17 @@ constexpr unsigned kLateHesaiPackets = 8;              // a complete sweep waits
 constexpr unsigned kHesaiRestart = 8;                  // late packets in succession before a restart
 constexpr std::size_t kMaxHesaiPoints = std::size_t{1} << 20;  // of a sweep; a Pandar64 measures 460 800
 
-template <class T>
-T hesai_number(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);  // the host is little-endian, as elsewhere in this module
-  return value;
-}
-
 constexpr std::uint32_t kDistanceBits = 0xFFFF;  // of return_bits()
 
 // Returns the distance and, above it, the reflectivity. The fourth byte is of the same packet, because a tail
 // follows the last channel.
 std::uint32_t return_bits(const std::byte* at) {
-  return hesai_number<std::uint32_t>(at) & 0xFFFFFFU;
+  return little_endian<std::uint32_t>(at) & 0xFFFFFFU;
 }
 
 // The sensor's time within its second, microseconds.
 std::uint32_t microseconds(const Payload& packet, const HesaiModel& model) {
-  return hesai_number<std::uint32_t>(packet.data + model.tail_at(packet) + model.timestamp) % 1'000'000;
+  return little_endian<std::uint32_t>(packet.data + model.tail_at(packet) + model.timestamp) % 1'000'000;
 }
 
 // Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.

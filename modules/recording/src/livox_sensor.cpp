@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "packet_numbers.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -18,38 +20,12 @@ constexpr unsigned kLateLivoxPackets = 8;               // a complete frame wait
 // restarted.
 constexpr unsigned kLivoxRestart = 8;
 constexpr std::size_t kMaxLivoxPoints = std::size_t{1} << 20;  // of a frame; a HAP measures 45 200
-constexpr std::size_t kLivoxCircle = 36'000;                   // hundredths of a degree
-
-struct LivoxDirection {
-  double sine, cosine;
-};
-
-// Returns the sine and cosine of each hundredth of a degree.
-const std::vector<LivoxDirection>& livox_directions() {
-  static const auto all = [] {
-    constexpr double degree = 3.14159265358979323846 / 180;
-    std::vector<LivoxDirection> table(kLivoxCircle);
-    for (std::size_t i = 0; i < kLivoxCircle; ++i) {
-      const double angle = static_cast<double>(i) / 100 * degree;
-      table[i] = {std::sin(angle), std::cos(angle)};
-    }
-    return table;
-  }();
-  return all;
-}
-
-template <class T>
-T livox_number(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);  // the host is little-endian, as elsewhere in this module
-  return value;
-}
 
 // Sets the coordinates of a point in integers of `units_per_metre`. Returns false if it is no return.
 template <class Integer>
 bool set_cartesian(const std::byte* at, double units_per_metre, SensorPoint& point) {
-  const auto x = livox_number<Integer>(at), y = livox_number<Integer>(at + sizeof(Integer)),
-             z = livox_number<Integer>(at + 2 * sizeof(Integer));
+  const auto x = little_endian<Integer>(at), y = little_endian<Integer>(at + sizeof(Integer)),
+             z = little_endian<Integer>(at + 2 * sizeof(Integer));
   point.x = static_cast<float>(x / units_per_metre);
   point.y = static_cast<float>(y / units_per_metre);
   point.z = static_cast<float>(z / units_per_metre);
@@ -58,9 +34,9 @@ bool set_cartesian(const std::byte* at, double units_per_metre, SensorPoint& poi
 
 // Sets the coordinates of a point from its depth in millimetres, zenith angle and azimuth.
 bool set_spherical(const std::byte* at, SensorPoint& point) {
-  const double depth = livox_number<std::uint32_t>(at) / 1000.0;
-  const LivoxDirection& zenith = livox_directions()[livox_number<std::uint16_t>(at + 4) % kLivoxCircle];
-  const LivoxDirection& azimuth = livox_directions()[livox_number<std::uint16_t>(at + 6) % kLivoxCircle];
+  const double depth = little_endian<std::uint32_t>(at) / 1000.0;
+  const SineCosine& zenith = sine_cosine_table()[little_endian<std::uint16_t>(at + 4) % kFullCircle];
+  const SineCosine& azimuth = sine_cosine_table()[little_endian<std::uint16_t>(at + 6) % kFullCircle];
   point.x = static_cast<float>(depth * zenith.sine * azimuth.cosine);
   point.y = static_cast<float>(depth * zenith.sine * azimuth.sine);
   point.z = static_cast<float>(depth * zenith.cosine);

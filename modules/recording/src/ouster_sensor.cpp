@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
+#include "packet_numbers.h"
 #include "sensor_point.h"
 
 namespace pcl_bv::detail {
@@ -21,30 +21,24 @@ constexpr unsigned kLateOusterPackets = 8;  // a complete frame waits this numbe
 // Late packets in succession after which the sensor, or the program that plays a capture back, has restarted.
 constexpr unsigned kRestartPackets = 8;
 
-template <class T>
-T little(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);  // the host is little-endian, as elsewhere in this module
-  return value;
-}
-
 template <const OusterProfile& profile>
 std::uint32_t range_mm(const std::byte* channel, std::size_t which) {
   const std::byte* const at = channel + profile.at[which].range;
   const std::uint32_t raw =
-      profile.range_mask <= 0xFFFF ? little<std::uint16_t>(at) : little<std::uint32_t>(at);
+      profile.range_mask <= 0xFFFF ? little_endian<std::uint16_t>(at) : little_endian<std::uint32_t>(at);
   return (raw & profile.range_mask) * profile.range_unit_mm;
 }
 
 template <const OusterProfile& profile>
 std::uint32_t reflectivity(const std::byte* channel, std::size_t which) {
   const std::byte* const at = channel + profile.at[which].reflectivity;
-  return profile.reflectivity_bytes == 2 ? little<std::uint16_t>(at) : std::to_integer<std::uint32_t>(*at);
+  return profile.reflectivity_bytes == 2 ? little_endian<std::uint16_t>(at)
+                                         : std::to_integer<std::uint32_t>(*at);
 }
 
 template <const OusterProfile& profile>
 std::uint32_t intensity(const std::byte* channel, std::size_t which) {
-  return profile.has_signal ? little<std::uint16_t>(channel + profile.at[which].signal)
+  return profile.has_signal ? little_endian<std::uint16_t>(channel + profile.at[which].signal)
                             : reflectivity<profile>(channel, which);
 }
 
@@ -116,7 +110,7 @@ OusterSensor::Frame* OusterSensor::frame_of(const Payload& packet, SweepQueue& q
   const std::int64_t passed = packet.time_ns - last_time_ns_;
   if (current_.active && (passed > kMaxOusterPause || passed < -kMaxOusterPause)) finish(queue);
   last_time_ns_ = packet.time_ns;
-  const auto id = little<std::uint16_t>(packet.data + (metadata_->profile->is_legacy() ? 10 : 2));
+  const auto id = little_endian<std::uint16_t>(packet.data + (metadata_->profile->is_legacy() ? 10 : 2));
   if (previous_.active && id == previous_.id) {
     late_in_succession_ = 0;
     return &previous_;
@@ -147,14 +141,15 @@ void OusterSensor::add(const Payload& packet, SweepQueue& queue) {
 void OusterSensor::add_column(const std::byte* column, std::int64_t packet_time_ns, Frame& frame) {
   const OusterProfile& profile = *metadata_->profile;
   const std::size_t channels_size = metadata_->beams * profile.channel;
-  const bool valid = profile.is_legacy()
-                         ? little<std::uint32_t>(column + profile.column_header + channels_size) == 0xFFFFFFFF
-                         : (little<std::uint16_t>(column + 10) & 1U) != 0;
-  const std::size_t id = little<std::uint16_t>(column + 8);
+  const bool valid =
+      profile.is_legacy()
+          ? little_endian<std::uint32_t>(column + profile.column_header + channels_size) == 0xFFFFFFFF
+          : (little_endian<std::uint16_t>(column + 10) & 1U) != 0;
+  const std::size_t id = little_endian<std::uint16_t>(column + 8);
   if (!valid || id >= frame.columns.size() || frame.columns[id]) return;
   frame.columns[id] = true;
   SensorSweep& sweep = frame.sweep;
-  const auto time = little<std::uint64_t>(column);
+  const auto time = little_endian<std::uint64_t>(column);
   if (!std::exchange(frame.stamped, true)) {
     sweep.stamp_ns = packet_time_ns;
     frame.first_time = time;

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
+
+#include "packet_numbers.h"
 
 namespace pcl_bv::detail {
 
@@ -58,37 +59,12 @@ constexpr VelodyneModel kVelodyneModels[] = {
      {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
       1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
 
-// Azimuths are in hundredths of a degree.
-constexpr std::size_t kFullCircle = 36'000;
-struct SineCosine {
-  double sine, cosine;
-};
-
-// Returns the sine and cosine of each azimuth.
-const std::vector<SineCosine>& azimuth_table() {
-  static const auto all = [] {
-    std::vector<SineCosine> table(kFullCircle);
-    for (std::size_t i = 0; i < kFullCircle; ++i) {
-      const double angle = static_cast<double>(i) / 100 * kDegree;
-      table[i] = {std::sin(angle), std::cos(angle)};
-    }
-    return table;
-  }();
-  return all;
-}
-
 constexpr double kMaxPause = 0.3e9;            // nanoseconds; azimuths cannot be predicted over longer pauses
 constexpr double kMaxPredictionError = 6'000;  // hundredths of a degree, for packets of the same sensor
 constexpr unsigned kLatePackets = 8;           // a complete sweep waits this number of packets for late ones
 
-std::uint16_t word(const std::byte* at) {
-  std::uint16_t value;
-  std::memcpy(&value, at, 2);
-  return value;
-}
-
 int azimuth_of(const Payload& packet, std::size_t block) {
-  return word(packet.data + kBlock * block + 2);
+  return little_endian<std::uint16_t>(packet.data + kBlock * block + 2);
 }
 
 const std::byte* return_of(const Payload& packet, std::size_t block, std::size_t laser) {
@@ -113,7 +89,7 @@ double rotation_within(const Payload& packet) {
 }  // namespace
 
 int velodyne_product(const Payload& packet) {
-  if (packet.size != kVelodynePacket || word(packet.data) != 0xEEFF) return -1;
+  if (packet.size != kVelodynePacket || little_endian<std::uint16_t>(packet.data) != 0xEEFF) return -1;
   return std::to_integer<int>(packet.data[kVelodynePacket - 1]);
 }
 
@@ -247,11 +223,11 @@ void VelodyneSensor::add_firing(const Payload& packet, std::size_t block, std::s
 
 void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
                                SensorSweep& sweep) const {
-  const double distance = word(at) * model_->distance_unit;
+  const double distance = little_endian<std::uint16_t>(at) * model_->distance_unit;
   if (distance == 0) return;  // no return
   const std::size_t beam = laser % model_->beams;
   const SineCosine& azimuth =
-      azimuth_table()[(static_cast<std::size_t>(hundredths) + azimuth_offset_[beam]) % kFullCircle];
+      sine_cosine_table()[(static_cast<std::size_t>(hundredths) + azimuth_offset_[beam]) % kFullCircle];
   const double level = distance * cosine_[beam];
   sweep.points.push_back(
       {static_cast<float>(level * azimuth.sine), static_cast<float>(level * azimuth.cosine),

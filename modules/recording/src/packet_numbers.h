@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Numbers in the packets of all sensors.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace pcl_bv::detail {
+
+/// Reads a little-endian number. The host is little-endian, as elsewhere in this module.
+template <class T>
+T little_endian(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+/// Packets have angles in hundredths of a degree.
+inline constexpr std::size_t kFullCircle = 36'000;
+
+struct SineCosine {
+  double sine, cosine;
+};
+
+/// Returns the sine and cosine of each hundredth of a degree, kFullCircle of them.
+inline const std::vector<SineCosine>& sine_cosine_table() {
+  static const auto all = [] {
+    constexpr double degree = 3.14159265358979323846 / 180;
+    std::vector<SineCosine> table(kFullCircle);
+    for (std::size_t i = 0; i < kFullCircle; ++i) {
+      const double angle = static_cast<double>(i) / 100 * degree;
+      table[i] = {std::sin(angle), std::cos(angle)};
+    }
+    return table;
+  }();
+  return all;
+}
+
+}  // namespace pcl_bv::detail
