@@ -11,6 +11,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "temporary_folder.h"
+
 namespace pcl_bv::bench {
 namespace {
 
@@ -26,7 +28,7 @@ constexpr const char* kCalibration =
 class KittiScore : public testing::Test {
  protected:
   std::string write(const std::string& name, const std::string& text) const {
-    const std::string path = testing::TempDir() + "/kitti_score_" + name;
+    const std::string path = (folder_ / name).string();
     std::ofstream(path) << text;
     return path;
   }
@@ -43,6 +45,8 @@ class KittiScore : public testing::Test {
     add_kitti_sequence(labels(label_lines), calibration(), results, protocol, found);
     return found.result();
   }
+
+  const test::TemporaryFolder folder_;
 };
 
 // A label of a car of 4 x 2 x 1.5 m whose centre in the LiDAR's frame is (x, y, -1).
@@ -167,7 +171,7 @@ TEST_F(KittiScore, ErrorsNameTheFileTheLineAndTheReason) {
               HasSubstr("labels.txt: line 2: has 5 columns, not 17"));
   EXPECT_THAT(error_of([&] { labels("x" + car(0, 1, 20, 3)); }), HasSubstr("line 1: 'x0' is not a number"));
   EXPECT_THAT(error_of([&] { labels("-1" + car(0, 1, 20, 3)); }), HasSubstr("is not a frame number"));
-  EXPECT_THAT(error_of([&] { KittiCalibration(testing::TempDir() + "/none.txt"); }),
+  EXPECT_THAT(error_of([&] { KittiCalibration((folder_ / "none.txt").string()); }),
               HasSubstr("none.txt: cannot be read"));
   EXPECT_THAT(error_of([&] { KittiCalibration(write("short.txt", "P2: 1 2 3\n")); }),
               HasSubstr("short.txt: P2 does not have 12 numbers"));

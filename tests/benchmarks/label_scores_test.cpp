@@ -15,6 +15,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "temporary_folder.h"
+
 namespace pcl_bv::bench {
 namespace {
 
@@ -38,9 +40,6 @@ Ran run(const std::string& command) {
 
 class LabelScores : public testing::Test {
  protected:
-  LabelScores() { std::filesystem::create_directories(folder_); }
-  ~LabelScores() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path path = folder_ / name;
     std::filesystem::create_directories(path.parent_path());
@@ -54,7 +53,7 @@ class LabelScores : public testing::Test {
     return bytes;
   }
 
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "label_scores";
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(LabelScores, OfPerfectKittiTracksAreOneHundred) {

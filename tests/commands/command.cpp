@@ -123,17 +123,6 @@ std::string read_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-PcdBv::PcdBv() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "pcd_bv_test_XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a folder for the test");
-  folder_ = pattern;
-}
-
-PcdBv::~PcdBv() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
 Result PcdBv::run(const std::vector<std::string>& arguments, const Surroundings& surroundings) const {
   const std::string captured = at("captured.out"), errors = at("captured.err");
   const std::string out = surroundings.output.empty() ? captured : surroundings.output;

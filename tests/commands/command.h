@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace pcl_bv::test {
 
 using Json = nlohmann::ordered_json;
@@ -46,9 +48,6 @@ std::string read_file(const std::filesystem::path& path);
 /// A fixture with an empty folder, removed at the end.
 class PcdBv : public testing::Test {
  protected:
-  PcdBv();
-  ~PcdBv() override;
-
   Result run(const std::vector<std::string>& arguments, const Surroundings& surroundings = {}) const;
 
   /// The path, as text, of a file or folder in the test's folder.
@@ -62,7 +61,7 @@ class PcdBv : public testing::Test {
   static std::string header(std::size_t points, std::string_view data = "ascii");
 
  private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 }  // namespace pcl_bv::test

@@ -22,6 +22,7 @@
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -44,12 +45,6 @@ std::string content_of(const fs::path& path) {
 
 class SynthCommand : public testing::Test {
  protected:
-  SynthCommand() {
-    std::string pattern = (fs::temp_directory_path() / "pcl_bv_synth_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~SynthCommand() override { fs::remove_all(folder_); }
-
   fs::path path(const std::string& name) const { return folder_ / name; }
 
   Outcome run(const std::string& arguments) const {
@@ -60,7 +55,7 @@ class SynthCommand : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 void expect_truth(const std::string& line, const RuralRoadFrame& frame, std::size_t number) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "background.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::test {
 
@@ -45,16 +46,11 @@ class BvStream : public Background {
 
 class DdsTest : public testing::Test {
  protected:
-  DdsTest() {
-    own_domain();
-    std::filesystem::create_directories(folder_);
-  }
-  ~DdsTest() override { std::filesystem::remove_all(folder_); }
+  DdsTest() { own_domain(); }
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
  private:
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("pcl_bv_dds_" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 }  // namespace pcl_bv::test

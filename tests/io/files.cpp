@@ -29,17 +29,6 @@ void write_text(const fs::path& path, std::string_view content) {
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
 }
 
-FileTest::FileTest() {
-  std::string name = (fs::temp_directory_path() / "pcl_bv_test_XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  folder_ = name;
-}
-
-FileTest::~FileTest() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 std::string FileTest::reason_for_content(std::string_view content, const std::string& extension) const {
   write_text(file("content" + extension), content);
   return reason_for(file("content" + extension));

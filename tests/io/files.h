@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "temporary_folder.h"
+
 namespace pcl_bv {
 
 std::string file_content(const std::filesystem::path& path);
@@ -18,17 +20,14 @@ void write_text(const std::filesystem::path& path, std::string_view content);
 /// A test with a folder that is removed after it.
 class FileTest : public testing::Test {
  protected:
-  FileTest();
-  ~FileTest() override;
-
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
   /// Why read_cloud() refuses a file of this content; empty if it does not.
   std::string reason_for_content(std::string_view content, const std::string& extension = ".pcd") const;
 
  private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 /// Why read_cloud() refuses this path; empty if it does not.

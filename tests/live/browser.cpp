@@ -36,12 +36,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int patience_seconds = 60;  // a page on a busy machine of two cores
 
-std::filesystem::path new_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "pcl_bv_browser_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-  return name;
-}
-
 // Until the text is in what the pipe brings, which is returned up to its end of line.
 std::string line_with(int pipe, const std::string& text) {
   std::string all;
@@ -78,7 +72,7 @@ std::string key_code(const std::string& key) {
 
 }  // namespace
 
-Browser::Browser(int width, int height) : profile_(new_folder()) {
+Browser::Browser(int width, int height) {
   try {
     start_driver();
     start_session(width, height);
@@ -106,8 +100,6 @@ void Browser::stop() noexcept {
     }
   }
   if (output_ >= 0) close(output_);
-  std::error_code ignored;
-  std::filesystem::remove_all(profile_, ignored);
 }
 
 void Browser::start_driver() {
@@ -144,7 +136,7 @@ void Browser::start_session(int width, int height) {
                           "--use-gl=angle",
                           "--use-angle=swiftshader",
                           "--enable-unsafe-swiftshader",
-                          "--user-data-dir=" + profile_.string()};
+                          "--user-data-dir=" + profile_.path().string()};
   const Json wanted = {{"browserName", "chrome"}, {"goog:chromeOptions", {{"args", arguments}}}};
   const Json answer = request("POST", "/session", {{"capabilities", {{"alwaysMatch", wanted}}}});
   session_ = "/session/" + answer.at("sessionId").get<std::string>();

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace pcl_bv::test {
 
 /// A picture of the page: red, green, blue and alpha of each pixel, row by row from the upper left corner.
@@ -53,7 +55,7 @@ class Browser {
   nlohmann::json command(const std::string& cmd, const nlohmann::json& parameters);
   nlohmann::json request(const std::string& verb, const std::string& path, const nlohmann::json& body);
 
-  std::filesystem::path profile_;
+  TemporaryFolder profile_;
   int driver_ = 0;  // its process
   int output_ = -1;
   std::uint16_t port_ = 0;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -17,6 +16,7 @@
 #include "page.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/report/report.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::test {
 using namespace detail;
@@ -52,21 +52,11 @@ class PageFile {
                  R"(<script id="data" type="application/json">)" + text + "</script>");
     std::ofstream(path_) << page;
   }
-  ~PageFile() { std::filesystem::remove(path_); }
-  PageFile(const PageFile&) = delete;
-  PageFile& operator=(const PageFile&) = delete;
-
   std::string url() const { return "file://" + path_.string(); }
 
  private:
-  static int next() {
-    static int files = 0;
-    return files++;
-  }
-
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() /
-      ("pcl_bv_page_" + std::to_string(getpid()) + "_" + std::to_string(next()) + ".html");
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "page.html";
 };
 
 inline Json report_of(const std::vector<std::vector<AnyVolume>>& clusters) {

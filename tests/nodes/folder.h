@@ -4,7 +4,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/synth.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -20,12 +20,6 @@ using namespace detail;
 /// A fixture with an empty folder, removed at the end.
 class Folder : public testing::Test {
  protected:
-  void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / ("pcl_bv_streams_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  void TearDown() override { std::filesystem::remove_all(path_); }
-
   void add(const std::string& name, std::size_t points) {
     write_pcd(path_ / name, to_raw_cloud(make_synth(parse_synth("gauss:" + std::to_string(points)))));
   }
@@ -36,7 +30,8 @@ class Folder : public testing::Test {
     return text.str();
   }
 
-  std::filesystem::path path_;
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path& path_ = folder_.path();
 };
 
 }  // namespace pcl_bv

@@ -6,11 +6,9 @@
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_grabber.h>
 #include <pcl/io/pcd_io.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
-#include <filesystem>
 #include <thread>
 
 #include "pcl_bv/nodes/cluster_pipeline.h"
@@ -18,6 +16,7 @@
 #include "pcl_bv/nodes_pcl/live_window.h"
 #include "pcl_bv/synth/street.h"
 #include "reference_clusters.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -48,9 +47,7 @@ TEST(ReferenceClusters, AreThoseOfTheExactClusterer) {
 }
 
 TEST(Grabber, FeedsARunnerByOneLine) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("pcl_bv_grabber_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   std::vector<std::string> files;
   for (int i = 0; i < 3; ++i) {
     files.push_back((folder / (std::to_string(i) + ".pcd")).string());
@@ -76,7 +73,6 @@ TEST(Grabber, FeedsARunnerByOneLine) {
   connection.disconnect();
   runner.stop(StreamRunner::End::drain);
   EXPECT_GE(results, 3);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Grabber, OfAnotherPointTypeIsRefused) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "background.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::test {
 
@@ -71,21 +72,20 @@ class Surroundings {
     static Surroundings only;
     return only;
   }
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("pcl_bv_ros1_" + std::to_string(getpid()));
+  const TemporaryFolder folder;
   std::unique_ptr<ros::NodeHandle> ros;
 
  private:
   Surroundings() {
-    std::filesystem::create_directories(folder);
     const std::string port = std::to_string(free_port());
     setenv("ROS_MASTER_URI", ("http://localhost:" + port).c_str(), 1);
     setenv("ROS_HOSTNAME", "localhost", 1);
-    setenv("ROS_HOME", folder.c_str(), 1);
-    setenv("ROS_LOG_DIR", folder.c_str(), 1);
+    setenv("ROS_HOME", folder.path().c_str(), 1);
+    setenv("ROS_LOG_DIR", folder.path().c_str(), 1);
     setenv("ROS_PACKAGE_PATH", ROS1_TREE "/share:/usr/share", 1);
     setenv("CMAKE_PREFIX_PATH", ROS1_TREE, 1);
-    core_ = std::make_unique<Background>(folder / "core.err", std::vector<std::string>{"roscore", "-p", port});
+    core_ =
+        std::make_unique<Background>(folder / "core.err", std::vector<std::string>{"roscore", "-p", port});
     ros::init(ros::M_string(), "test", ros::init_options::NoSigintHandler);
     EXPECT_TRUE(wait_for([] { return ros::master::check(); })) << core_->errors();
     ros = std::make_unique<ros::NodeHandle>();
@@ -97,7 +97,6 @@ class Surroundings {
     ros.reset();
     ros::shutdown();
     core_->end(SIGINT);
-    std::filesystem::remove_all(folder);
   }
 
   std::unique_ptr<Background> core_;

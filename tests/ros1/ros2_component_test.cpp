@@ -23,7 +23,8 @@ Endpoint& topic(ClusterVolumes& node, const std::string& name) {
 }
 
 TEST(Ros2Component, AnswersACloudWithItsMarkers) {
-  const std::string file = testing::TempDir() + "ros2_component.yaml";
+  const pcl_bv::test::TemporaryFolder folder;
+  const std::string file = (folder / "component.yaml").string();
   std::ofstream(file) << "ground: {method: none}\nvolumes: [aabb]\n";
   ClusterVolumes node(rclcpp::NodeOptions{{{"config", file}}});
   auto& points = topic<rclcpp::Subscription<PointCloud2>>(node, "points");
