@@ -11,10 +11,12 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "device_points.h"
 #include "pcl_bv/gpu/gpu_fit.h"
+#include "pcl_bv/gpu/gpu_tree.h"
 #include "pcl_bv/parallel/execution.h"
 #include "program.h"
 
@@ -150,6 +152,40 @@ void add_clusters(const GpuDevice& device, std::size_t clusters) {
   });
 }
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+// Rows of trees that are built count points, those of trees that are asked count questions.
+void add_trees(const GpuDevice& device, std::size_t points) {
+  add("tree", points, [=](benchmark::State& state, std::size_t n) {
+    const Floats xyz = cloud_of(n);
+    const GpuCloud cloud(device, view_of(xyz));
+    measure(state, n, true, [&] { benchmark::DoNotOptimize(GpuTree(cloud).size()); });
+  });
+  add("refit-tree", points, [=](benchmark::State& state, std::size_t n) {
+    const Floats xyz = cloud_of(n);
+    const GpuCloud cloud(device, view_of(xyz));
+    GpuTree tree(cloud);
+    measure(state, n, true, [&] { tree.refit(cloud); });
+  });
+  add("processor-tree", points, [=](benchmark::State& state, std::size_t n) {
+    const Floats xyz = cloud_of(n);
+    PointTree tree;
+    measure(state, n, false, [&] { tree.assign(view_of(xyz), {policy_of(2)}); });
+  });
+  add("nearest", points, [=](benchmark::State& state, std::size_t n) {
+    const Floats xyz = cloud_of(n), queries = cloud_of(n / 10);
+    const GpuTree tree(GpuCloud(device, view_of(xyz)));
+    std::vector<Neighbor> found;
+    measure(state, n / 10, false, [&] { nearest(tree, view_of(queries), found, kNoLimit, {policy_of(2)}); });
+  });
+  add("processor-nearest", points, [=](benchmark::State& state, std::size_t n) {
+    const Floats xyz = cloud_of(n), queries = cloud_of(n / 10);
+    const PointTree tree(view_of(xyz));
+    std::vector<Neighbor> found;
+    measure(state, n / 10, false, [&] { nearest(tree, view_of(queries), found, kNoLimit, {policy_of(2)}); });
+  });
+}
+
 void add_rows() {
   const char* const which = std::getenv("PCL_BV_GPU");
   const GpuDevice device(which == nullptr ? "0" : which);
@@ -157,7 +193,9 @@ void add_rows() {
   const bool software = device.info().kind == GpuKind::software;
   add_copy(device);
   for (const std::size_t points : {128'000, 1'000'000, 10'000'000, 100'000'000}) {
-    if (!software || points <= 1'000'000) add_clouds(device, points);
+    if (software && points > 1'000'000) continue;
+    add_clouds(device, points);
+    add_trees(device, points);
   }
   add_clusters(device, software ? 10'000 : 1'000'000);
 }

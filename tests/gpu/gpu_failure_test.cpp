@@ -8,6 +8,7 @@
 #include "clouds.h"
 #include "gpu_context.h"
 #include "gpu_test.h"
+#include "pcl_bv/gpu/gpu_tree.h"
 
 namespace pcl_bv {
 namespace {
@@ -96,6 +97,21 @@ TEST(GpuFailure, TooLittleMemoryForClustersLeavesTheCloudUsable) {
     calls_before_failure = -1;
     test::expect_same({fit(cloud, offsets, methods).fitted(1, 0)},
                       fit_methods(points.view().slice(400, 600), methods), methods);
+  }
+}
+
+TEST(GpuFailure, TooLittleMemoryForATreeLeavesTheCloudUsable) {
+  PCL_BV_NEEDS_DEVICE();
+  const TestCloud<float> points = test::gaussian<float>(200'000, 1);
+  for (int before = 0; before < 18; ++before) {
+    SCOPED_TRACE(before);
+    const GpuDevice device = failing_device();
+    calls_before_failure = -1;
+    const GpuCloud cloud(device, points.view());
+    calls_before_failure = before;
+    EXPECT_EQ(failure_of([&] { GpuTree{cloud}; }), GpuFailure::out_of_memory);
+    calls_before_failure = -1;
+    EXPECT_EQ(GpuTree(cloud).size(), points.size());
   }
 }
 

@@ -22,8 +22,22 @@ ShaderLayout layout_of(Shader shader) {
       return {candidates_code(), 3, 20};
     case Shader::clusters:
       return {clusters_code(), 5, 20};
-    default:
+    case Shader::distances:
       return {distances_code(), 2, 44};
+    case Shader::morton:
+      return {morton_code(), 3, 56};
+    case Shader::digit_counts:
+      return {digit_counts_code(), 2, 16};
+    case Shader::digit_sums:
+      return {digit_sums_code(), 1, 4};
+    case Shader::scatter:
+      return {scatter_code(), 5, 16};
+    case Shader::packets:
+      return {packets_code(), 5, 20};
+    case Shader::levels:
+      return {levels_code(), 1, 12};
+    default:
+      return {questions_code(), 5, 44};
   }
 }
 

@@ -12,10 +12,17 @@ namespace pcl_bv::detail {
 
 /// The shaders in modules/gpu/shaders.
 enum class Shader : std::uint8_t {
-  extremes,    ///< extremes.comp: the extremes of each block and of the cloud.
-  candidates,  ///< candidates.comp: lists the blocks that can have a support.
-  clusters,    ///< clusters.comp: the slabs of clusters.
-  distances    ///< distances.comp: lists the blocks with points far from a centre.
+  extremes,      ///< extremes.comp: the extremes of each block and of the cloud.
+  candidates,    ///< candidates.comp: lists the blocks that can have a support.
+  clusters,      ///< clusters.comp: the slabs of clusters.
+  distances,     ///< distances.comp: lists the blocks with points far from a centre.
+  morton,        ///< morton.comp: sort keys of points.
+  digit_counts,  ///< digit_counts.comp, digit_sums.comp, scatter.comp: a pass of radix sort.
+  digit_sums,
+  scatter,
+  packets,   ///< packets.comp: the points of a tree, and the boxes around them.
+  levels,    ///< levels.comp: boxes around the boxes of the level below.
+  questions  ///< questions.comp: candidates for the answers of questions.
 };
 
 /// Threads of a workgroup in every shader.

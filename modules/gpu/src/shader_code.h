@@ -18,5 +18,12 @@ ShaderCode extremes_code();
 ShaderCode candidates_code();
 ShaderCode clusters_code();
 ShaderCode distances_code();
+ShaderCode morton_code();
+ShaderCode digit_counts_code();
+ShaderCode digit_sums_code();
+ShaderCode scatter_code();
+ShaderCode packets_code();
+ShaderCode levels_code();
+ShaderCode questions_code();
 
 }  // namespace pcl_bv::detail
