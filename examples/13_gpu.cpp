@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Fits volumes to a cloud in the memory of a graphics card: around all points, and around clusters of them.
+// Then asks a search tree on the card for the points nearest to two places.
 #include <pcl_bv/gpu/gpu_fit.h>
+#include <pcl_bv/gpu/gpu_tree.h>
 
 #include <array>
 #include <cmath>
@@ -31,7 +33,14 @@ int main() {
     const pcl_bv::ClusterFits balls = pcl_bv::fit(cloud, std::vector<std::size_t>{0, 50000, 100000}, methods);
     for (std::size_t i = 0; i < balls.size(); ++i)
       std::cout << "ball " << i << "  " << pcl_bv::volume(balls.fitted(i, 1).volume) << " m3\n";
-    return balls.size() == 2 ? 0 : 1;
+
+    const pcl_bv::GpuTree tree(cloud);
+    const std::vector<std::array<float, 3>> places = {{5, 0, 0}, {15, 0, 0}};
+    std::vector<pcl_bv::Neighbor> found;
+    pcl_bv::nearest(tree, pcl_bv::view(places), found);
+    for (const pcl_bv::Neighbor& neighbor : found)
+      std::cout << "point " << neighbor.index << " at " << std::sqrt(neighbor.squared_distance) << " m\n";
+    return balls.size() == 2 && found.size() == 2 ? 0 : 1;
   } catch (const pcl_bv::GpuError& error) {
     std::cout << error.what() << '\n';  // a machine without a device
     return 0;
