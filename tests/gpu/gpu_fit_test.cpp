@@ -217,12 +217,8 @@ TEST(GpuFit, NoticesPointsThatHaveChanged) {
 
 TEST(GpuFit, IsCleanUnderTheValidationLayer) {
   PCL_BV_NEEDS_DEVICE();
-  std::optional<GpuDevice> device;
-  try {
-    device.emplace("0", GpuOptions{true, std::size_t{1} << 20});
-  } catch (const GpuError& error) {
-    GTEST_SKIP() << error.what() << " (vulkan-validationlayers)";
-  }
+  const std::optional<GpuDevice> device = test::validated_device();
+  PCL_BV_NEEDS_VALIDATION(device);
   const TestCloud<float> cloud = large_cloud<float>(200'000, 14);
   {
     const GpuCloud on_device(*device, cloud.view(), HostPoints::release);

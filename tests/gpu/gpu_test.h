@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,19 @@ inline const GpuDevice& small_buffers() {
   static const GpuDevice device("0", {false, std::size_t{1} << 20});
   return device;
 }
+
+/// The first device with the validation layer, or nothing if the layer is not installed.
+inline std::optional<GpuDevice> validated_device() {
+  try {
+    return GpuDevice("0", {true, std::size_t{1} << 20});
+  } catch (const GpuError& error) {
+    std::cerr << "no validation layer: " << error.what() << '\n';
+    return std::nullopt;
+  }
+}
+
+#define PCL_BV_NEEDS_VALIDATION(device) \
+  if (!(device)) GTEST_SKIP() << "no validation layer (install vulkan-validationlayers)"
 
 inline std::vector<const Method*> methods_named(const std::vector<std::string>& names) {
   std::vector<const Method*> methods;

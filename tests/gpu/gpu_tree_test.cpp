@@ -219,12 +219,13 @@ TEST(GpuTree, FindsNothingForQuestionsThatAreNotFinite) {
 
 TEST(GpuTree, KeepsTheValidationLayerQuiet) {
   PCL_BV_NEEDS_DEVICE();
-  const GpuDevice device("0", {true, std::size_t{1} << 20});
+  const std::optional<GpuDevice> device = test::validated_device();
+  PCL_BV_NEEDS_VALIDATION(device);
   const TestCloud<float> cloud = test::gaussian<float>(100'000, 15);
-  GpuTree tree(GpuCloud(device, cloud.view()));
+  GpuTree tree(GpuCloud(*device, cloud.view()));
   expect_same_answers(tree, PointTree(cloud.view()), Asked(cloud.view(), 100, 16));
-  tree.refit(GpuCloud(device, cloud.view()));
-  EXPECT_EQ(device.validation_messages(), std::vector<std::string>());
+  tree.refit(GpuCloud(*device, cloud.view()));
+  EXPECT_EQ(device->validation_messages(), std::vector<std::string>());
 }
 
 // Sorts on the device and returns the numbers.
