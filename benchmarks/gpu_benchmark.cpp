@@ -154,7 +154,7 @@ void add_clusters(const GpuDevice& device, std::size_t clusters) {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// Rows of trees that are built count points, those of trees that are asked count questions.
+// The rows gpu/tree and gpu/refit-tree count points. The rows gpu/nearest count queries.
 void add_trees(const GpuDevice& device, std::size_t points) {
   add("tree", points, [=](benchmark::State& state, std::size_t n) {
     const Floats xyz = cloud_of(n);

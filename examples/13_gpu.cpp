@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Fits volumes to a cloud in the memory of a graphics card: around all points, and around clusters of them.
-// Then asks a search tree on the card for the points nearest to two places.
+// Then finds the points nearest to two positions, by a search tree on the card.
 #include <pcl_bv/gpu/gpu_fit.h>
 #include <pcl_bv/gpu/gpu_tree.h>
 
@@ -35,9 +35,9 @@ int main() {
       std::cout << "ball " << i << "  " << pcl_bv::volume(balls.fitted(i, 1).volume) << " m3\n";
 
     const pcl_bv::GpuTree tree(cloud);
-    const std::vector<std::array<float, 3>> places = {{5, 0, 0}, {15, 0, 0}};
+    const std::vector<std::array<float, 3>> positions = {{5, 0, 0}, {15, 0, 0}};
     std::vector<pcl_bv::Neighbor> found;
-    pcl_bv::nearest(tree, pcl_bv::view(places), found);
+    pcl_bv::nearest(tree, pcl_bv::view(positions), found);
     for (const pcl_bv::Neighbor& neighbor : found)
       std::cout << "point " << neighbor.index << " at " << std::sqrt(neighbor.squared_distance) << " m\n";
     return balls.size() == 2 && found.size() == 2 ? 0 : 1;

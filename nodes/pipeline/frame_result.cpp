@@ -14,6 +14,7 @@
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
+#include "pipeline/deskew/point_times.h"
 
 namespace pcl_bv {
 using namespace detail;

@@ -1,66 +1,67 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Trees on a device answer as a PointTree, which its own tests compare with all points one by one.
+// Compares trees on a device with a PointTree, which its own tests compare with all points one by one.
 
 #include "pcl_bv/gpu/gpu_tree.h"
 
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <thread>
 
 #include "../trees/each_point.h"
 #include "device_tree.h"
 #include "gpu_test.h"
 #include "radix_sort.h"
-#include "tree_questions.h"
+#include "tree_queries.h"
 
 namespace pcl_bv::testing {
 namespace {
 
 using test::TestCloud;
 
-// Questions about a cloud, of all kinds.
-struct Asked {
-  std::vector<double> places;
+// Queries of all kinds.
+struct TestQueries {
+  std::vector<double> positions;
   std::vector<Sphere> spheres;
   std::vector<MovingSphere> moving;
   double max_distance = 0;
 
-  Asked(const PointView& cloud, std::size_t count, std::uint64_t seed) {
+  TestQueries(const PointView& cloud, std::size_t count, std::uint64_t seed) {
     const EachPoint points(cloud);
     Questions questions(points, seed);
     max_distance = questions.distance(questions.place());
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3d place = questions.place(), center = questions.place(), origin = questions.place();
-      places.insert(places.end(), {place.x(), place.y(), place.z()});
+      positions.insert(positions.end(), {place.x(), place.y(), place.z()});
       spheres.emplace_back(center, questions.distance(center));
       const double radius = questions.uniform(0, 1) < 0.2 ? 0 : questions.distance(origin) * 0.1;
       moving.push_back({origin, questions.direction(), radius});
     }
   }
-  PointView view() const { return PointView::of(places.data(), 24, places.size() / 3); }
+  PointView view() const { return PointView::of(positions.data(), 24, positions.size() / 3); }
 };
 
-void expect_same_answers(const GpuTree& tree, const PointTree& expected, const Asked& asked,
+void expect_same_results(const GpuTree& tree, const PointTree& expected, const TestQueries& queries,
                          const Execution& execution = {}) {
   EXPECT_EQ(tree.size(), expected.size());
   EXPECT_EQ(tree.dropped(), expected.dropped());
   std::vector<Neighbor> found, near;
-  for (const double distance : {kInfinity, asked.max_distance, 0.0}) {
-    nearest(tree, asked.view(), found, distance, execution);
-    nearest(expected, asked.view(), near, distance);
+  for (const double distance : {kInfinity, queries.max_distance, 0.0}) {
+    nearest(tree, queries.view(), found, distance, execution);
+    nearest(expected, queries.view(), near, distance);
     EXPECT_EQ(found, near) << "within " << distance;
   }
   std::vector<std::uint8_t> inside, in_spheres;
-  any_inside(tree, asked.spheres, inside, execution);
-  any_inside(expected, asked.spheres, in_spheres);
+  any_inside(tree, queries.spheres, inside, execution);
+  any_inside(expected, queries.spheres, in_spheres);
   EXPECT_EQ(inside, in_spheres);
   std::vector<std::optional<PointHit>> hits;
-  first_hit(tree, asked.moving, hits, execution);
-  ASSERT_EQ(hits.size(), asked.moving.size());
+  first_hit(tree, queries.moving, hits, execution);
+  ASSERT_EQ(hits.size(), queries.moving.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const MovingSphere& sphere = asked.moving[i];
+    const MovingSphere& sphere = queries.moving[i];
     const auto hit = expected.first_hit(sphere.origin, sphere.direction, sphere.radius);
     ASSERT_EQ(hits[i].has_value(), hit.has_value()) << i << ", radius " << sphere.radius;
     if (!hit) continue;
@@ -69,27 +70,27 @@ void expect_same_answers(const GpuTree& tree, const PointTree& expected, const A
   }
 }
 
-TEST(GpuTree, AnswersAboutNastyCloudsAsAPointTree) {
+TEST(GpuTree, HasTheResultsOfAPointTreeOnNastyClouds) {
   PCL_BV_NEEDS_DEVICE();
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
     SCOPED_TRACE(cloud.name);
-    expect_same_answers(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), PointTree(cloud.view()),
-                        Asked(cloud.view(), 100, 1));
+    expect_same_results(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), PointTree(cloud.view()),
+                        TestQueries(cloud.view(), 100, 1));
     if (::testing::Test::HasFailure()) return;
   }
 }
 
-TEST(GpuTree, AnswersAboutCloudsOfAnySizeAsAPointTree) {
+TEST(GpuTree, HasTheResultsOfAPointTreeForEverySize) {
   PCL_BV_NEEDS_DEVICE();
   for (const std::size_t size : {0, 1, 15, 16, 17, 255, 256, 257, 4095, 4096, 4097, 70'000}) {
     SCOPED_TRACE(size);
     const TestCloud<float> cloud = test::gaussian<float>(size, size, 10, 50);
-    expect_same_answers(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), PointTree(cloud.view()),
-                        Asked(cloud.view(), 100, size));
+    expect_same_results(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), PointTree(cloud.view()),
+                        TestQueries(cloud.view(), 100, size));
   }
 }
 
-TEST(GpuTree, OfACloudInSeveralBuffersAnswersAsAPointTree) {
+TEST(GpuTree, HasTheResultsOfAPointTreeForACloudInSeveralBuffers) {
   PCL_BV_NEEDS_DEVICE();
   TestCloud<float> cloud = test::gaussian<float>(200'000, 3, 20);
   for (std::size_t i = 0; i < cloud.xyz.size(); i += 1 + i / 3)
@@ -98,16 +99,16 @@ TEST(GpuTree, OfACloudInSeveralBuffersAnswersAsAPointTree) {
   ASSERT_GT(on_device.on_device().parts().size(), 1U);
   const PointTree expected(cloud.view());
   const GpuTree tree(on_device);
-  expect_same_answers(tree, expected, Asked(cloud.view(), 300, 4), {Threads{3}});
+  expect_same_results(tree, expected, TestQueries(cloud.view(), 300, 4), {Threads{3}});
 }
 
-TEST(GpuTree, AnswersMoreQuestionsThanABufferHasRoomFor) {
+TEST(GpuTree, RunsMoreQueriesThanFitInABuffer) {
   PCL_BV_NEEDS_DEVICE();
   const TestCloud<float> cloud = test::gaussian<float>(5000, 3, 20);
-  const Asked asked(cloud.view(), 30'000, 4);
+  const TestQueries queries(cloud.view(), 30'000, 4);
   std::vector<std::uint8_t> inside, expected;
-  any_inside(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), asked.spheres, inside, {Threads{3}});
-  any_inside(PointTree(cloud.view()), asked.spheres, expected);
+  any_inside(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), queries.spheres, inside, {Threads{3}});
+  any_inside(PointTree(cloud.view()), queries.spheres, expected);
   EXPECT_EQ(inside, expected);
 }
 
@@ -117,9 +118,9 @@ TEST(GpuTree, NamesPointsByTheirIndicesInTheCloud) {
   std::vector<std::int32_t> chosen;
   for (std::int32_t i = 2999; i > 0; i -= 3)
     chosen.push_back(i);
-  const Asked asked(cloud.view(), 200, 6);
+  const TestQueries queries(cloud.view(), 200, 6);
   for (const PointView& view : {cloud.view().subset(chosen), cloud.view().slice(1000, 700)})
-    expect_same_answers(GpuTree(GpuCloud(test::small_buffers(), view)), PointTree(view), asked);
+    expect_same_results(GpuTree(GpuCloud(test::small_buffers(), view)), PointTree(view), queries);
 }
 
 TEST(GpuTree, FindsTheSmallestIndexAmongEqualPoints) {
@@ -129,35 +130,85 @@ TEST(GpuTree, FindsTheSmallestIndexAmongEqualPoints) {
     const std::vector<float> more(cloud.xyz.begin(), cloud.xyz.begin() + 300);
     cloud.xyz.insert(cloud.xyz.end(), more.begin(), more.end());
   }
-  expect_same_answers(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), PointTree(cloud.view()),
-                      Asked(cloud.view(), 500, 8));
+  expect_same_results(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), PointTree(cloud.view()),
+                      TestQueries(cloud.view(), 500, 8));
 }
 
-TEST(GpuTree, AnswersMostQuestionsOnTheDevice) {
-  PCL_BV_NEEDS_DEVICE();
-  const TestCloud<float> cloud = test::gaussian<float>(50'000, 9, 20);
-  const GpuTree tree(GpuCloud(test::small_buffers(), cloud.view()));
-  const TestCloud<float> places = test::gaussian<float>(2000, 10, 20);
+struct Candidates {
   std::size_t candidates = 0, many = 0;
-  ask(
-      tree.on_device(), QuestionKind::nearest, places.size(), {},
+};
+
+Candidates candidates_for(const GpuTree& tree, const PointView& positions) {
+  Candidates sum;
+  run_queries(
+      tree.on_device(), QueryKind::nearest, positions.count, {},
       [&](std::size_t i) {
-        auto question = question_at(tree.on_device(), load_point(places.view(), i), 0);
-        question->limit = 1e10F;
-        return *question;
+        auto query = query_at(tree.on_device(), load_point(positions, i), 0);
+        query->limit = 1e30F;
+        return *query;
       },
-      [&](std::size_t, const TreePart&, const DeviceAnswer& answer) {
-        if (answer.candidates == DeviceAnswer::kMany) {
-          ++many;
+      [&](std::size_t, const TreePart&, const DeviceResult& result) {
+        if (result.candidates == DeviceResult::kMany) {
+          ++sum.many;
         } else {
-          candidates += answer.candidates;
+          sum.candidates += result.candidates;
         }
       });
-  EXPECT_EQ(many, 0U);
-  EXPECT_LT(candidates, places.size() * 11 / 10);
+  return sum;
 }
 
-TEST(GpuTree, OfMovedPointsAnswersAsANewTree) {
+TEST(GpuTree, RunsMostQueriesOnTheDevice) {
+  PCL_BV_NEEDS_DEVICE();
+  const TestCloud<float> cloud = test::gaussian<float>(50'000, 9, 20);
+  const TestCloud<float> positions = test::gaussian<float>(2000, 10, 20);
+  const Candidates sum =
+      candidates_for(GpuTree(GpuCloud(test::small_buffers(), cloud.view())), positions.view());
+  EXPECT_EQ(sum.many, 0U);
+  EXPECT_LT(sum.candidates, positions.size() * 11 / 10);
+}
+
+TEST(GpuTree, RunsMostQueriesOnTheDeviceThoughAPointIsFarAway) {
+  PCL_BV_NEEDS_DEVICE();
+  TestCloud<float> cloud = test::gaussian<float>(50'000, 9, 20);
+  cloud.xyz[3 * 777] = 1e9F;
+  const TestCloud<float> positions = test::gaussian<float>(2000, 10, 20);
+  const GpuTree tree(GpuCloud(test::small_buffers(), cloud.view()));
+  const Candidates sum = candidates_for(tree, positions.view());
+  EXPECT_EQ(sum.many, 0U);
+  EXPECT_LT(sum.candidates, positions.size() * 11 / 10);
+  expect_same_results(tree, PointTree(cloud.view()), TestQueries(cloud.view(), 200, 18));
+}
+
+TEST(GpuTree, HasTheResultsOfAPointTreeWhereParametersAreRoundedToTheSameNumber) {
+  PCL_BV_NEEDS_DEVICE();
+  const Vector3d zero = Vector3d::Zero(), x = Vector3d::UnitX();
+  const TestCloud<float> cloud{"two points", {20, 0, 0, 10, 0, 0}};
+  const GpuTree tree(GpuCloud(test::small_buffers(), cloud.view()));
+  std::vector<std::optional<PointHit>> hits;
+  for (const double length : {1e-320, 1e-300, 1e-200, 1.0, 1e200, 1e300, 1e308}) {
+    SCOPED_TRACE(length);
+    first_hit(tree, {{zero, length * x, 0.1}}, hits);
+    const auto expected = PointTree(cloud.view()).first_hit(zero, length * x, 0.1);
+    ASSERT_TRUE(hits[0] && expected);
+    EXPECT_EQ(hits[0]->index, expected->index);
+    EXPECT_EQ(hits[0]->t, expected->t);
+  }
+}
+
+TEST(GpuTree, RunsQueriesOfSeveralThreadsAtATime) {
+  PCL_BV_NEEDS_DEVICE();
+  const TestCloud<float> cloud{"equal points", std::vector<float>(3 * 5000, 0.1F)};
+  const GpuTree tree(GpuCloud(test::small_buffers(), cloud.view()));
+  const PointTree expected(cloud.view());
+  const TestQueries queries(cloud.view(), 50, 19);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] { expect_same_results(tree, expected, queries, {Threads{2}}); });
+  for (std::thread& thread : threads)
+    thread.join();
+}
+
+TEST(GpuTree, HasTheResultsOfANewTreeAfterARefit) {
   PCL_BV_NEEDS_DEVICE();
   const TestCloud<float> before = test::gaussian<float>(100'000, 11, 20);
   TestCloud<float> after = before;
@@ -167,14 +218,18 @@ TEST(GpuTree, OfMovedPointsAnswersAsANewTree) {
   for (std::size_t i = 0; i < 3000; i += 7)
     after.xyz[i] = nan;
   GpuTree tree(GpuCloud(test::small_buffers(), before.view()));
-  const Asked asked(after.view(), 300, 12);
+  const TestQueries queries(after.view(), 300, 12);
   tree.refit(GpuCloud(test::small_buffers(), after.view()));
-  expect_same_answers(tree, PointTree(after.view()), asked);
+  expect_same_results(tree, PointTree(after.view()), queries);
   tree.refit(GpuCloud(test::small_buffers(), before.view()));
-  expect_same_answers(tree, PointTree(before.view()), asked);
+  expect_same_results(tree, PointTree(before.view()), queries);
+  for (float& x : after.xyz)
+    x += 5e5F;  // far from the centre of the first cloud
+  tree.refit(GpuCloud(test::small_buffers(), after.view()));
+  expect_same_results(tree, PointTree(after.view()), TestQueries(after.view(), 300, 12));
 }
 
-TEST(GpuTree, RefusesWhatItCannotAnswerAbout) {
+TEST(GpuTree, RefusesWrongArguments) {
   PCL_BV_NEEDS_DEVICE();
   const TestCloud<double> doubles = test::gaussian<double>(10, 13);
   const TestCloud<float> floats = test::gaussian<float>(10, 13), fewer = test::gaussian<float>(9, 13);
@@ -195,7 +250,7 @@ TEST(GpuTree, RefusesWhatItCannotAnswerAbout) {
   EXPECT_THROW(first_hit(tree, {{Vector3d::Zero(), Vector3d::UnitX(), 1e101}}, hits), std::invalid_argument);
 }
 
-TEST(GpuTree, FindsNothingForQuestionsThatAreNotFinite) {
+TEST(GpuTree, FindsNothingForQueriesThatAreNotFinite) {
   PCL_BV_NEEDS_DEVICE();
   const TestCloud<float> cloud = test::gaussian<float>(1000, 14);
   const GpuTree tree(GpuCloud(test::small_buffers(), cloud.view()));
@@ -223,7 +278,7 @@ TEST(GpuTree, KeepsTheValidationLayerQuiet) {
   PCL_BV_NEEDS_VALIDATION(device);
   const TestCloud<float> cloud = test::gaussian<float>(100'000, 15);
   GpuTree tree(GpuCloud(*device, cloud.view()));
-  expect_same_answers(tree, PointTree(cloud.view()), Asked(cloud.view(), 100, 16));
+  expect_same_results(tree, PointTree(cloud.view()), TestQueries(cloud.view(), 100, 16));
   tree.refit(GpuCloud(*device, cloud.view()));
   EXPECT_EQ(device->validation_messages(), std::vector<std::string>());
 }

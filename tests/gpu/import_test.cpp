@@ -11,6 +11,7 @@
 #include "clouds.h"
 #include "gpu_context.h"
 #include "gpu_test.h"
+#include "pcl_bv/gpu/gpu_tree.h"
 
 namespace pcl_bv {
 namespace {
@@ -91,6 +92,35 @@ TEST(ImportedCloud, SeesWhatTheExporterWritesBetweenFits) {
     const test::TestCloud<float> points = test::gaussian<float>(5000, seed, 7, 100);
     write(points);
     test::expect_same(fit(cloud, methods), fit_methods(points.view(), methods), methods);
+  }
+}
+
+TEST(ImportedCloud, HasTreesThatFollowWhatTheExporterWrites) {
+  PCL_BV_NEEDS_DEVICE();
+  if (!test::small_buffers().info().imports) GTEST_SKIP() << "the driver cannot import memory";
+  constexpr std::size_t bytes = 3 << 16, stride = 28, offset = 8, count = 5000;
+  const test::TestCloud<float> queries = test::gaussian<float>(500, 3, 7, 100);
+  const Exporter exporter(bytes);
+  const auto write = [&](const test::TestCloud<float>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      std::memcpy(exporter.mapped + offset + i * stride, &points.xyz[3 * i], 12);
+  };
+  write(test::gaussian<float>(count, 1));
+  const GpuCloud cloud =
+      GpuCloud::import_memory(test::small_buffers(), exporter.handle(), {bytes, offset, stride, count});
+  GpuTree tree(cloud);
+  for (const std::uint64_t seed : {1, 2}) {
+    const test::TestCloud<float> points = test::gaussian<float>(count, seed, 7, 100);
+    write(points);
+    tree.refit(cloud);
+    std::vector<Neighbor> found, expected;
+    nearest(tree, queries.view(), found);
+    nearest(PointTree(points.view()), queries.view(), expected);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].index, expected[i].index) << i;
+      EXPECT_EQ(found[i].squared_distance, expected[i].squared_distance) << i;
+    }
   }
 }
 

@@ -5,7 +5,7 @@
 // cloud.
 
 const uint kWidth = 16;             // points of a packet, and boxes of a group
-const uint kNone = 0xffffffffu;     // number of a place without a point
+const uint kNone = 0xffffffffu;     // number of a slot without a point
 const float kFar = 1e18;            // an empty box is from kFar to -kFar
 
 // Returns the word of side 0 to 2 (low) or 3 to 5 (high) of a box.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sort keys of points: their position along a Morton curve through the box around the cloud (Lauterbach et
-// al. 2009). The axis with the longest cells is halved first, so a flat cloud gets no bits for its height.
-// The order only decides how fast questions are, so rounding does not matter.
+// Sort keys of points: their position along a Morton curve through a box around the cloud (Lauterbach et
+// al. 2009). The axis with the longest cells is halved first, so a flat cloud gets few bits for its height.
+// The order only decides how fast queries are, so rounding does not matter.
 #version 450
 
 layout(local_size_x = 64) in;
@@ -13,7 +13,7 @@ layout(std430, binding = 0) readonly buffer Points { uint words[]; };
 layout(std430, binding = 1) writeonly buffer Keys { uint keys[]; };
 layout(std430, binding = 2) writeonly buffer Numbers { uint numbers[]; };
 layout(push_constant) uniform Part {
-  float low_x, low_y, low_z;        // lower corner of the box
+  float low_x, low_y, low_z;        // lower corner of the box; points outside count as points on its sides
   float scale_x, scale_y, scale_z;  // cells per unit of length
   uint bits_x, bits_y, bits_z;      // 2^bits cells along each axis
   uint axes_first, axes_last;       // the axis of each bit, 2 bits each: the first 16 and the others

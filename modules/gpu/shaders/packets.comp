@@ -27,23 +27,23 @@ shared float coordinates[3 * kGroupPoints];
 shared bool valid[kGroupPoints];
 
 void gather(uint slot) {
-  const uint place = gl_WorkGroupID.x * kGroupPoints + slot;
+  const uint position = gl_WorkGroupID.x * kGroupPoints + slot;
   uvec3 bits = uvec3(0x7fc00000u);
   uint number = kNone;
-  if (place < points) {
-    number = order[place];
+  if (position < points) {
+    number = order[position];
     const uint word = first_word + number * kStride;
     bits = uvec3(words[word], words[word + 1], words[word + 2]);
     if (any(greaterThanEqual(bits & 0x7fffffffu, uvec3(0x7f800000u)))) number = kNone;
   }
-  const uint packet = place / kWidth, lane = place % kWidth;
+  const uint packet = position / kWidth, lane = position % kWidth;
   const float center[3] = float[3](center_x, center_y, center_z);
   for (uint axis = 0; axis < 3; ++axis) {
     packets[(packet * 3 + axis) * kWidth + lane] = bits[axis];
     precise const float relative = uintBitsToFloat(bits[axis]) - center[axis];
     coordinates[axis * kGroupPoints + slot] = relative;
   }
-  numbers[place] = number;
+  numbers[position] = number;
   valid[slot] = number != kNone;
 }
 

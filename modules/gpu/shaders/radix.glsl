@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the steps of radix sort share.
+// Shared by the three steps of a pass of radix sort.
 
 const uint kThreads = 64;
 const uint kDigits = 16;
-const uint kTile = 1024;  // keys that a workgroup sorts at a time
+const uint kTile = 512;  // keys that a workgroup sorts at a time
 
 uint digit_of(uint key, uint shift) {
   return (key >> shift) & (kDigits - 1u);

@@ -3,7 +3,7 @@
 
 // Third step of a pass of radix sort: moves keys and numbers to the places of their digits, without a change
 // of order within a digit. A workgroup sorts its run tile by tile in shared memory, so that it writes the
-// keys of a digit side by side.
+// keys of a digit in consecutive slots.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "radix.glsl"
@@ -27,7 +27,7 @@ const uint kEach = kTile / kThreads;  // consecutive keys of a thread
 shared uint tile_keys[kTile + kThreads];  // a gap after the keys of each thread avoids conflicts of banks
 shared uint sorted_keys[kTile], sorted_numbers[kTile];
 shared uint ranks[kDigits * kThreads];  // [digit][thread]
-shared uint next_place[kDigits];        // where the next key of a digit goes, in the output
+shared uint next_output[kDigits];        // where the next key of a digit goes, in the output
 shared uint first_rank[kDigits];        // of a digit in the tile
 
 uint gap(uint i) {
@@ -36,6 +36,7 @@ uint gap(uint i) {
 
 // Writes the sums before each entry of `ranks`.
 void sum_ranks() {
+  // Each thread adds up as many entries as there are digits, because there are kDigits * kThreads entries.
   const uint begin = gl_LocalInvocationIndex * kDigits;
   uint sum = 0;
   for (uint i = begin; i < begin + kDigits; ++i)
@@ -76,21 +77,21 @@ void write_tile(uint size) {
   const uint thread = gl_LocalInvocationIndex;
   for (uint rank = thread; rank < size; rank += kThreads) {
     const uint key = sorted_keys[rank], digit = digit_of(key, shift);
-    const uint place = next_place[digit] + (rank - first_rank[digit]);
-    keys_out[place] = key;
-    numbers_out[place] = sorted_numbers[rank];
+    const uint output_slot = next_output[digit] + (rank - first_rank[digit]);
+    keys_out[output_slot] = key;
+    numbers_out[output_slot] = sorted_numbers[rank];
   }
   barrier();
   if (thread < kDigits) {
     const uint end = thread + 1 < kDigits ? first_rank[thread + 1] : size;
-    next_place[thread] += end - first_rank[thread];
+    next_output[thread] += end - first_rank[thread];
   }
   barrier();
 }
 
 void main() {
   if (gl_LocalInvocationIndex < kDigits)
-    next_place[gl_LocalInvocationIndex] = begins[gl_LocalInvocationIndex * runs + gl_WorkGroupID.x];
+    next_output[gl_LocalInvocationIndex] = begins[gl_LocalInvocationIndex * runs + gl_WorkGroupID.x];
   const uint begin = gl_WorkGroupID.x * run, end = min(count, begin + run);
   for (uint tile = begin; tile < end; tile += kTile) {
     const uint size = min(kTile, end - tile);

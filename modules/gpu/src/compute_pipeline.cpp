@@ -37,7 +37,7 @@ ShaderLayout layout_of(Shader shader) {
     case Shader::levels:
       return {levels_code(), 1, 12};
     default:
-      return {questions_code(), 5, 44};
+      return {queries_code(), 5, 44};
   }
 }
 

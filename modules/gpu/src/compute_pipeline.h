@@ -20,9 +20,9 @@ enum class Shader : std::uint8_t {
   digit_counts,  ///< digit_counts.comp, digit_sums.comp, scatter.comp: a pass of radix sort.
   digit_sums,
   scatter,
-  packets,   ///< packets.comp: the points of a tree, and the boxes around them.
-  levels,    ///< levels.comp: boxes around the boxes of the level below.
-  questions  ///< questions.comp: candidates for the answers of questions.
+  packets,  ///< packets.comp: the points of a tree, and the boxes around them.
+  levels,   ///< levels.comp: boxes around the boxes of the level below.
+  queries   ///< queries.comp: candidates for the results of queries.
 };
 
 /// Threads of a workgroup in every shader.

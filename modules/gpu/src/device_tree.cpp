@@ -4,10 +4,11 @@
 #include "device_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kGroupPoints = kTreeWidth * kTreeWidth;
 
-// What the shaders declare.
+// Push constants of the shaders.
 struct MortonPush {
   float low[3], scale[3];
   std::uint32_t bits[3], axes[2], first_word, points, invalid_key;
@@ -44,12 +45,46 @@ std::uint32_t key_bits_for(std::size_t points) {
   return std::clamp<std::uint32_t>((wanted + 7) / 8 * 8, 16, 32);
 }
 
+// The box in which the sort distinguishes points.
+struct KeyBox {
+  std::array<double, 3> low, high;
+};
+
+// Returns a box around nearly all points, by a sample of 256. A few points far away would make all cells too
+// large. Points outside the box count as points on its sides.
+KeyBox key_box(const DevicePoints& points, const DeviceExtremes& extremes) {
+  constexpr std::size_t samples = 256, tail = samples / 32;
+  std::vector<PointView> views;
+  for (std::size_t i = 0; i < samples; ++i)
+    views.push_back(points.points().slice(points.size() * i / samples, 1));
+  if (points.kept() && points.points().source != nullptr) views.clear();  // slow to read
+  std::vector<std::byte> storage;
+  views = points.in_memory(std::move(views), storage);
+  KeyBox box{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> sorted;
+    for (const PointView& view : views) {
+      const Coordinates p = load_point(view, 0);
+      if (is_valid(p)) sorted.push_back(p[axis]);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    box.low[axis] = extremes.low[axis];
+    box.high[axis] = extremes.high[axis];
+    if (sorted.size() <= 4 * tail) continue;
+    const double low = sorted[tail], high = sorted[sorted.size() - 1 - tail], margin = 2 * (high - low);
+    if (margin == 0) continue;
+    box.low[axis] = std::max(box.low[axis], low - margin);
+    box.high[axis] = std::min(box.high[axis], high + margin);
+  }
+  return box;
+}
+
 // Divides the bits of a key among the axes.
-void choose_bits(const DeviceExtremes& extremes, std::uint32_t bits, MortonPush& push) {
-  constexpr std::uint32_t most_bits = 23;  // floats have no finer cells
+void choose_bits(const KeyBox& box, std::uint32_t bits, MortonPush& push) {
+  constexpr std::uint32_t most_bits = 23;  // finer cells are below the rounding of floats
   std::array<double, 3> cell;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    cell[axis] = static_cast<double>(extremes.high[axis]) - extremes.low[axis];
+    cell[axis] = box.high[axis] - box.low[axis];
   const std::array<double, 3> extent = cell;
   for (std::uint32_t b = 0; b < bits; ++b) {
     const auto axis = static_cast<std::uint32_t>(std::max_element(cell.begin(), cell.end()) - cell.begin());
@@ -57,9 +92,10 @@ void choose_bits(const DeviceExtremes& extremes, std::uint32_t bits, MortonPush&
     cell[axis] = ++push.bits[axis] < most_bits ? cell[axis] / 2 : 0;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    push.low[axis] = extremes.low[axis];
+    push.low[axis] = static_cast<float>(box.low[axis]);
+    constexpr double most = std::numeric_limits<float>::max();
     if (extent[axis] > 0)
-      push.scale[axis] = static_cast<float>(std::ldexp(1 / extent[axis], push.bits[axis]));
+      push.scale[axis] = static_cast<float>(std::min(std::ldexp(1 / extent[axis], push.bits[axis]), most));
   }
 }
 
@@ -106,7 +142,7 @@ TreePart::TreePart(GpuContext& context, const PointPart& points) : first(points.
   boxes = std::make_unique<DeviceBuffer>(context, sizeof(BoxGroup) * first_group[levels], BufferUse::device);
 }
 
-DeviceTree::DeviceTree(const GpuCloud& cloud) : cloud_(cloud), center_(cloud.on_device().center()) {
+DeviceTree::DeviceTree(const GpuCloud& cloud) : cloud_(cloud) {
   require_usable(cloud);
   const DevicePoints& points = cloud.on_device();
   GpuContext& context = *points.context();
@@ -116,7 +152,7 @@ DeviceTree::DeviceTree(const GpuCloud& cloud) : cloud_(cloud), center_(cloud.on_
   const SortBuffers sort(context, points.parts().front().count);
   const std::uint32_t key_bits = key_bits_for(points.parts().front().count);
   MortonPush push{};
-  choose_bits(extremes, key_bits - 1, push);
+  choose_bits(key_box(points, extremes), key_bits - 1, push);
   push.invalid_key = std::uint32_t{1} << (key_bits - 1);
   const ComputePipeline& morton = context.pipeline(Shader::morton, {points.stride_words()});
   Submission submission(points.context());
@@ -146,10 +182,10 @@ void DeviceTree::refit(const GpuCloud& cloud) {
   const DeviceExtremes extremes = find_extremes(points, DirectionSet::dop6, false);
   Submission submission(points.context());
   fill_packets(submission, points);
-  submission.run();
-  take_extremes(extremes);
   cloud_ = cloud;
   host_.reset();
+  take_extremes(extremes);
+  submission.run();
 }
 
 void DeviceTree::take_extremes(const DeviceExtremes& extremes) {
@@ -157,22 +193,23 @@ void DeviceTree::take_extremes(const DeviceExtremes& extremes) {
   extent_ = 0;
   if (size() == 0) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double center = center_[axis];
+    const double center = this->center()[axis];
     extent_ =
         std::max({extent_, std::abs(extremes.low[axis] - center), std::abs(extremes.high[axis] - center)});
   }
 }
 
-// Adds commands that gather the points of all parts, and find their boxes.
+// Adds commands that copy the points of all parts to packets, and find their boxes.
 void DeviceTree::fill_packets(Submission& submission, const DevicePoints& points) const {
   GpuContext& context = *points.context();
   const ComputePipeline& packets = context.pipeline(Shader::packets, {points.stride_words()});
   const ComputePipeline& levels = context.pipeline(Shader::levels, {});
+  const std::array<float, 3>& center = points.center();
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const TreePart& part = parts_[p];
     const PointPart& from = points.parts()[p];
     const PacketPush push{
-        {center_[0], center_[1], center_[2]}, from.first_word, static_cast<std::uint32_t>(part.count)};
+        {center[0], center[1], center[2]}, from.first_word, static_cast<std::uint32_t>(part.count)};
     submission.dispatch(
         packets,
         {from.binding, {part.order.get()}, {part.packets.get()}, {part.numbers.get()}, {part.boxes.get()}},
@@ -185,11 +222,11 @@ void DeviceTree::fill_packets(Submission& submission, const DevicePoints& points
   }
 }
 
-const PointTree& DeviceTree::on_host() const {
+const PointTree& DeviceTree::on_host(const Execution& execution) const {
   const std::lock_guard lock(mutex_);
   if (!host_) {
     std::vector<float> storage;
-    host_ = std::make_unique<PointTree>(loaded(cloud_.points(), storage));
+    host_ = std::make_unique<PointTree>(loaded(cloud_.points(), storage), execution);
   }
   return *host_;
 }

@@ -21,13 +21,13 @@ namespace pcl_bv::detail {
 
 /// The tree of one part of a cloud.
 struct TreePart {
-  static constexpr std::size_t kMostLevels = 6;
+  static constexpr std::size_t kMaxLevels = 6;
 
   TreePart(GpuContext& context, const PointPart& points);
 
   std::size_t first, count;  ///< Range of the points in the cloud.
   std::uint32_t levels = 0;
-  std::array<std::uint32_t, kMostLevels + 1> first_group{};  ///< Of each level, and the number of all groups.
+  std::array<std::uint32_t, kMaxLevels + 1> first_group{};  ///< Of each level, and the number of all groups.
   std::unique_ptr<DeviceBuffer> order;    ///< Numbers of the points, sorted along the curve.
   std::unique_ptr<DeviceBuffer> packets;  ///< Coordinates in this order, as in PointPacket<float>.
   std::unique_ptr<DeviceBuffer> numbers;  ///< Number of each point of a packet.
@@ -45,19 +45,18 @@ class DeviceTree {
   std::size_t dropped() const { return dropped_; }
   const GpuCloud& cloud() const { return cloud_; }
   const std::vector<TreePart>& parts() const { return parts_; }
-  const std::array<float, 3>& center() const { return center_; }
+  const std::array<float, 3>& center() const { return cloud_.on_device().center(); }
   /// The largest difference of a coordinate of a point and of the centre; 0 without a valid point.
   double extent() const { return extent_; }
 
-  /// Returns the tree for questions that the device does not answer. Built at the first call.
-  const PointTree& on_host() const;
+  /// Returns the tree for queries that the device leaves to the processor. Builds it at the first call.
+  const PointTree& on_host(const Execution& execution) const;
 
  private:
   void take_extremes(const DeviceExtremes& extremes);
   void fill_packets(Submission& submission, const DevicePoints& points) const;
 
   GpuCloud cloud_;
-  std::array<float, 3> center_;
   std::vector<TreePart> parts_;
   std::size_t dropped_ = 0;
   double extent_ = 0;

@@ -3,18 +3,17 @@
 
 #include "radix_sort.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace pcl_bv::detail {
 namespace {
 
 // As in radix.glsl.
-constexpr std::uint32_t kDigits = 16, kDigitBits = 4, kTile = 1024;
-// More runs keep more of a card busy, but one workgroup sums up the counts of all.
+constexpr std::uint32_t kDigits = 16, kDigitBits = 4, kTile = 512;
+// More runs occupy more of a card, but a single workgroup adds up the counts of all runs.
 constexpr std::uint32_t kMostRuns = 2048;
 
-// What the shaders declare.
+// Push constants of the shaders.
 struct PassPush {
   std::uint32_t count, run, runs, shift;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sorts numbers by keys of 16, 24 or 32 bits on a device, in the order of Satish, Harris, Garland 2009.
+// Radix sort on a device (Satish, Harris, Garland 2009).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pcl_bv::detail {
 
-/// Buffers of a sort. Each has room for the largest number of keys.
+/// Buffers of a sort. Each has space for the largest number of keys.
 class SortBuffers {
  public:
   SortBuffers(GpuContext& context, std::size_t most_keys);

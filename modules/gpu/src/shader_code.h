@@ -24,6 +24,6 @@ ShaderCode digit_sums_code();
 ShaderCode scatter_code();
 ShaderCode packets_code();
 ShaderCode levels_code();
-ShaderCode questions_code();
+ShaderCode queries_code();
 
 }  // namespace pcl_bv::detail

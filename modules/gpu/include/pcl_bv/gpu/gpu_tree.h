@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A search tree on a graphics card, and questions about it that are answered many at a time.
+// Search trees on a graphics card, for many queries at a time.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,23 +23,27 @@ namespace detail {
 class DeviceTree;
 }
 
-/// A search tree over the valid points of a cloud, built and questioned on the cloud's device. Its answers
-/// are those of a PointTree of the same points, bit for bit.
+/// A search tree over the valid points of a cloud, built and searched on the cloud's device. The results of
+/// all queries have the same bits as those of a PointTree of the same points.
 ///
 /// The points are sorted along a Morton curve (Lauterbach et al. 2009), 16 to a packet. Each packet has a
-/// box, each 16 boxes have a common box, and so on, as in a PointTree. The tree takes 22 bytes of the
-/// device's memory per point, and while it is built another 12. Each part of the cloud (GpuInfo::max_binding,
-/// up to 11 million points) has a tree of its own.
+/// box, each 16 boxes have a common box, and so on, as in a PointTree. The tree takes 22 bytes of device
+/// memory per point. The build needs another 16 bytes per point. A cloud that is larger than one buffer
+/// (GpuInfo::max_binding, 11 million points of 12 bytes) has a tree for each buffer.
 ///
-/// The device finds up to four points that can be the answer of a question, and the processor decides which
-/// one it is. If there are more, for example because many points are equal, the processor answers from a
-/// PointTree, which it builds at the first such question. It does so too for coordinates beyond 1e16. Such
-/// questions are slow.
+/// The device finds up to four points that can be the result of a query, and the processor decides among
+/// them. If there are more, the processor runs the query on a PointTree. It builds this tree at the first
+/// such query after each build or refit(), from GpuCloud::points(), and keeps it. This takes 30 ns and 52
+/// bytes per point. Queries are left to the processor if many points have nearly the same distance
+/// (differences below 2^-17 of the coordinates relative to the centre of the cloud), if a coordinate or a
+/// radius is above 1e16, and if the length of a direction is below 2^-900 or above 2^900.
 ///
-/// Questions may be asked by several threads at the same time, but not during refit().
+/// With HostPoints::keep the uploaded view must outlive the tree and not change. Imported points must not
+/// change from the build or refit() to the last query. Queries may run in several threads at the same time,
+/// but not during refit().
 class GpuTree {
  public:
-  /// Builds the tree. A copy of `cloud` is kept. O(n): eight passes at most over keys of four bytes.
+  /// Builds the tree, and keeps a copy of `cloud`, which refers to the same points. O(n).
   ///
   /// Throws std::invalid_argument for points of doubles and for indices above 2^31 - 2 (PointView::index()).
   /// Throws GpuError if the device has too little memory or is lost.
@@ -48,13 +52,14 @@ class GpuTree {
   GpuTree(GpuTree&&) noexcept;             ///< The other tree can then only be assigned to or destroyed.
   GpuTree& operator=(GpuTree&&) noexcept;  ///< As above.
 
-  /// Moves the points: reads their new coordinates from `cloud`, which can be the same one if its memory was
-  /// imported. Questions then have the answers of a new tree of that cloud. A new tree is faster if the
-  /// points have moved far. O(n), two passes.
+  /// Moves the points: reads their new coordinates from `cloud`. This can be the same cloud, if its memory
+  /// was imported. The results of queries are then those of a new tree of `cloud`. A new tree is faster if
+  /// points have moved relative to one another. O(n).
   ///
-  /// Throws std::invalid_argument, and changes nothing, unless the cloud is on the same device, has float
-  /// points, and has as many and of the same stride. Throws GpuError, and changes nothing, as the constructor
-  /// does.
+  /// Throws std::invalid_argument, and changes nothing, as the constructor does, and unless the cloud is on
+  /// the same device, has the same number of points and the same stride in the device's memory (12 bytes if
+  /// it was uploaded). Throws GpuError as the constructor does. The results are then undefined until a
+  /// refit() succeeds.
   void refit(const GpuCloud& cloud);
 
   std::size_t size() const;     ///< Number of valid points.
@@ -70,10 +75,11 @@ class GpuTree {
 /// Sets found[i] to PointTree::nearest() of the i-th query point, or to index -1 and squared distance
 /// infinity if there is none. Throws std::invalid_argument if the query points are not in memory, or if
 /// max_distance is negative or NaN. Throws GpuError if the device has too little memory or is lost.
+/// Exceptions of the source of GpuCloud::points() are passed on. The same holds for the other queries.
 void nearest(const GpuTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
-/// Sets inside[i] to 1 if PointTree::any_inside() holds for sphere i, else to 0. Throws GpuError as above.
+/// Sets inside[i] to 1 if PointTree::any_inside() holds for sphere i, else to 0.
 void any_inside(const GpuTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution = {});
 
