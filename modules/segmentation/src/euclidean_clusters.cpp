@@ -14,6 +14,7 @@
 
 #include "cells.h"
 #include "collect.h"
+#include "components.h"
 #include "core_points.h"
 #include "join_cells.h"
 #include "oversized.h"
@@ -35,7 +36,9 @@ struct PointScratch {
   RangeLevels<T> levels;
 };
 
-void check(const ClusterOptions& options) {
+}  // namespace
+
+void detail::check(const ClusterOptions& options) {
   std::ostringstream message;
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance))) {
     message << "cluster tolerance is " << options.tolerance << ", must be finite and greater than 0";
@@ -56,15 +59,13 @@ void check(const ClusterOptions& options) {
   throw std::invalid_argument(message.str());
 }
 
-// Returns 1 / side of the cells. The coordinate differences of a linked pair (d2 < r2) are at most sqrt(r2).
-// The differences may exceed the tolerance: r2 may be a denormal that was rounded up, or infinity while d2 is
-// finite. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
+namespace {
+
+// Returns 1 / side of the cells. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of
+// one cell are linked.
 template <typename T>
 double inverse_cell_side(T r2) {
-  using limits = std::numeric_limits<T>;
-  const double max_difference =
-      std::sqrt(static_cast<double>(std::clamp(r2, limits::denorm_min(), limits::max())));
-  return std::sqrt(3.0) * (1 + 1e-6) / max_difference;
+  return std::sqrt(3.0) * (1 + 1e-6) / max_linked_difference(r2);
 }
 
 // Returns whether all points of a cell are certainly linked. The margin of inverse_cell_side() covers the
@@ -162,6 +163,37 @@ struct EuclideanClusterer::Scratch {
                                        : extract<double>(view, options, policy, clusters);
   }
 };
+
+template <typename T>
+void ComponentAccess::find(EuclideanClusterer& clusterer, const PointView& view,
+                           const ClusterOptions& options, const ParallelPolicy& policy,
+                           PointComponents& found) {
+  if (!clusterer.scratch_) clusterer.scratch_ = std::make_unique<EuclideanClusterer::Scratch>();
+  EuclideanClusterer::Scratch& all = *clusterer.scratch_;
+  auto& scratch = std::get<PointScratch<T>>(all.points);
+  copy_valid_points(view, policy, scratch.valid);
+  const std::size_t count = scratch.valid.points.size();
+  if (count != view.count) throw std::invalid_argument("all points must be valid");
+  found.component.resize(count);
+  found.core.assign(count, 1);
+  found.noise = no_root;
+  if (count == 0) return;
+  found.noise =
+      all.link(scratch.valid.points, scratch.valid.box, options.tolerance, options.min_points, policy);
+  const std::vector<std::uint32_t>& roots = all.sets.roots();
+  for (std::size_t i = 0; i < count; ++i)
+    found.component[i] = roots[scratch.cells.node[i]];
+  if (options.min_points == 1) return;
+  for (std::size_t position = 0; position < count; ++position)
+    found.core[scratch.core.number[position]] = scratch.core.core[position];
+}
+
+void ComponentAccess::find(EuclideanClusterer& clusterer, const PointView& view,
+                           const ClusterOptions& options, const ParallelPolicy& policy,
+                           PointComponents& found) {
+  view.scalar == ScalarType::float32 ? find<float>(clusterer, view, options, policy, found)
+                                     : find<double>(clusterer, view, options, policy, found);
+}
 
 EuclideanClusterer::EuclideanClusterer() = default;
 EuclideanClusterer::~EuclideanClusterer() = default;

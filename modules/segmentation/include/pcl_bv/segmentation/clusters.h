@@ -15,6 +15,10 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+namespace detail {
+struct ComponentAccess;
+}
+
 /// Numbers of points that are in no cluster, by reason, and how many clusters were cut and joined.
 struct Counts {
   std::size_t nonfinite = 0;      ///< Points that are not valid (is_valid()).
@@ -125,6 +129,7 @@ class EuclideanClusterer {
                const Execution& execution = {});
 
  private:
+  friend struct detail::ComponentAccess;
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clusters of clouds that do not fit in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "pcl_bv/parallel/execution.h"
+#include "pcl_bv/points/point_source.h"
+#include "pcl_bv/segmentation/clusters.h"
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+class SpillFile;
+
+struct StoredClusterOptions {
+  /// Points that are in memory at a time, if no small region has more of them. A point takes up to 150 bytes
+  /// then.
+  std::size_t points_in_memory = std::size_t{4} << 20;
+  /// Where the temporary file is made; empty for the system's folder of temporary files.
+  std::filesystem::path folder;
+};
+
+/// The clusters of EuclideanClusterer for a cloud of any size. Their points are in a temporary file, which
+/// the system deletes when the process ends, whatever the reason.
+///
+/// The points are distributed to boxes ("bricks") with about StoredClusterOptions::points_in_memory points
+/// each. A brick also gets the points of other bricks that can decide on its own points: those within the
+/// tolerance, or with min_points > 1 within twice the tolerance. Each brick is clustered in memory.
+/// Components of neighbouring bricks are joined if they have a core point in common. So every link and every
+/// core condition is decided in a brick that has all points that matter, and the result is that of the whole
+/// cloud.
+class StoredClusters {
+ public:
+  /// Finds the clusters of the valid points. Takes two passes over the points. The order of the passes does
+  /// not depend on the execution, nor does the result.
+  ///
+  /// The temporary file takes about 24 bytes per float point and 44 per double point, half of it twice for
+  /// points near borders of bricks. Memory: a brick, 60 bytes per cluster, and 24 bytes per region of 16
+  /// tolerances with points.
+  ///
+  /// Throws std::invalid_argument if an option is outside its range, for tolerance_per_metre > 0 and for
+  /// Oversized::split. Throws std::runtime_error, with the reason, if the temporary file cannot be made or
+  /// written. Exceptions of the source of the points are passed on.
+  StoredClusters(const PointView& points, const ClusterOptions& options,
+                 const StoredClusterOptions& store = {}, const Execution& execution = {});
+  ~StoredClusters();
+  StoredClusters(StoredClusters&&) noexcept;
+  StoredClusters& operator=(StoredClusters&&) noexcept;
+
+  /// Number of clusters. They are in the order of Clusters: the largest first.
+  std::size_t size() const;
+
+  /// Number of points of a cluster.
+  std::size_t point_count(std::size_t cluster) const;
+
+  /// The points of a cluster in the order of the cloud, in memory or in the temporary file.
+  class Points {
+   public:
+    /// Returns a view that is valid while this object and the StoredClusters live.
+    const PointView& view() const { return view_; }
+
+   private:
+    friend class StoredClusters;
+    std::vector<std::byte> bytes_;
+    std::unique_ptr<PointSource> source_;
+    PointView view_;
+  };
+  Points points(std::size_t cluster) const;
+
+  /// Numbers of points without a cluster, by reason (as Counts): nonfinite, small, large and noise.
+  const Counts& counts() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace detail
+}  // namespace pcl_bv

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "brick_clusters.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "pcl_bv/points/point_view.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+PointView view_of_records(const std::vector<std::byte>& records, std::size_t step, ScalarType scalar) {
+  PointView view;
+  view.data = records.data();
+  view.stride = view.readable = step;
+  view.count = records.size() / step;
+  view.scalar = scalar;
+  return view;
+}
+
+}  // namespace
+
+BrickClusterer::BrickClusterer(const Bricks& bricks, ScalarType scalar, const ClusterOptions& options,
+                               const Execution& execution, SpillFile& file)
+    : bricks_(bricks),
+      scalar_(scalar),
+      step_(3 * size_of(scalar) + 8),
+      options_(options),
+      execution_(execution),
+      file_(file) {}
+
+std::uint64_t BrickClusterer::number_at(const std::byte* record) const {
+  std::uint64_t number;
+  std::memcpy(&number, record + step_ - sizeof number, sizeof number);
+  return number;
+}
+
+void BrickClusterer::add(std::uint32_t brick, const std::vector<std::byte>& records) {
+  ComponentAccess::find(clusterer_, view_of_records(records, step_, scalar_), options_, execution_.parallel,
+                        found_);
+  measure(brick, records);
+  make_pieces();
+  write_shared(brick, records);
+  write_points(records);
+}
+
+// Counts the points of each component that belong to the brick, and finds the components that are shared.
+void BrickClusterer::measure(std::uint32_t, const std::vector<std::byte>& records) {
+  const PointView view = view_of_records(records, step_, scalar_);
+  components_.assign(view.count + 1, {});
+  shared_.assign(view.count, 0);
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const bool other = (number_at(view.address(i)) & kOfOtherBrick) != 0;
+    const bool noise = found_.component[i] == found_.noise;
+    if (noise) {
+      noise_ += other ? 0 : 1;
+      continue;
+    }
+    Component& component = components_[found_.component[i]];
+    if (!other) ++component.points;
+    if (found_.core[i] == 0) continue;
+    shared_[i] = other || bricks_.place(load_point(view, i)).others > 0 ? 1 : 0;
+    component.shared = component.shared || shared_[i] != 0;
+  }
+}
+
+// Gives numbers to the pieces. A component without own points is no piece: what it links is linked in the
+// bricks of its points, too.
+void BrickClusterer::make_pieces() {
+  for (Component& component : components_) {
+    if (component.points == 0 || !component.shared) continue;
+    component.piece = static_cast<std::uint32_t>(pieces_.size());
+    pieces_.push_back({0, component.points});
+  }
+}
+
+void BrickClusterer::write_shared(std::uint32_t brick, const std::vector<std::byte>& records) {
+  const PointView view = view_of_records(records, step_, scalar_);
+  std::vector<SharedPoint> own, others;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    if (shared_[i] == 0) continue;
+    const Component& component = components_[found_.component[i]];
+    if (component.points == 0) continue;
+    const std::uint64_t number = number_at(view.address(i));
+    if ((number & kOfOtherBrick) == 0) {
+      own.push_back({number, component.piece, brick});
+    } else {
+      others.push_back({number & ~kOfOtherBrick, component.piece, bricks_.place(load_point(view, i)).own});
+    }
+  }
+  std::stable_sort(others.begin(), others.end(),
+                   [](const SharedPoint& a, const SharedPoint& b) { return a.owner < b.owner; });
+  own_.push_back(write(own));
+  others_.push_back(write(others));
+}
+
+Extent BrickClusterer::write(const std::vector<SharedPoint>& points) {
+  return file_.append(points.data(), points.size() * sizeof(SharedPoint));
+}
+
+std::vector<SharedPoint> BrickClusterer::read(const Extent& extent) const {
+  std::vector<SharedPoint> points(extent.bytes / sizeof(SharedPoint));
+  file_.read(extent.offset, points.data(), extent.bytes);
+  return points;
+}
+
+// Writes the points of complete clusters without numbers, and those of pieces as records.
+void BrickClusterer::write_points(const std::vector<std::byte>& records) {
+  const PointView view = view_of_records(records, step_, scalar_);
+  const std::size_t point_bytes = step_ - 8, first_cluster = clusters_.size();
+  std::uint64_t cluster_bytes = 0, piece_bytes = 0;
+  for (Component& component : components_) {
+    std::uint64_t& end = component.shared ? piece_bytes : cluster_bytes;
+    component.next = end;
+    end += component.points * (component.shared ? step_ : point_bytes);
+  }
+  std::vector<std::byte> of_clusters(cluster_bytes), of_pieces(piece_bytes);
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const std::byte* const record = view.address(i);
+    if ((number_at(record) & kOfOtherBrick) != 0 || found_.component[i] == found_.noise) continue;
+    Component& component = components_[found_.component[i]];
+    if (component.shared) {
+      std::memcpy(of_pieces.data() + component.next, record, step_);
+      component.next += step_;
+      continue;
+    }
+    if (component.piece == 0) {  // its first point
+      component.piece = 1;
+      clusters_.push_back({component.next, component.points, number_at(record)});
+    }
+    std::memcpy(of_clusters.data() + component.next, record, point_bytes);
+    component.next += point_bytes;
+  }
+  const std::uint64_t at = file_.append(of_clusters.data(), of_clusters.size()).offset;
+  for (std::size_t c = first_cluster; c < clusters_.size(); ++c)
+    clusters_[c].offset += at;
+  const std::uint64_t pieces_at = file_.append(of_pieces.data(), of_pieces.size()).offset;
+  for (const Component& component : components_) {
+    if (component.points > 0 && component.shared)
+      pieces_[component.piece].offset = pieces_at + component.next - component.points * step_;
+  }
+}
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "joined_pieces.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <queue>
+
+#include "union_find.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr std::size_t kReadBytes = 64U << 10U;
+constexpr std::size_t kWriteBytes = 1U << 20U;
+
+// Reads the records of a piece one after another.
+class PieceReader {
+ public:
+  PieceReader(const SpillFile& file, const Piece& piece, std::size_t step)
+      : file_(&file), at_(piece.offset), left_(piece.points), step_(step) {
+    fill();
+  }
+
+  bool done() const { return position_ == buffer_.size(); }
+  const std::byte* record() const { return buffer_.data() + position_; }
+  std::uint64_t number() const {
+    std::uint64_t number;
+    std::memcpy(&number, record() + step_ - sizeof number, sizeof number);
+    return number;
+  }
+  void next() {
+    position_ += step_;
+    if (done()) fill();
+  }
+
+ private:
+  void fill() {
+    const std::size_t records = std::min<std::uint64_t>(left_, kReadBytes / step_);
+    buffer_.resize(records * step_);
+    file_->read(at_, buffer_.data(), buffer_.size());
+    at_ += buffer_.size();
+    left_ -= records;
+    position_ = 0;
+  }
+
+  const SpillFile* file_;
+  std::uint64_t at_, left_;
+  std::size_t step_, position_ = 0;
+  std::vector<std::byte> buffer_;
+};
+
+// Writes the points of several pieces in the order of their numbers.
+StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFile& file) {
+  std::vector<PieceReader> readers;
+  for (const Piece& piece : pieces)
+    readers.emplace_back(file, piece, step);
+  using Next = std::pair<std::uint64_t, std::size_t>;  // number of a point, and its reader
+  std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
+  for (std::size_t r = 0; r < readers.size(); ++r)
+    next.emplace(readers[r].number(), r);
+  StoredCluster cluster{std::numeric_limits<std::uint64_t>::max(), 0, next.top().first};
+  std::vector<std::byte> points;
+  const auto write = [&] {
+    const Extent extent = file.append(points.data(), points.size());
+    cluster.offset = std::min(cluster.offset, extent.offset);
+    points.clear();
+  };
+  for (; !next.empty(); ++cluster.points) {
+    PieceReader& reader = readers[next.top().second];
+    const std::size_t number = next.top().second;
+    next.pop();
+    points.insert(points.end(), reader.record(), reader.record() + step - 8);
+    if (points.size() >= kWriteBytes) write();
+    reader.next();
+    if (!reader.done()) next.emplace(reader.number(), number);
+  }
+  if (!points.empty()) write();
+  return cluster;
+}
+
+// Joins the pieces of two bricks that have the same core point.
+void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
+           std::vector<SharedPoint>::const_iterator end, UnionFind& sets) {
+  auto it = own.begin();
+  for (; begin != end; ++begin) {
+    while (it != own.end() && it->number < begin->number)
+      ++it;
+    if (it == own.end()) return;
+    if (it->number == begin->number) sets.unite(it->piece, begin->piece);
+  }
+}
+
+}  // namespace
+
+void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& file,
+                 std::vector<StoredCluster>& clusters) {
+  const std::vector<Piece>& pieces = clusterer.pieces();
+  UnionFind sets;
+  sets.reset(pieces.size());
+  for (std::uint32_t brick = 0; brick < clusterer.brick_count(); ++brick) {
+    const std::vector<SharedPoint> others = clusterer.other_points(brick);
+    for (auto begin = others.begin(); begin != others.end();) {
+      const std::uint32_t owner = begin->owner;
+      const auto end =
+          std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
+      unite(clusterer.own_points(owner), begin, end, sets);
+      begin = end;
+    }
+  }
+  const std::vector<std::uint32_t>& roots = sets.roots();
+  std::vector<std::uint32_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return roots[a] < roots[b]; });
+  std::vector<Piece> of_cluster;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    of_cluster.push_back(pieces[order[i]]);
+    if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
+    clusters.push_back(merge(of_cluster, 3 * size_of(scalar) + 8, file));
+    of_cluster.clear();
+  }
+}
+
+void select_and_sort(const ClusterOptions& options, std::vector<StoredCluster>& clusters, Counts& counts) {
+  const std::size_t max_size =
+      options.oversized == Oversized::keep ? std::numeric_limits<std::size_t>::max() : options.max_size;
+  const auto removed = std::remove_if(clusters.begin(), clusters.end(), [&](const StoredCluster& cluster) {
+    if (cluster.points < options.min_size) counts.small += cluster.points;
+    if (cluster.points > max_size) counts.large += cluster.points;
+    return cluster.points < options.min_size || cluster.points > max_size;
+  });
+  clusters.erase(removed, clusters.end());
+  std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
+    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
+  });
+}
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "spill_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace pcl_bv::detail {
+namespace {
+
+[[noreturn]] void fail(const char* what, int error) {
+  throw std::runtime_error(std::string("cannot ") + what +
+                           " a temporary file: " + std::generic_category().message(error));
+}
+
+int open_unnamed(const std::filesystem::path& folder) {
+  std::string name = (folder / "pcl_bv_XXXXXX").string();
+  const int fd = ::mkostemp(name.data(), O_CLOEXEC);
+  if (fd < 0) fail("make", errno);
+  ::unlink(name.c_str());
+  return fd;
+}
+
+}  // namespace
+
+SpillFile::SpillFile(const std::filesystem::path& folder) : fd_(open_unnamed(folder)) {}
+
+SpillFile::~SpillFile() {
+  ::close(fd_);
+}
+
+Extent SpillFile::append(const void* bytes, std::size_t count) {
+  const Extent extent{end_, count};
+  const char* from = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(end_));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail("write", written < 0 ? errno : ENOSPC);
+    from += written;
+    count -= static_cast<std::size_t>(written);
+    end_ += static_cast<std::uint64_t>(written);
+  }
+  return extent;
+}
+
+void SpillFile::read(std::uint64_t offset, void* to, std::size_t count) const {
+  char* at = static_cast<char*>(to);
+  while (count > 0) {
+    const ssize_t got = ::pread(fd_, at, count, static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail("read", got < 0 ? errno : EIO);
+    at += got;
+    count -= static_cast<std::size_t>(got);
+    offset += static_cast<std::uint64_t>(got);
+  }
+}
+
+void SpillList::add(SpillFile& file, const void* bytes, std::size_t count, std::size_t block_bytes) {
+  const auto* const from = static_cast<const std::byte*>(bytes);
+  waiting_.insert(waiting_.end(), from, from + count);
+  if (waiting_.size() < block_bytes) return;
+  extents_.push_back(file.append(waiting_.data(), waiting_.size()));
+  bytes_ += waiting_.size();
+  waiting_.clear();
+}
+
+void SpillList::finish(SpillFile& file) {
+  if (!waiting_.empty()) {
+    extents_.push_back(file.append(waiting_.data(), waiting_.size()));
+    bytes_ += waiting_.size();
+  }
+  waiting_ = {};
+}
+
+std::vector<std::byte> SpillList::read(const SpillFile& file) const {
+  std::vector<std::byte> all(bytes_);
+  std::size_t at = 0;
+  for (const Extent& extent : extents_) {
+    file.read(extent.offset, all.data() + at, extent.bytes);
+    at += extent.bytes;
+  }
+  return all;
+}
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A temporary file without a name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace pcl_bv::detail {
+
+/// A range of bytes in a SpillFile.
+struct Extent {
+  std::uint64_t offset = 0, bytes = 0;
+};
+
+/// Bytes that do not fit in memory. The file has no name, so the system frees its space when the process
+/// ends. One thread may write while others read what was written before.
+class SpillFile {
+ public:
+  /// Makes the file in a folder. Throws std::runtime_error with the reason.
+  explicit SpillFile(const std::filesystem::path& folder);
+  ~SpillFile();
+  SpillFile(const SpillFile&) = delete;
+  SpillFile& operator=(const SpillFile&) = delete;
+
+  /// Appends bytes. Throws std::runtime_error if the disk is full or fails.
+  Extent append(const void* bytes, std::size_t count);
+
+  /// Reads bytes that were appended. Throws std::runtime_error if the disk fails.
+  void read(std::uint64_t offset, void* to, std::size_t count) const;
+
+ private:
+  int fd_ = -1;
+  std::uint64_t end_ = 0;
+};
+
+/// A list of records that is written to a SpillFile in blocks.
+class SpillList {
+ public:
+  /// Adds bytes to the list; writes a block when `block_bytes` are waiting.
+  void add(SpillFile& file, const void* bytes, std::size_t count, std::size_t block_bytes);
+  /// Writes what is waiting and frees the buffer.
+  void finish(SpillFile& file);
+  /// Returns the size of what was written.
+  std::uint64_t bytes() const { return bytes_; }
+  /// Reads all records. Call finish() before.
+  std::vector<std::byte> read(const SpillFile& file) const;
+
+ private:
+  std::vector<std::byte> waiting_;
+  std::vector<Extent> extents_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clusters from bricks are those of the whole cloud in memory.
+
+#include "pcl_bv/segmentation/stored_clusters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "clouds.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// The points of each cluster, as bytes.
+using ClusterBytes = std::vector<std::vector<std::byte>>;
+
+void append_bytes(const PointView& points, std::vector<std::byte>& to) {
+  const std::size_t size = size_of(points.scalar);
+  for (std::size_t i = 0; i < points.count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::byte* const at = points.address(i) + axis * points.step();
+      to.insert(to.end(), at, at + size);
+    }
+  }
+}
+
+ClusterBytes bytes_of(const StoredClusters& clusters) {
+  ClusterBytes all(clusters.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    const StoredClusters::Points points = clusters.points(c);
+    EXPECT_EQ(points.view().count, clusters.point_count(c));
+    for (std::size_t first = 0; first < points.view().count; first += kChunkPoints) {
+      const LoadedPoints part(points.view(), first, std::min(kChunkPoints, points.view().count - first));
+      append_bytes(part.view(), all[c]);
+    }
+  }
+  return all;
+}
+
+ClusterBytes bytes_of(const PointView& points, const Clusters& clusters) {
+  ClusterBytes all(clusters.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    PointView part = points;
+    part.indices = clusters.list(c);
+    part.count = clusters.list_size(c);
+    append_bytes(part, all[c]);
+  }
+  return all;
+}
+
+void expect_same_as_in_memory(const PointView& points, const ClusterOptions& options,
+                              std::size_t points_in_memory, const Execution& execution = {}) {
+  SCOPED_TRACE(testing::Message() << points_in_memory << " points in memory, min_points "
+                                  << options.min_points << ", tolerance " << options.tolerance);
+  const Clusters expected = cluster(points, options);
+  const StoredClusters stored(points, options, {points_in_memory, {}}, execution);
+  EXPECT_EQ(bytes_of(stored), bytes_of(points, expected));
+  EXPECT_EQ(stored.counts().small, expected.small_points);
+  EXPECT_EQ(stored.counts().large, expected.large_points);
+  EXPECT_EQ(stored.counts().noise, expected.noise_points);
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < points.count; ++i)
+    valid += is_valid(load_point(points, i)) ? 1 : 0;
+  EXPECT_EQ(stored.counts().nonfinite, points.count - valid);
+}
+
+// Lines, sheets and clumps that cross many bricks, with noise between them.
+template <typename T>
+test::TestCloud<T> scene(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  test::TestCloud<T> cloud{"seed " + std::to_string(seed), {}};
+  const auto add = [&](double x, double y, double z) {
+    cloud.xyz.insert(cloud.xyz.end(), {static_cast<T>(x), static_cast<T>(y), static_cast<T>(z)});
+  };
+  const double extent = std::pow(10, uniform(1, 2.5));
+  for (int object = 0; object < 25; ++object) {
+    const double x = uniform(-extent, extent), y = uniform(-extent, extent), z = uniform(0, 3);
+    const double length = uniform(0, object % 3 == 0 ? extent : 3), angle = uniform(0, 6.28);
+    const int count = static_cast<int>(uniform(1, object % 3 == 0 ? 600 : 60));
+    for (int i = 0; i < count; ++i) {
+      const double along = uniform(0, length), spread = object % 5 == 0 ? 2 : 0.2;
+      add(x + along * std::cos(angle) + uniform(-spread, spread),
+          y + along * std::sin(angle) + uniform(-0.2, 0.2), z + uniform(-0.1, 0.1));
+    }
+  }
+  for (int i = 0; i < 300; ++i)
+    add(uniform(-extent, extent), uniform(-extent, extent), uniform(0, 5));
+  std::vector<std::size_t> order(cloud.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = i;
+  if (seed % 2 == 0) std::shuffle(order.begin(), order.end(), random);
+  test::TestCloud<T> mixed{cloud.name, {}};
+  for (const std::size_t i : order)
+    mixed.xyz.insert(mixed.xyz.end(), cloud.xyz.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                     cloud.xyz.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+  if (seed % 3 == 0) mixed.xyz[3 * (seed % mixed.size())] = std::numeric_limits<T>::quiet_NaN();
+  return mixed;
+}
+
+template <typename T>
+class StoredClustersOf : public testing::Test {};
+using ScalarTypes = testing::Types<float, double>;
+TYPED_TEST_SUITE(StoredClustersOf, ScalarTypes);
+
+TYPED_TEST(StoredClustersOf, AreThoseOfTheWholeCloudForAnyBricks) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const test::TestCloud<TypeParam> cloud = scene<TypeParam>(seed);
+    SCOPED_TRACE(cloud.name);
+    std::mt19937_64 random(seed);
+    ClusterOptions options;
+    options.tolerance =
+        static_cast<float>(std::pow(10, std::uniform_real_distribution<double>(-1.2, 0.5)(random)));
+    options.min_size = random() % 2 == 0 ? 1 : 10;
+    options.min_points = std::array{1, 2, 4, 8}[random() % 4];
+    if (random() % 4 == 0) options.max_size = 300;
+    if (random() % 4 == 0) options.oversized = Oversized::keep;
+    for (const std::size_t in_memory : {1U, 40U, 700U, 1U << 20U})
+      expect_same_as_in_memory(cloud.view(), options, in_memory);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TYPED_TEST(StoredClustersOf, AreThoseOfTheWholeCloudOnNastyClouds) {
+  for (const test::TestCloud<TypeParam>& cloud : test::nasty_clouds<TypeParam>()) {
+    SCOPED_TRACE(cloud.name);
+    for (const float tolerance : {1e-20F, 1e-3F, 0.5F, 1e4F, 1e20F}) {
+      for (const std::size_t min_points : {1, 3}) {
+        ClusterOptions options;
+        options.tolerance = tolerance;
+        options.min_points = min_points;
+        expect_same_as_in_memory(cloud.view(), options, 100);
+      }
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(StoredClusters, OfOneClusterInAllBricksHaveAllItsPointsInOrder) {
+  test::TestCloud<float> line{"line", {}};
+  for (int i = 0; i < 100'000; ++i)
+    line.xyz.insert(line.xyz.end(), {static_cast<float>(i * 7919 % 100'000) * 0.1F, 0, 0});
+  ClusterOptions options;
+  options.tolerance = 0.15F;
+  const StoredClusters stored(line.view(), options, {1000, {}});
+  ASSERT_EQ(stored.size(), 1U);
+  ASSERT_GT(stored.point_count(0), kChunkPoints);
+  expect_same_as_in_memory(line.view(), options, 1000, {Threads{3}});
+}
+
+TEST(StoredClusters, OfNoValidPointAreNone) {
+  ClusterOptions options;
+  options.tolerance = 1;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> xyz = {nan, 0, 0, 1, nan, 0};
+  for (const std::size_t count : {0, 2}) {
+    const StoredClusters stored(PointView::of(xyz.data(), 12, count), options);
+    EXPECT_EQ(stored.size(), 0U);
+    EXPECT_EQ(stored.counts().nonfinite, count);
+  }
+}
+
+TEST(StoredClusters, RefuseWhatTheyCannotFind) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(100, 1);
+  ClusterOptions options;
+  EXPECT_THROW(StoredClusters(cloud.view(), options), std::invalid_argument);
+  options.tolerance = 1;
+  options.tolerance_per_metre = 0.01F;
+  EXPECT_THROW(StoredClusters(cloud.view(), options), std::invalid_argument);
+  options.tolerance_per_metre = 0;
+  options.oversized = Oversized::split;
+  EXPECT_THROW(StoredClusters(cloud.view(), options), std::invalid_argument);
+  options.oversized = Oversized::drop;
+  const std::vector<std::int32_t> chosen = {1, 2};
+  EXPECT_THROW(StoredClusters(cloud.view().subset(chosen), options), std::invalid_argument);
+  EXPECT_THROW(StoredClusters(cloud.view(), options, {100, "/nowhere"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace pcl_bv::detail
