@@ -122,12 +122,22 @@ ExtentVerdict verdict_of(const PointView& points, const Eigen::Vector3d& up, std
   return *verdict_of(SizeBounds{size, size}, limits);
 }
 
+Limits limits_of(const ClusterConfig& config) {
+  return {config.min_extent.value_or(Limits().min), config.max_extent.value_or(Limits().max)};
+}
+
 }  // namespace
+
+ExtentVerdict extent_verdict(const PointView& points, const ClusterConfig& config, const Eigen::Vector3d& up,
+                             const Execution& execution) {
+  if (!config.min_extent && !config.max_extent) return ExtentVerdict::keep;
+  return verdict_of(points, up, vertical_axis(up), limits_of(config), execution);
+}
 
 void ExtentLimits::apply(const ClusterConfig& config, const Eigen::Vector3d& up,
                          const std::vector<PointView>& views, const Execution& execution, Clusters& clusters,
                          std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements) {
-  const Limits limits{config.min_extent.value_or(Limits().min), config.max_extent.value_or(Limits().max)};
+  const Limits limits = limits_of(config);
   const std::optional<int> vertical = vertical_axis(up);
   verdicts_.assign(views.size(), ExtentVerdict::keep);
   const auto judge = [&](std::size_t i, const Execution& own) {

@@ -17,6 +17,11 @@ namespace pcl_bv::detail {
 
 enum class ExtentVerdict : std::uint8_t { keep, small, large };
 
+/// Returns whether the sides of the upright box of the points are within `config.min_extent` and
+/// `config.max_extent`. `up` is the unit vector against gravity.
+ExtentVerdict extent_verdict(const PointView& points, const ClusterConfig& config, const Eigen::Vector3d& up,
+                             const Execution& execution);
+
 class ExtentLimits {
  public:
   /// Drops the clusters outside `config.min_extent` and `config.max_extent`, and adds their points to

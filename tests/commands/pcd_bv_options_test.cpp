@@ -64,7 +64,7 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
       {"--cluster", "1", "--min-extent", "1,1,inf", good},
       {"--cluster", "1", "--max-extent", "5,-1,5", good},
       {"--cluster", "1", "--min-extent", "1,1,2", "--max-extent", "5,5,1", good},
-      {"--together", "--cluster", "1", "--max-extent", "5,5,1", good},
+      {"--together", "--max-extent", "5,5,1", good},
       {"--format", "xml", good},
       {"--ground", "magic", good},
       {"--image", at("a.png"), "--view", "below", good},

@@ -164,6 +164,7 @@ TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
                                                 {"--partial", "p", "x.pcd"},
                                                 {},
                                                 {"--together", "--info", "x.pcd"},
+                                                {"--together", "--cluster", "1", "x.pcd"},
                                                 {"--output", at("x.pcd"), at("x.pcd")}}) {
     const Result result = ranks(3, wrong);
     EXPECT_EQ(result.status, 2);

@@ -51,7 +51,7 @@ const char* name_of(PcdBvCommand command) {
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
-      gpu;
+      gpu, memory;
   bool together = false, merge = false, check = false, info = false, timings = false, progress = false;
 };
 
@@ -66,6 +66,7 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
               "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
   if (command == PcdBvCommand::serial) {
+    line.option("--memory", texts.memory, "MB", "With --together --cluster: memory for points (600)");
     line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
@@ -171,18 +172,27 @@ void reject_combinations(const CommandLine& line, const char* option,
 // Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground
 // and size limits). If partial results are made or merged, also rejects the options that cannot work with
 // partial results.
-void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
+void reject_for_tiled_cloud(const CommandLine& line, const Options& options, PcdBvCommand command) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
+  const bool clusters_tiles = command == PcdBvCommand::serial && !options.merge && !options.partial;
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
-  reject(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
   reject(config.ground.method != GroundMethod::none, "--ground (ground.method)");
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
-         "cluster.min_size or max_size");
+  if (options.clusters() && clusters_tiles) {
+    reject_combinations(line, "--together --cluster", {"--image", "--view-html", "--gpu"});
+    reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
+    reject(config.cluster.oversized == Oversized::split, "--oversized split");
+    reject(config.cluster.class_field.has_value(), "--class (cluster.class_field)");
+    reject(config.effective_refine() != Refine::off, "cluster.refine");
+  } else {
+    reject(options.clusters(), "--cluster (cluster.tolerance)");
+    reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
+           "cluster.min_size or max_size");
+  }
   if (!options.merge && !options.partial) return;
   reject_combinations(line, option, {"--image", "--view-html", "--check", "--info"});
   if (options.merge)
@@ -203,6 +213,11 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
 }
 
 void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
+  if (line.given("--memory")) {
+    if (!texts.together || !options.clusters())
+      throw UsageError("--memory: only useful with --together and --cluster");
+    options.memory_bytes = parse_whole_number("--memory", texts.memory, 1, 1'000'000) * 1'000'000;
+  }
   options.merge = texts.merge;
   options.partial = path_or_none(texts.partial);
   options.tiled = texts.together || (options.partial && !options.merge);
@@ -226,7 +241,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   if (command == PcdBvCommand::serial) read_parts(line, texts, options);
   options.gpu = texts.gpu;
   if (!options.gpu.empty()) reject_combinations(line, "--gpu", {"--partial", "--merge"});
-  if (options.tiled || options.merge) reject_for_tiled_cloud(line, options);
+  if (options.tiled || options.merge) reject_for_tiled_cloud(line, options, command);
   return options;
 }
 

@@ -27,6 +27,7 @@
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "shares.h"
+#include "tiled_objects.h"
 #include "view_html.h"
 
 namespace pcl_bv {
@@ -170,6 +171,28 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   return worse(checked, write_files(job, options, frame, outcome, loaded));
 }
 
+/// Finds the objects of a cloud that is tiled over several inputs.
+Status process_tiled_objects(const Job& job, const Options& options, Outcome& outcome) {
+  Report& report = outcome.report;
+  const Execution execution = options.pipeline.execution();
+  LoadedCloud loaded(job, false, execution, options.origin);
+  report.parts = job.tiles->included_count();
+  report.origin = loaded.origin();
+  add_tiled_objects(loaded.xyz(), options, report);
+  if (options.info) {
+    const RawCloud& cloud = loaded.cloud();
+    report.info =
+        CloudInfo{cloud_statistics(loaded.xyz(), execution), cloud.width, cloud.height, cloud.fields};
+  }
+  Aabb box;
+  for (const ClusterEntry& cluster : report.clusters)
+    if (!cluster.volumes.empty()) box.merge(aabb(cluster.volumes.front().volume));
+  const std::string coarse = coarse_warning(box, loaded.xyz().scalar);
+  if (!coarse.empty()) report_problem(job.input + ": " + coarse);
+  loaded.require_unchanged();
+  return worse(report_failures(report), write_mesh(job, report.clusters));
+}
+
 /// Processes a cloud that is tiled over several inputs. If an input fails, excludes it and processes the
 /// cloud again without it.
 Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
@@ -186,7 +209,8 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   for (;;) {
     if (job.tiles->included_count() == 0) throw IoError("no input could be read");
     try {
-      status = worse(status, process(job, options, pipeline, outcome));
+      status = worse(status, options.clusters() ? process_tiled_objects(job, options, outcome)
+                                                : process(job, options, pipeline, outcome));
       report_notes(*job.tiles);
       return status;
     } catch (const TileError& error) {

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tiled_objects.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/segmentation/stored_clusters.h"
+#include "pipeline/class_table.h"
+#include "pipeline/extent_limits.h"
+#include "pipeline/filtered_view.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// Bytes that a point in memory takes while a brick is clustered.
+constexpr std::size_t kBytesPerPoint = 150;
+// Clusters with more points use all threads for each fit. Smaller ones are distributed over the threads.
+constexpr std::size_t kManyPoints = 200'000;
+// Clusters that a thread takes at a time.
+constexpr std::size_t kAtATime = 16;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// A cluster with its volumes, or why it is dropped.
+struct Object {
+  ExtentVerdict verdict = ExtentVerdict::keep;
+  ClusterEntry entry;
+};
+
+class ObjectFitter {
+ public:
+  ObjectFitter(const StoredClusters& clusters, const Options& options)
+      : clusters_(clusters),
+        options_(options),
+        methods_(options.pipeline.methods()),
+        method_options_(options.pipeline.method_options()) {}
+
+  std::vector<Object> fit() const {
+    std::vector<Object> objects(clusters_.size());
+    const Execution execution = options_.pipeline.execution();
+    std::size_t first_small = 0;  // clusters are sorted by size
+    for (; first_small < objects.size() && clusters_.point_count(first_small) > kManyPoints; ++first_small)
+      fit(first_small, execution, objects[first_small]);
+    const Execution serial{Serial{}, execution.isa};
+    for_each_range(execution.parallel, objects.size() - first_small, kAtATime,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t i = first_small + begin; i < first_small + end; ++i)
+                       fit(i, serial, objects[i]);
+                   });
+    return objects;
+  }
+
+ private:
+  void fit(std::size_t cluster, const Execution& execution, Object& object) const {
+    const StoredClusters::Points points = clusters_.points(cluster);
+    object.verdict = extent_verdict(points.view(), options_.pipeline.cluster, method_options_.up, execution);
+    if (object.verdict != ExtentVerdict::keep) return;
+    object.entry.points = points.view().count;
+    std::vector<Fitted<AnyVolume>> fits = fit_methods(points.view(), methods_, method_options_, execution);
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+      VolumeEntry& entry = object.entry.volumes.emplace_back();
+      entry.method = methods_[m]->name;
+      entry.failed = fits[m].reason;
+      entry.volume = std::move(fits[m].volume);
+      if (options_.check && entry.failed.empty())
+        entry.outside = verify(entry.volume, points.view(), execution).outside;
+    }
+  }
+
+  const StoredClusters& clusters_;
+  const Options& options_;
+  std::vector<const Method*> methods_;
+  MethodOptions method_options_;
+};
+
+void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Report& report) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Object& object = objects[i];
+    if (object.verdict == ExtentVerdict::small) report.counts.small += clusters.point_count(i);
+    if (object.verdict == ExtentVerdict::large) report.counts.large += clusters.point_count(i);
+    if (object.verdict != ExtentVerdict::keep) continue;
+    object.entry.id = report.clusters.size();
+    report.clusters.push_back(std::move(object.entry));
+  }
+}
+
+}  // namespace
+
+void add_tiled_objects(const PointView& cloud, const Options& options, Report& report) {
+  const Clock::time_point begin = Clock::now();
+  const PipelineConfig& config = options.pipeline;
+  const Execution execution = config.execution();
+  const FilteredView filtered = filter_points(cloud, config.filter, execution);
+  const StoredClusters clusters(filtered.points, ClassTable(config).default_options(),
+                                {std::max<std::size_t>(options.memory_bytes / kBytesPerPoint, 1), {}},
+                                execution);
+  report.points = cloud.count;
+  report.counts = clusters.counts();
+  if (filtered.owner != nullptr) {  // dropped points count as not finite then
+    report.counts.nonfinite = filtered.counts.nonfinite;
+    report.counts.range = filtered.counts.range;
+    report.counts.inside = filtered.counts.inside;
+  }
+  const double segment = seconds_since(begin);
+  report.clusters.clear();
+  add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
+  if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
+}
+
+}  // namespace pcl_bv::detail
