@@ -40,17 +40,18 @@ std::uint64_t BrickClusterer::number_at(const std::byte* record) const {
 void BrickClusterer::add(std::uint32_t brick, const std::vector<std::byte>& records) {
   ComponentAccess::find(clusterer_, view_of_records(records, step_, scalar_), options_, execution_.parallel,
                         found_);
-  measure(brick, records);
+  measure(records);
   make_pieces();
   write_shared(brick, records);
   write_points(records);
 }
 
 // Counts the points of each component that belong to the brick, and finds the components that are shared.
-void BrickClusterer::measure(std::uint32_t, const std::vector<std::byte>& records) {
+void BrickClusterer::measure(const std::vector<std::byte>& records) {
   const PointView view = view_of_records(records, step_, scalar_);
   components_.assign(view.count + 1, {});
   shared_.assign(view.count, 0);
+  Bricks::Cursor cursor;
   for (std::size_t i = 0; i < view.count; ++i) {
     const bool other = (number_at(view.address(i)) & kOfOtherBrick) != 0;
     const bool noise = found_.component[i] == found_.noise;
@@ -61,7 +62,7 @@ void BrickClusterer::measure(std::uint32_t, const std::vector<std::byte>& record
     Component& component = components_[found_.component[i]];
     if (!other) ++component.points;
     if (found_.core[i] == 0) continue;
-    shared_[i] = other || bricks_.place(load_point(view, i)).others > 0 ? 1 : 0;
+    shared_[i] = other || bricks_.place(load_point(view, i), cursor).others > 0 ? 1 : 0;
     component.shared = component.shared || shared_[i] != 0;
   }
 }
@@ -79,6 +80,7 @@ void BrickClusterer::make_pieces() {
 void BrickClusterer::write_shared(std::uint32_t brick, const std::vector<std::byte>& records) {
   const PointView view = view_of_records(records, step_, scalar_);
   std::vector<SharedPoint> own, others;
+  Bricks::Cursor cursor;
   for (std::size_t i = 0; i < view.count; ++i) {
     if (shared_[i] == 0) continue;
     const Component& component = components_[found_.component[i]];
@@ -87,7 +89,8 @@ void BrickClusterer::write_shared(std::uint32_t brick, const std::vector<std::by
     if ((number & kOfOtherBrick) == 0) {
       own.push_back({number, component.piece, brick});
     } else {
-      others.push_back({number & ~kOfOtherBrick, component.piece, bricks_.place(load_point(view, i)).own});
+      others.push_back(
+          {number & ~kOfOtherBrick, component.piece, bricks_.place(load_point(view, i), cursor).own});
     }
   }
   std::stable_sort(others.begin(), others.end(),
@@ -116,13 +119,14 @@ void BrickClusterer::write_points(const std::vector<std::byte>& records) {
     component.next = end;
     end += component.points * (component.shared ? step_ : point_bytes);
   }
-  std::vector<std::byte> of_clusters(cluster_bytes), of_pieces(piece_bytes);
+  points_of_clusters_.resize(cluster_bytes);
+  points_of_pieces_.resize(piece_bytes);
   for (std::size_t i = 0; i < view.count; ++i) {
     const std::byte* const record = view.address(i);
     if ((number_at(record) & kOfOtherBrick) != 0 || found_.component[i] == found_.noise) continue;
     Component& component = components_[found_.component[i]];
     if (component.shared) {
-      std::memcpy(of_pieces.data() + component.next, record, step_);
+      std::memcpy(points_of_pieces_.data() + component.next, record, step_);
       component.next += step_;
       continue;
     }
@@ -130,13 +134,13 @@ void BrickClusterer::write_points(const std::vector<std::byte>& records) {
       component.piece = 1;
       clusters_.push_back({component.next, component.points, number_at(record)});
     }
-    std::memcpy(of_clusters.data() + component.next, record, point_bytes);
+    std::memcpy(points_of_clusters_.data() + component.next, record, point_bytes);
     component.next += point_bytes;
   }
-  const std::uint64_t at = file_.append(of_clusters.data(), of_clusters.size()).offset;
+  const std::uint64_t at = file_.append(points_of_clusters_.data(), points_of_clusters_.size()).offset;
   for (std::size_t c = first_cluster; c < clusters_.size(); ++c)
     clusters_[c].offset += at;
-  const std::uint64_t pieces_at = file_.append(of_pieces.data(), of_pieces.size()).offset;
+  const std::uint64_t pieces_at = file_.append(points_of_pieces_.data(), points_of_pieces_.size()).offset;
   for (const Component& component : components_) {
     if (component.points > 0 && component.shared)
       pieces_[component.piece].offset = pieces_at + component.next - component.points * step_;

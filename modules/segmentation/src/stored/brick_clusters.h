@@ -71,7 +71,7 @@ class BrickClusterer {
 
   std::uint64_t number_at(const std::byte* record) const;
   void find_components(const std::vector<std::byte>& records);
-  void measure(std::uint32_t brick, const std::vector<std::byte>& records);
+  void measure(const std::vector<std::byte>& records);
   void make_pieces();
   void write_shared(std::uint32_t brick, const std::vector<std::byte>& records);
   void write_points(const std::vector<std::byte>& records);
@@ -88,6 +88,7 @@ class BrickClusterer {
   PointComponents found_;
   std::vector<Component> components_;
   std::vector<std::uint8_t> shared_;  // for each record, whether other bricks have the point
+  std::vector<std::byte> points_of_clusters_, points_of_pieces_;  // buffers
   std::vector<StoredCluster> clusters_;
   std::vector<Piece> pieces_;
   std::vector<Extent> own_, others_;

@@ -67,6 +67,7 @@ std::vector<CountedCell>::iterator cut(const CellRange& range, std::uint64_t poi
 
 Bricks::Bricks(const Coordinates& anchor, double halo) : anchor_(anchor) {
   side_ = std::max(16 * halo, std::numeric_limits<double>::min());
+  per_side_ = std::min(1 / side_, std::numeric_limits<double>::max());
   // The second term covers the rounding of relative(), below 2^-30 for numbers up to 2^21.
   margin_ = halo / side_ * (1 + 1e-9) + 0x1p-29;
 }
@@ -74,24 +75,14 @@ Bricks::Bricks(const Coordinates& anchor, double halo) : anchor_(anchor) {
 // Returns coordinates in units of cells, which are from 0 on.
 Coordinates Bricks::relative(const Coordinates& point) const {
   constexpr double middle = kMaxCells / 2;
-  return {(point.x - anchor_.x) / side_ + middle, (point.y - anchor_.y) / side_ + middle,
-          (point.z - anchor_.z) / side_ + middle};
+  return {(point.x - anchor_.x) * per_side_ + middle, (point.y - anchor_.y) * per_side_ + middle,
+          (point.z - anchor_.z) * per_side_ + middle};
 }
 
 Bricks::Position Bricks::position(const Coordinates& point) const {
   const Coordinates at = relative(point);
   const auto number = [](double x) { return static_cast<std::uint32_t>(std::clamp(x, 0.0, kMaxCells - 1)); };
   return {number(at.x), number(at.y), number(at.z)};
-}
-
-// Points that follow one another are mostly in the same cell.
-void Bricks::count(const Coordinates& point) {
-  const std::uint64_t key = Bricks::key(position(point));
-  if (last_cell_ == nullptr || key != last_key_) {
-    last_cell_ = &cells_[key];  // insertions do not move elements
-    last_key_ = key;
-  }
-  ++last_cell_->points;
 }
 
 std::uint64_t Bricks::key(const Position& position) {
@@ -146,9 +137,10 @@ void Bricks::divide(std::size_t max_points) {
   }
 }
 
-Bricks::Place Bricks::place(const Coordinates& point) const {
+Bricks::Place Bricks::place(const Coordinates& point, Cursor& cursor) const {
   const Position at = position(point);
-  const Cell& own = cells_.at(key(at));
+  if (const std::uint64_t key = Bricks::key(at); key != cursor.key) cursor = {key, &cells_.at(key)};
+  const Cell& own = *cursor.cell;
   Place place;
   place.own = own.brick;
   if (own.inner) return place;

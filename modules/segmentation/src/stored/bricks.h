@@ -16,13 +16,22 @@ namespace pcl_bv::detail {
 
 /// Bricks are boxes of cells of a grid. Each cell with points belongs to one brick.
 class Bricks {
+ private:
+  struct Cell {
+    std::uint64_t points = 0;
+    std::uint32_t brick = 0;
+    bool inner = false;  // all cells around it have the same brick or no points
+  };
+
  public:
   /// `anchor` is any point of the cloud. A point can decide on points up to `halo` away. Cells are 16 times
   /// as long. There are 2^21 along each axis; the outermost cells have no end.
   Bricks(const Coordinates& anchor, double halo);
 
-  /// Counts a point. To be called for all points before divide().
-  void count(const Coordinates& point);
+  /// Returns the key of the cell of a point.
+  std::uint64_t cell_key(const Coordinates& point) const { return key(position(point)); }
+  /// Counts points of a cell. To be called for all points before divide().
+  void count(std::uint64_t cell_key, std::uint64_t points) { cells_[cell_key].points += points; }
 
   /// Makes bricks of at most `max_points` points, where a single cell does not have more.
   void divide(std::size_t max_points);
@@ -35,14 +44,14 @@ class Bricks {
     std::uint32_t others = 0;             ///< How many.
     std::array<std::uint32_t, 26> other;  ///< Their numbers.
   };
-  Place place(const Coordinates& point) const;
+  /// The cell of the last point. Points that follow one another are mostly in the same cell.
+  struct Cursor {
+    std::uint64_t key = ~std::uint64_t{0};
+    const Cell* cell = nullptr;
+  };
+  Place place(const Coordinates& point, Cursor& cursor) const;
 
  private:
-  struct Cell {
-    std::uint64_t points = 0;
-    std::uint32_t brick = 0;
-    bool inner = false;  // all cells around it have the same brick or no points
-  };
   using Position = std::array<std::uint32_t, 3>;
 
   Coordinates relative(const Coordinates& point) const;
@@ -52,10 +61,8 @@ class Bricks {
   const Cell* neighbour(const Position& position, int dx, int dy, int dz) const;
 
   Coordinates anchor_;
-  double side_, margin_;  // margin_: the halo in units of the side
+  double side_, per_side_, margin_;  // margin_: the halo in units of the side
   std::unordered_map<std::uint64_t, Cell> cells_;
-  std::uint64_t last_key_ = 0;  // of the cell of the last call of count()
-  Cell* last_cell_ = nullptr;
   std::size_t size_ = 0;
 };
 

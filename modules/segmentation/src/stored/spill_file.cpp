@@ -80,14 +80,13 @@ void SpillList::finish(SpillFile& file) {
   waiting_ = {};
 }
 
-std::vector<std::byte> SpillList::read(const SpillFile& file) const {
-  std::vector<std::byte> all(bytes_);
+void SpillList::read(const SpillFile& file, std::vector<std::byte>& to) const {
+  to.resize(bytes_);
   std::size_t at = 0;
   for (const Extent& extent : extents_) {
-    file.read(extent.offset, all.data() + at, extent.bytes);
+    file.read(extent.offset, to.data() + at, extent.bytes);
     at += extent.bytes;
   }
-  return all;
 }
 
 }  // namespace pcl_bv::detail

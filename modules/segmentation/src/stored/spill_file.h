@@ -46,8 +46,8 @@ class SpillList {
   void finish(SpillFile& file);
   /// Returns the size of what was written.
   std::uint64_t bytes() const { return bytes_; }
-  /// Reads all records. Call finish() before.
-  std::vector<std::byte> read(const SpillFile& file) const;
+  /// Reads all records into `to`, whose memory is used again. Call finish() before.
+  void read(const SpillFile& file, std::vector<std::byte>& to) const;
 
  private:
   std::vector<std::byte> waiting_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "components.h"
 #include "joined_pieces.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "spill_file.h"
 
 namespace pcl_bv::detail {
@@ -54,21 +56,70 @@ double halo_of(const ClusterOptions& options, ScalarType scalar) {
   return (options.min_points > 1 ? 2 : 1) * difference * (1 + 1e-6);
 }
 
-// Calls use(point, number) for each valid point. Returns the number of the others.
-template <typename Use>
-std::size_t for_each_valid(const PointView& points, const Use& use) {
-  std::size_t invalid = 0;
-  for (std::size_t first = 0; first < points.count; first += kChunkPoints) {
-    const LoadedPoints part(points, first, std::min(kChunkPoints, points.count - first));
+// Calls work(part, first, result) for chunks of the points, in parallel, and then take(result) for the
+// results in the order of the chunks.
+template <typename Result, typename Work, typename Take>
+void in_order(const PointView& points, const ParallelPolicy& policy, const Work& work, const Take& take) {
+  const std::size_t chunks = chunk_count(points.count);
+  std::vector<Result> results(std::min<std::size_t>(chunks, std::size_t{4} * thread_count(policy)));
+  for (std::size_t begin = 0; begin < chunks; begin += results.size()) {
+    const std::size_t taken = std::min(results.size(), chunks - begin);
+    for_each_chunk(policy, taken, [&](std::size_t i) {
+      const std::size_t first = (begin + i) * kChunkPoints;
+      const LoadedPoints part(points, first, std::min(kChunkPoints, points.count - first));
+      results[i].clear();
+      work(part.view(), first, results[i]);
+    });
+    for (std::size_t i = 0; i < taken; ++i)
+      take(results[i]);
+  }
+}
+
+// Returns the first valid point.
+std::optional<Coordinates> first_valid(const PointView& points) {
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints part = load_chunk(points, chunk);
     for (std::size_t i = 0; i < part.view().count; ++i) {
       const Coordinates p = load_point(part.view(), i);
-      if (is_valid(p)) {
-        use(p, first + i);
-      } else {
-        ++invalid;
-      }
+      if (is_valid(p)) return p;
     }
   }
+  return std::nullopt;
+}
+
+// Runs of points in the same cell.
+struct CellCounts {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> runs;  // key of the cell, and points
+  std::size_t invalid = 0;
+
+  void clear() {
+    runs.clear();
+    invalid = 0;
+  }
+};
+
+// Counts the points of each cell. Returns the number of points that are not valid.
+std::size_t count_cells(const PointView& points, const ParallelPolicy& policy, Bricks& bricks) {
+  std::size_t invalid = 0;
+  in_order<CellCounts>(
+      points, policy,
+      [&](const PointView& part, std::size_t, CellCounts& counts) {
+        for (std::size_t i = 0; i < part.count; ++i) {
+          const Coordinates p = load_point(part, i);
+          if (!is_valid(p)) {
+            ++counts.invalid;
+            continue;
+          }
+          const std::uint64_t key = bricks.cell_key(p);
+          if (counts.runs.empty() || counts.runs.back().first != key) counts.runs.emplace_back(key, 0);
+          ++counts.runs.back().second;
+        }
+      },
+      [&](const CellCounts& counts) {
+        for (const auto& [key, count] : counts.runs)
+          bricks.count(key, count);
+        invalid += counts.invalid;
+      });
   return invalid;
 }
 
@@ -83,26 +134,56 @@ void set_coordinates(const Coordinates& p, ScalarType scalar, std::byte* to) {
   }
 }
 
+// Records of points, and the brick of each.
+struct PlacedPoints {
+  std::vector<std::byte> records;
+  std::vector<std::uint32_t> bricks;
+
+  void clear() {
+    records.clear();
+    bricks.clear();
+  }
+  void add(const std::byte* record, std::size_t bytes, std::uint32_t brick) {
+    records.insert(records.end(), record, record + bytes);
+    bricks.push_back(brick);
+  }
+};
+
+void place_points(const PointView& part, std::size_t first, const Bricks& bricks, PlacedPoints& placed) {
+  const std::size_t step = 3 * size_of(part.scalar);
+  std::byte record[kMaxRecordBytes];
+  Bricks::Cursor cursor;
+  for (std::size_t i = 0; i < part.count; ++i) {
+    const Coordinates p = load_point(part, i);
+    if (!is_valid(p)) continue;
+    const Bricks::Place place = bricks.place(p, cursor);
+    set_coordinates(p, part.scalar, record);
+    const auto add = [&](std::uint32_t brick, std::uint64_t number) {
+      std::memcpy(record + step, &number, sizeof number);
+      placed.add(record, step + sizeof number, brick);
+    };
+    add(place.own, first + i);
+    for (std::uint32_t o = 0; o < place.others; ++o)
+      add(place.other[o], (first + i) | kOfOtherBrick);
+  }
+}
+
 // Writes the points to the lists of their bricks. The points of a list are in the order of the cloud.
-std::vector<SpillList> distribute(const PointView& points, const Bricks& bricks, SpillFile& file,
-                                  std::size_t& invalid) {
+std::vector<SpillList> distribute(const PointView& points, const Bricks& bricks, const ParallelPolicy& policy,
+                                  SpillFile& file) {
   // All lists together wait for 64 MiB, so that blocks are as long as possible.
   const std::size_t block = std::clamp<std::size_t>((64U << 20U) / (bricks.size() + 1), 4096, 1U << 20U);
+  const std::size_t record = 3 * size_of(points.scalar) + 8;
   std::vector<SpillList> lists(bricks.size());
-  std::byte record[kMaxRecordBytes];
-  const std::size_t step = 3 * size_of(points.scalar);
-  invalid = for_each_valid(points, [&](const Coordinates& p, std::size_t number) {
-    const Bricks::Place place = bricks.place(p);
-    set_coordinates(p, points.scalar, record);
-    const auto add = [&](std::uint32_t brick, std::uint64_t mark) {
-      const std::uint64_t marked = number | mark;
-      std::memcpy(record + step, &marked, sizeof marked);
-      lists[brick].add(file, record, step + sizeof marked, block);
-    };
-    add(place.own, 0);
-    for (std::uint32_t i = 0; i < place.others; ++i)
-      add(place.other[i], kOfOtherBrick);
-  });
+  in_order<PlacedPoints>(
+      points, policy,
+      [&](const PointView& part, std::size_t first, PlacedPoints& placed) {
+        place_points(part, first, bricks, placed);
+      },
+      [&](const PlacedPoints& placed) {
+        for (std::size_t i = 0; i < placed.bricks.size(); ++i)
+          lists[placed.bricks[i]].add(file, &placed.records[i * record], record, block);
+      });
   for (SpillList& list : lists)
     list.finish(file);
   return lists;
@@ -128,22 +209,20 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
       std::make_unique<State>(store.folder.empty() ? std::filesystem::temp_directory_path() : store.folder);
   State& state = *state_;
   state.scalar = points.scalar;
-  std::optional<Bricks> bricks;
-  const double halo = halo_of(options, points.scalar);
-  for_each_valid(points, [&](const Coordinates& p, std::size_t) {
-    if (!bricks) bricks.emplace(p, halo);
-    bricks->count(p);
-  });
-  if (!bricks) {
+  const std::optional<Coordinates> anchor = first_valid(points);
+  if (!anchor) {
     state.counts.nonfinite = points.count;
     return;
   }
-  bricks->divide(store.points_in_memory);
-  std::vector<SpillList> lists = distribute(points, *bricks, state.file, state.counts.nonfinite);
-  BrickClusterer clusterer(*bricks, points.scalar, options, execution, state.file);
+  Bricks bricks(*anchor, halo_of(options, points.scalar));
+  state.counts.nonfinite = count_cells(points, execution.parallel, bricks);
+  bricks.divide(store.points_in_memory);
+  std::vector<SpillList> lists = distribute(points, bricks, execution.parallel, state.file);
+  BrickClusterer clusterer(bricks, points.scalar, options, execution, state.file);
+  std::vector<std::byte> records;
   for (std::uint32_t brick = 0; brick < lists.size(); ++brick) {
-    clusterer.add(brick, lists[brick].read(state.file));
-    lists[brick] = {};
+    lists[brick].read(state.file, records);
+    clusterer.add(brick, records);
   }
   state.clusters = clusterer.take_clusters();
   join_pieces(clusterer, points.scalar, state.file, state.clusters);
