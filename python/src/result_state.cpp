@@ -34,6 +34,7 @@ Counts counts(const py::tuple& t) {
 
 py::array_t<std::uint8_t> refinements(const std::vector<Refinement>& all) {
   std::vector<std::uint8_t> numbers;
+  numbers.reserve(all.size());
   for (const Refinement each : all)
     numbers.push_back(static_cast<std::uint8_t>(each));
   return array(numbers);

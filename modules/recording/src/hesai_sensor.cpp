@@ -150,10 +150,11 @@ void HesaiSensor::add_firings(const Payload& packet, double azimuth, SweepQueue&
   const HesaiModel& model = *geometry_->model;
   const std::size_t step = model.blocks_per_firing(packet);
   const std::int64_t packet_ns = std::int64_t{1000} * microseconds(packet, model);
-  for (std::size_t i = 0; i < model.blocks; i += step) {
+  std::int64_t firing = 0;
+  for (std::size_t i = 0; i < model.blocks; i += step, ++firing) {
     if (i > 0) azimuth += rotation_between(model.azimuth(packet, i - step), model.azimuth(packet, i));
     Frame& frame = frame_of(geometry_->frame_at(azimuth), queue);
-    const std::int64_t firing_ns = packet_ns + static_cast<std::int64_t>(i / step) * model.firing_ns;
+    const std::int64_t firing_ns = packet_ns + firing * model.firing_ns;
     const std::int64_t time_ns = time_in_sweep(firing_ns, packet.time_ns, frame);
     add_points(model.block(packet, i), step, model.azimuth(packet, i), time_ns, frame.sweep.points);
   }

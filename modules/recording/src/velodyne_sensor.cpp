@@ -225,7 +225,7 @@ void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hu
                                SensorSweep& sweep) const {
   const double distance = little_endian<std::uint16_t>(at) * model_->distance_unit;
   if (distance == 0) return;  // no return
-  const std::size_t beam = laser % model_->beams;
+  const std::size_t beam = laser < model_->beams ? laser : laser - model_->beams;  // two firings in a block
   const SineCosine& azimuth =
       sine_cosine_table()[(static_cast<std::size_t>(hundredths) + azimuth_offset_[beam]) % kFullCircle];
   const double level = distance * cosine_[beam];

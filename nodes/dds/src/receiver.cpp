@@ -68,6 +68,7 @@ struct Subscription {
 std::vector<std::string> dds_types(const std::vector<std::string>& types) {
   if (types.empty()) throw std::invalid_argument("a receiver needs a type of messages");
   std::vector<std::string> names;
+  names.reserve(types.size());
   for (const std::string& type : types)
     names.push_back(dds_type(type));
   return names;

@@ -115,7 +115,7 @@ class LiveTopics::Inbox {
       return;
     }
     ReceivedMessage message;
-    const auto raw = event.getConstMessage();
+    const auto& raw = event.getConstMessage();
     message.data = raw->bytes.data();
     message.size = raw->bytes.size();
     message.owner = std::shared_ptr<const void>(raw.get(), [raw](const void*) {});
