@@ -19,6 +19,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/segmentation/clusters.h"
 #include "pcl_bv/segmentation/ground.h"
+#include "pcl_bv/segmentation/stored_clusters.h"
 #include "pcl_bv/synth/street.h"
 #include "timing.h"
 
@@ -234,6 +235,28 @@ void register_all() {
   over_peers({"sheets", 20'000}, 0.5F, 3);  // Where a search finds thousands of neighbours.
 }
 
+// A town of 100 streets, clustered in memory and with 4 million points in memory at a time. The ratio is the
+// former's time over the latter's. Both have two threads. The row is stored/town/n:POINTS/r:0.5.
+void stored() {
+  add_turns("stored/town/n:13000000/r:0.5", 5, [](benchmark::State& state) {
+    const ClusterCloud::ConstPtr street = cloud_of({"street-whole", 128'000});
+    std::vector<float> xyz;
+    for (int x = 0; x < 10; ++x) {
+      for (int y = 0; y < 10; ++y) {
+        for (const auto& p : *street)
+          xyz.insert(xyz.end(), {p.x + 100 * static_cast<float>(x), p.y + 60 * static_cast<float>(y), p.z});
+      }
+    }
+    const PointView points = PointView::of(xyz.data(), 12, xyz.size() / 3);
+    const ClusterOptions options{0.5F, 30};
+    const auto in_memory = [&] { return cluster(points, options, {policy_of(2)}).size(); };
+    const auto from_bricks = [&] { return StoredClusters(points, options, {}, {policy_of(2)}).size(); };
+    if (in_memory() != from_bricks()) throw std::runtime_error("other clusters from bricks");
+    compare(state, in_memory, from_bricks);
+    state.counters["points"] = static_cast<double>(points.count);
+  });
+}
+
 // A whole sweep, by one plane and by zones: rows ground/KIND/n:POINTS, with precision and recall.
 template <typename Split>
 void add_ground(const std::string& kind, Split split) {
@@ -268,5 +291,6 @@ void ground() {
 int main(int argc, char** argv) {
   pcl_bv::bench::register_all();
   pcl_bv::bench::ground();
+  pcl_bv::bench::stored();
   return pcl_bv::bench::run_program(argc, argv);
 }

@@ -99,6 +99,7 @@ void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_
 void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& file,
                  std::vector<StoredCluster>& clusters) {
   const std::vector<Piece>& pieces = clusterer.pieces();
+  const std::size_t step = 3 * size_of(scalar) + 8;
   UnionFind sets;
   sets.reset(pieces.size());
   for (std::uint32_t brick = 0; brick < clusterer.brick_count(); ++brick) {
@@ -120,7 +121,9 @@ void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& 
   for (std::size_t i = 0; i < order.size(); ++i) {
     of_cluster.push_back(pieces[order[i]]);
     if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
-    clusters.push_back(merge(of_cluster, 3 * size_of(scalar) + 8, file));
+    clusters.push_back(merge(of_cluster, step, file));
+    for (const Piece& piece : of_cluster)
+      file.discard({piece.offset, piece.points * step});
     of_cluster.clear();
   }
 }

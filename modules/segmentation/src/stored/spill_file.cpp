@@ -63,6 +63,19 @@ void SpillFile::read(std::uint64_t offset, void* to, std::size_t count) const {
   }
 }
 
+void SpillFile::discard(const Extent& extent) {
+#ifdef FALLOC_FL_PUNCH_HOLE
+  if (extent.bytes > 0)
+    static_cast<void>(::fallocate(fd_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                                  static_cast<off_t>(extent.offset), static_cast<off_t>(extent.bytes)));
+#endif
+}
+
+void SpillList::discard(SpillFile& file) const {
+  for (const Extent& extent : extents_)
+    file.discard(extent);
+}
+
 void SpillList::add(SpillFile& file, const void* bytes, std::size_t count, std::size_t block_bytes) {
   const auto* const from = static_cast<const std::byte*>(bytes);
   waiting_.insert(waiting_.end(), from, from + count);

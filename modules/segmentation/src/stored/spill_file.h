@@ -32,6 +32,10 @@ class SpillFile {
   /// Reads bytes that were appended. Throws std::runtime_error if the disk fails.
   void read(std::uint64_t offset, void* to, std::size_t count) const;
 
+  /// Frees the space of bytes that are not needed any more, where the file system can. Data that the system
+  /// has not written to the disk yet never is then.
+  void discard(const Extent& extent);
+
  private:
   int fd_ = -1;
   std::uint64_t end_ = 0;
@@ -48,6 +52,8 @@ class SpillList {
   std::uint64_t bytes() const { return bytes_; }
   /// Reads all records into `to`, whose memory is used again. Call finish() before.
   void read(const SpillFile& file, std::vector<std::byte>& to) const;
+  /// Frees the space of the records.
+  void discard(SpillFile& file) const;
 
  private:
   std::vector<std::byte> waiting_;

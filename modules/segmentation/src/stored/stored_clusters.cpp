@@ -222,6 +222,7 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
   std::vector<std::byte> records;
   for (std::uint32_t brick = 0; brick < lists.size(); ++brick) {
     lists[brick].read(state.file, records);
+    lists[brick].discard(state.file);
     clusterer.add(brick, records);
   }
   state.clusters = clusterer.take_clusters();

@@ -41,9 +41,9 @@ class StoredClusters {
   /// Finds the clusters of the valid points. Takes two passes over the points. The order of the passes does
   /// not depend on the execution, nor does the result.
   ///
-  /// The temporary file takes about 24 bytes per float point and 44 per double point, half of it twice for
-  /// points near borders of bricks. Memory: a brick, 60 bytes per cluster, and 24 bytes per region of 16
-  /// tolerances with points.
+  /// The temporary file takes about 30 bytes for each float point and 50 for each double point; up to twice
+  /// as many if most points are near borders of bricks. Memory: a brick, 24 bytes for each cluster, and 60
+  /// bytes for each cell of 16 tolerances that has points.
   ///
   /// Throws std::invalid_argument if an option is outside its range, for tolerance_per_metre > 0 and for
   /// Oversized::split. Throws std::runtime_error, with the reason, if the temporary file cannot be made or
