@@ -51,9 +51,9 @@ void BrickClusterer::measure(const std::vector<std::byte>& records) {
   const PointView view = view_of_records(records, step_, scalar_);
   components_.assign(view.count + 1, {});
   shared_.assign(view.count, 0);
-  Bricks::Cursor cursor;
   for (std::size_t i = 0; i < view.count; ++i) {
-    const bool other = (number_at(view.address(i)) & kOfOtherBrick) != 0;
+    const std::uint64_t number = number_at(view.address(i));
+    const bool other = (number & kOfOtherBrick) != 0;
     const bool noise = found_.component[i] == found_.noise;
     if (noise) {
       noise_ += other ? 0 : 1;
@@ -62,7 +62,7 @@ void BrickClusterer::measure(const std::vector<std::byte>& records) {
     Component& component = components_[found_.component[i]];
     if (!other) ++component.points;
     if (found_.core[i] == 0) continue;
-    shared_[i] = other || bricks_.place(load_point(view, i), cursor).others > 0 ? 1 : 0;
+    shared_[i] = (number & (kOfOtherBrick | kInOtherBricks)) != 0 ? 1 : 0;
     component.shared = component.shared || shared_[i] != 0;
   }
 }
@@ -87,7 +87,7 @@ void BrickClusterer::write_shared(std::uint32_t brick, const std::vector<std::by
     if (component.points == 0) continue;
     const std::uint64_t number = number_at(view.address(i));
     if ((number & kOfOtherBrick) == 0) {
-      own.push_back({number, component.piece, brick});
+      own.push_back({number & kNumberMask, component.piece, brick});
     } else {
       others.push_back(
           {number & ~kOfOtherBrick, component.piece, bricks_.place(load_point(view, i), cursor).own});
@@ -109,7 +109,7 @@ std::vector<SharedPoint> BrickClusterer::read(const Extent& extent) const {
   return points;
 }
 
-// Writes the points of complete clusters without numbers, and those of pieces as records.
+// Writes the points of complete clusters of allowed sizes without numbers, and those of pieces as records.
 void BrickClusterer::write_points(const std::vector<std::byte>& records) {
   const PointView view = view_of_records(records, step_, scalar_);
   const std::size_t point_bytes = step_ - 8, first_cluster = clusters_.size();
@@ -117,7 +117,9 @@ void BrickClusterer::write_points(const std::vector<std::byte>& records) {
   for (Component& component : components_) {
     std::uint64_t& end = component.shared ? piece_bytes : cluster_bytes;
     component.next = end;
-    end += component.points * (component.shared ? step_ : point_bytes);
+    if (component.shared) end += component.points * step_;
+    if (!component.shared && is_size_allowed(options_, component.points))
+      end += component.points * point_bytes;
   }
   points_of_clusters_.resize(cluster_bytes);
   points_of_pieces_.resize(piece_bytes);
@@ -132,8 +134,9 @@ void BrickClusterer::write_points(const std::vector<std::byte>& records) {
     }
     if (component.piece == 0) {  // its first point
       component.piece = 1;
-      clusters_.push_back({component.next, component.points, number_at(record)});
+      clusters_.push_back({component.next, component.points, number_at(record) & kNumberMask});
     }
+    if (!is_size_allowed(options_, component.points)) continue;
     std::memcpy(points_of_clusters_.data() + component.next, record, point_bytes);
     component.next += point_bytes;
   }

@@ -20,6 +20,14 @@ namespace pcl_bv::detail {
 inline constexpr std::size_t kMaxRecordBytes = 3 * sizeof(double) + 8;
 /// Set in the number of a point that belongs to another brick.
 inline constexpr std::uint64_t kOfOtherBrick = std::uint64_t{1} << 63;
+/// Set in the number of a point that belongs to the brick and that other bricks have, too.
+inline constexpr std::uint64_t kInOtherBricks = std::uint64_t{1} << 62;
+inline constexpr std::uint64_t kNumberMask = kInOtherBricks - 1;
+
+/// Returns whether clusters of this number of points are in the result.
+inline bool is_size_allowed(const ClusterOptions& options, std::uint64_t points) {
+  return points >= options.min_size && (points <= options.max_size || options.oversized == Oversized::keep);
+}
 
 /// A cluster whose points are in the temporary file, coordinates only.
 struct StoredCluster {

@@ -30,7 +30,7 @@ class PieceReader {
   std::uint64_t number() const {
     std::uint64_t number;
     std::memcpy(&number, record() + step_ - sizeof number, sizeof number);
-    return number;
+    return number & kNumberMask;
   }
   void next() {
     position_ += step_;
@@ -129,12 +129,10 @@ void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& 
 }
 
 void select_and_sort(const ClusterOptions& options, std::vector<StoredCluster>& clusters, Counts& counts) {
-  const std::size_t max_size =
-      options.oversized == Oversized::keep ? std::numeric_limits<std::size_t>::max() : options.max_size;
   const auto removed = std::remove_if(clusters.begin(), clusters.end(), [&](const StoredCluster& cluster) {
-    if (cluster.points < options.min_size) counts.small += cluster.points;
-    if (cluster.points > max_size) counts.large += cluster.points;
-    return cluster.points < options.min_size || cluster.points > max_size;
+    if (is_size_allowed(options, cluster.points)) return false;
+    (cluster.points < options.min_size ? counts.small : counts.large) += cluster.points;
+    return true;
   });
   clusters.erase(removed, clusters.end());
   std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {

@@ -162,7 +162,7 @@ void place_points(const PointView& part, std::size_t first, const Bricks& bricks
       std::memcpy(record + step, &number, sizeof number);
       placed.add(record, step + sizeof number, brick);
     };
-    add(place.own, first + i);
+    add(place.own, (first + i) | (place.others > 0 ? kInOtherBricks : 0));
     for (std::uint32_t o = 0; o < place.others; ++o)
       add(place.other[o], (first + i) | kOfOtherBrick);
   }
