@@ -155,6 +155,20 @@ TEST(StoredClusters, OfOneClusterInAllBricksHaveAllItsPointsInOrder) {
   expect_same_as_in_memory(line.view(), options, 1000, {Threads{3}});
 }
 
+TEST(StoredClusters, AreInBricksThoughTheFirstPointsAreFarAway) {
+  test::TestCloud<double> cloud{"far points first", {}};
+  for (const double far : {1e30, 0.0, -1e7})
+    cloud.xyz.insert(cloud.xyz.end(), {far, far, far});
+  for (int i = 0; i < 60'000; ++i)
+    cloud.xyz.insert(cloud.xyz.end(), {5e5 + i % 300 * 0.3, 5.4e6 + i / 300 * 0.3, 100});
+  ClusterOptions options;
+  options.tolerance = 0.1F;
+  EXPECT_GT(StoredClusters(cloud.view(), options, {1000, {}}).brick_count(), 50U);
+  expect_same_as_in_memory(cloud.view(), options, 1000);
+  options.tolerance = 0.4F;
+  expect_same_as_in_memory(cloud.view(), options, 1000);
+}
+
 TEST(StoredClusters, OfNoValidPointAreNone) {
   ClusterOptions options;
   options.tolerance = 1;

@@ -187,6 +187,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
     reject(config.cluster.oversized == Oversized::split, "--oversized split");
     reject(config.cluster.class_field.has_value(), "--class (cluster.class_field)");
+    reject(config.track.enabled, "track.enabled");
     reject(config.effective_refine() != Refine::off, "cluster.refine");
   } else {
     reject(options.clusters(), "--cluster (cluster.tolerance)");

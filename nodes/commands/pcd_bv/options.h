@@ -43,11 +43,11 @@ struct Options {
   ViewFrom view = ViewFrom::iso;
   bool tiled = false;  ///< Whether all inputs are one cloud (--together, --partial).
   bool merge = false;  ///< Whether inputs are files of partial results.
-  std::optional<std::filesystem::path> partial;       ///< File for partial results instead of volumes.
-  ShareOption share;                                  ///< The share of points that the partial results cover.
-  std::string gpu;                                    ///< Value of --gpu; empty without it.
-  std::size_t memory_bytes = std::size_t{600} << 20;  ///< For clustering a tiled cloud.
-  bool threads_given = false;                         ///< Whether --threads was given.
+  std::optional<std::filesystem::path> partial;  ///< File for partial results instead of volumes.
+  ShareOption share;                             ///< The share of points that the partial results cover.
+  std::string gpu;                               ///< Value of --gpu; empty without it.
+  std::size_t memory_bytes = 600'000'000;        ///< For clustering a tiled cloud.
+  bool threads_given = false;                    ///< Whether --threads was given.
   bool check = false;
   bool info = false;
   bool timings = false;

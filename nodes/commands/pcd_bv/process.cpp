@@ -178,7 +178,20 @@ Status process_tiled_objects(const Job& job, const Options& options, Outcome& ou
   LoadedCloud loaded(job, false, execution, options.origin);
   report.parts = job.tiles->included_count();
   report.origin = loaded.origin();
-  add_tiled_objects(loaded.xyz(), options, report);
+  try {
+    add_tiled_objects(loaded.xyz(), options, report);
+  } catch (const TileError&) {
+    throw;
+  } catch (...) {
+    loaded.require_unchanged();  // a file that was changed is the better explanation
+    throw;
+  }
+  FrameResult counted;
+  counted.config = std::make_shared<PipelineConfig>(options.pipeline);
+  counted.points = report.points;
+  counted.counts = report.counts;
+  const std::string range = range_warning(counted, options.range_from);
+  if (!range.empty()) report_problem(job.input + ": " + range);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info =

@@ -18,7 +18,9 @@ namespace pcl_bv::detail {
 namespace {
 
 // Bytes that a point in memory takes while a brick is clustered.
-constexpr std::size_t kBytesPerPoint = 150;
+constexpr std::size_t bytes_per_point(ScalarType scalar) {
+  return scalar == ScalarType::float32 ? 150 : 250;
+}
 // Clusters with more points use all threads for each fit. Smaller ones are distributed over the threads.
 constexpr std::size_t kManyPoints = 200'000;
 // Clusters that a thread takes at a time.
@@ -100,9 +102,9 @@ void add_tiled_objects(const PointView& cloud, const Options& options, Report& r
   const PipelineConfig& config = options.pipeline;
   const Execution execution = config.execution();
   const FilteredView filtered = filter_points(cloud, config.filter, execution);
-  const StoredClusters clusters(filtered.points, ClassTable(config).default_options(),
-                                {std::max<std::size_t>(options.memory_bytes / kBytesPerPoint, 1), {}},
-                                execution);
+  const StoredClusters clusters(
+      filtered.points, ClassTable(config).default_options(),
+      {std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1), {}}, execution);
   report.points = cloud.count;
   report.counts = clusters.counts();
   if (filtered.owner != nullptr) {  // dropped points count as not finite then

@@ -12,7 +12,8 @@ namespace pcl_bv::detail {
 
 /// Finds the clusters of a cloud and fits the volumes. Sets the counts, the clusters and the times of the
 /// report, which are those of the same cloud in memory. The points of `cloud` may be in files; they are read
-/// twice, or three times with a filter. Throws as StoredClusters does, and passes on the errors of the files.
+/// two times, or three times with a filter. Throws as StoredClusters does, and passes on the errors of the
+/// files.
 void add_tiled_objects(const PointView& cloud, const Options& options, Report& report);
 
 }  // namespace pcl_bv::detail

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <stdexcept>
 
 #include "pcl_bv/points/point_view.h"
 
@@ -56,7 +58,7 @@ void BrickClusterer::measure(const std::vector<std::byte>& records) {
     const bool other = (number & kOfOtherBrick) != 0;
     const bool noise = found_.component[i] == found_.noise;
     if (noise) {
-      noise_ += other ? 0 : 1;
+      counts_.noise += other ? 0 : 1;
       continue;
     }
     Component& component = components_[found_.component[i]];
@@ -67,11 +69,13 @@ void BrickClusterer::measure(const std::vector<std::byte>& records) {
   }
 }
 
-// Gives numbers to the pieces. A component without own points is no piece: what it links is linked in the
-// bricks of its points, too.
+// Gives numbers to the pieces. A component without points of this brick needs no piece: the bricks of its
+// points find the same links.
 void BrickClusterer::make_pieces() {
   for (Component& component : components_) {
     if (component.points == 0 || !component.shared) continue;
+    if (pieces_.size() >= std::numeric_limits<std::uint32_t>::max())
+      throw std::length_error("too many parts of clusters: use more memory");
     component.piece = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back({0, component.points});
   }
@@ -115,11 +119,13 @@ void BrickClusterer::write_points(const std::vector<std::byte>& records) {
   const std::size_t point_bytes = step_ - 8, first_cluster = clusters_.size();
   std::uint64_t cluster_bytes = 0, piece_bytes = 0;
   for (Component& component : components_) {
-    std::uint64_t& end = component.shared ? piece_bytes : cluster_bytes;
-    component.next = end;
-    if (component.shared) end += component.points * step_;
-    if (!component.shared && is_size_allowed(options_, component.points))
-      end += component.points * point_bytes;
+    if (component.shared) {
+      component.next = piece_bytes;
+      piece_bytes += component.points * step_;
+    } else if (is_size_allowed(options_, component.points)) {
+      component.next = cluster_bytes;
+      cluster_bytes += component.points * point_bytes;
+    }
   }
   points_of_clusters_.resize(cluster_bytes);
   points_of_pieces_.resize(piece_bytes);
@@ -132,11 +138,14 @@ void BrickClusterer::write_points(const std::vector<std::byte>& records) {
       component.next += step_;
       continue;
     }
-    if (component.piece == 0) {  // its first point
-      component.piece = 1;
+    if (!is_size_allowed(options_, component.points)) {
+      count_dropped(options_, 1, component.points, counts_);
+      continue;
+    }
+    if (!component.seen) {
+      component.seen = true;
       clusters_.push_back({component.next, component.points, number_at(record) & kNumberMask});
     }
-    if (!is_size_allowed(options_, component.points)) continue;
     std::memcpy(points_of_clusters_.data() + component.next, record, point_bytes);
     component.next += point_bytes;
   }

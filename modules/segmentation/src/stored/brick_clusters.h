@@ -29,6 +29,12 @@ inline bool is_size_allowed(const ClusterOptions& options, std::uint64_t points)
   return points >= options.min_size && (points <= options.max_size || options.oversized == Oversized::keep);
 }
 
+/// Adds `added` points of a cluster that has a number of points that is not allowed.
+inline void count_dropped(const ClusterOptions& options, std::uint64_t added, std::uint64_t points,
+                          Counts& counts) {
+  (points < options.min_size ? counts.small : counts.large) += added;
+}
+
 /// A cluster whose points are in the temporary file, coordinates only.
 struct StoredCluster {
   std::uint64_t offset, points;
@@ -59,7 +65,8 @@ class BrickClusterer {
   /// Clusters with all their points in one brick. To be called once.
   std::vector<StoredCluster> take_clusters() { return std::move(clusters_); }
 
-  std::size_t noise() const { return noise_; }
+  /// Points of noise, and of clusters that are dropped because of their size and have no piece.
+  const Counts& counts() const { return counts_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
 
   /// Returns the shared points of a brick that belong to it, by ascending number.
@@ -73,12 +80,12 @@ class BrickClusterer {
   struct Component {
     std::uint64_t points = 0;  // that belong to the brick
     bool shared = false;       // whether it has a core point that two bricks have
+    bool seen = false;         // whether it is in clusters_
     std::uint32_t piece = 0;   // if it is shared
     std::uint64_t next = 0;    // position of its next point in a buffer
   };
 
   std::uint64_t number_at(const std::byte* record) const;
-  void find_components(const std::vector<std::byte>& records);
   void measure(const std::vector<std::byte>& records);
   void make_pieces();
   void write_shared(std::uint32_t brick, const std::vector<std::byte>& records);
@@ -100,7 +107,7 @@ class BrickClusterer {
   std::vector<StoredCluster> clusters_;
   std::vector<Piece> pieces_;
   std::vector<Extent> own_, others_;
-  std::size_t noise_ = 0;
+  Counts counts_;
 };
 
 }  // namespace pcl_bv::detail

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 
 namespace pcl_bv::detail {
 namespace {
@@ -66,8 +66,8 @@ std::vector<CountedCell>::iterator cut(const CellRange& range, std::uint64_t poi
 }  // namespace
 
 Bricks::Bricks(const Coordinates& anchor, double halo) : anchor_(anchor) {
-  side_ = std::max(16 * halo, std::numeric_limits<double>::min());
-  per_side_ = std::min(1 / side_, std::numeric_limits<double>::max());
+  side_ = 16 * halo;
+  per_side_ = 1 / side_;
   // The second term covers the rounding of relative(), below 2^-30 for numbers up to 2^21.
   margin_ = halo / side_ * (1 + 1e-9) + 0x1p-29;
 }
@@ -137,9 +137,15 @@ void Bricks::divide(std::size_t max_points) {
   }
 }
 
+const Bricks::Cell& Bricks::cell_of(std::uint64_t key) const {
+  const auto found = cells_.find(key);
+  if (found == cells_.end()) throw std::runtime_error("the points have changed while they were read");
+  return found->second;
+}
+
 Bricks::Place Bricks::place(const Coordinates& point, Cursor& cursor) const {
   const Position at = position(point);
-  if (const std::uint64_t key = Bricks::key(at); key != cursor.key) cursor = {key, &cells_.at(key)};
+  if (const std::uint64_t key = Bricks::key(at); key != cursor.key) cursor = {key, &cell_of(key)};
   const Cell& own = *cursor.cell;
   Place place;
   place.own = own.brick;

@@ -24,8 +24,8 @@ class Bricks {
   };
 
  public:
-  /// `anchor` is any point of the cloud. A point can decide on points up to `halo` away. Cells are 16 times
-  /// as long. There are 2^21 along each axis; the outermost cells have no end.
+  /// `anchor` is any point of the cloud. A point can affect the result for points up to `halo` away. Cells
+  /// are 16 times as long. There are 2^21 along each axis; the outermost cells have no end.
   Bricks(const Coordinates& anchor, double halo);
 
   /// Returns the key of the cell of a point.
@@ -33,12 +33,12 @@ class Bricks {
   /// Counts points of a cell. To be called for all points before divide().
   void count(std::uint64_t cell_key, std::uint64_t points) { cells_[cell_key].points += points; }
 
-  /// Makes bricks of at most `max_points` points, where a single cell does not have more.
+  /// Makes bricks of at most `max_points` own points. A single cell may exceed it.
   void divide(std::size_t max_points);
 
   std::size_t size() const { return size_; }
 
-  /// The brick of a point, and the bricks of others on which it can decide.
+  /// The brick to which a point belongs, and the bricks whose points it can affect.
   struct Place {
     std::uint32_t own = 0;
     std::uint32_t others = 0;             ///< How many.
@@ -58,6 +58,7 @@ class Bricks {
   Position position(const Coordinates& point) const;
   static std::uint64_t key(const Position& position);
   static Position position_of(std::uint64_t key);
+  const Cell& cell_of(std::uint64_t key) const;
   const Cell* neighbour(const Position& position, int dx, int dy, int dz) const;
 
   Coordinates anchor_;

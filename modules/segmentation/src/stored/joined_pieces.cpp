@@ -14,14 +14,19 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::size_t kReadBytes = 64U << 10U;
+constexpr std::size_t kReadBytes = 64U << 10U;     // of a piece at a time
+constexpr std::size_t kAllReadBytes = 64U << 20U;  // of all pieces of a cluster
 constexpr std::size_t kWriteBytes = 1U << 20U;
 
 // Reads the records of a piece one after another.
 class PieceReader {
  public:
-  PieceReader(const SpillFile& file, const Piece& piece, std::size_t step)
-      : file_(&file), at_(piece.offset), left_(piece.points), step_(step) {
+  PieceReader(const SpillFile& file, const Piece& piece, std::size_t step, std::size_t buffer_bytes)
+      : file_(&file),
+        at_(piece.offset),
+        left_(piece.points),
+        step_(step),
+        max_records_(std::max<std::size_t>(buffer_bytes / step, 1)) {
     fill();
   }
 
@@ -39,7 +44,7 @@ class PieceReader {
 
  private:
   void fill() {
-    const std::size_t records = std::min<std::uint64_t>(left_, kReadBytes / step_);
+    const std::size_t records = std::min<std::uint64_t>(left_, max_records_);
     buffer_.resize(records * step_);
     file_->read(at_, buffer_.data(), buffer_.size());
     at_ += buffer_.size();
@@ -49,7 +54,7 @@ class PieceReader {
 
   const SpillFile* file_;
   std::uint64_t at_, left_;
-  std::size_t step_, position_ = 0;
+  std::size_t step_, max_records_, position_ = 0;
   std::vector<std::byte> buffer_;
 };
 
@@ -57,7 +62,7 @@ class PieceReader {
 StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFile& file) {
   std::vector<PieceReader> readers;
   for (const Piece& piece : pieces)
-    readers.emplace_back(file, piece, step);
+    readers.emplace_back(file, piece, step, std::min(kReadBytes, kAllReadBytes / pieces.size()));
   using Next = std::pair<std::uint64_t, std::size_t>;  // number of a point, and its reader
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
   for (std::size_t r = 0; r < readers.size(); ++r)
@@ -96,8 +101,8 @@ void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_
 
 }  // namespace
 
-void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& file,
-                 std::vector<StoredCluster>& clusters) {
+void join_pieces(const BrickClusterer& clusterer, const ClusterOptions& options, ScalarType scalar,
+                 SpillFile& file, std::vector<StoredCluster>& clusters, Counts& counts) {
   const std::vector<Piece>& pieces = clusterer.pieces();
   const std::size_t step = 3 * size_of(scalar) + 8;
   UnionFind sets;
@@ -121,23 +126,18 @@ void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& 
   for (std::size_t i = 0; i < order.size(); ++i) {
     of_cluster.push_back(pieces[order[i]]);
     if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
-    clusters.push_back(merge(of_cluster, step, file));
+    std::uint64_t points = 0;
+    for (const Piece& piece : of_cluster)
+      points += piece.points;
+    if (is_size_allowed(options, points)) {
+      clusters.push_back(merge(of_cluster, step, file));
+    } else {
+      count_dropped(options, points, points, counts);
+    }
     for (const Piece& piece : of_cluster)
       file.discard({piece.offset, piece.points * step});
     of_cluster.clear();
   }
-}
-
-void select_and_sort(const ClusterOptions& options, std::vector<StoredCluster>& clusters, Counts& counts) {
-  const auto removed = std::remove_if(clusters.begin(), clusters.end(), [&](const StoredCluster& cluster) {
-    if (is_size_allowed(options, cluster.points)) return false;
-    (cluster.points < options.min_size ? counts.small : counts.large) += cluster.points;
-    return true;
-  });
-  clusters.erase(removed, clusters.end());
-  std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
-    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
-  });
 }
 
 }  // namespace pcl_bv::detail

@@ -10,11 +10,8 @@
 
 namespace pcl_bv::detail {
 
-/// Appends the clusters that consist of pieces.
-void join_pieces(const BrickClusterer& clusterer, ScalarType scalar, SpillFile& file,
-                 std::vector<StoredCluster>& clusters);
-
-/// Removes and counts clusters of sizes that are not allowed, and sorts the others.
-void select_and_sort(const ClusterOptions& options, std::vector<StoredCluster>& clusters, Counts& counts);
+/// Appends the clusters that consist of pieces and have an allowed size. Counts the points of the others.
+void join_pieces(const BrickClusterer& clusterer, const ClusterOptions& options, ScalarType scalar,
+                 SpillFile& file, std::vector<StoredCluster>& clusters, Counts& counts);
 
 }  // namespace pcl_bv::detail

@@ -16,22 +16,22 @@
 namespace pcl_bv::detail {
 namespace {
 
-[[noreturn]] void fail(const char* what, int error) {
-  throw std::runtime_error(std::string("cannot ") + what +
-                           " a temporary file: " + std::generic_category().message(error));
+[[noreturn]] void fail(const char* what, const std::filesystem::path& folder, int error) {
+  throw std::runtime_error(std::string("cannot ") + what + " a temporary file in " + folder.string() + ": " +
+                           std::generic_category().message(error));
 }
 
 int open_unnamed(const std::filesystem::path& folder) {
   std::string name = (folder / "pcl_bv_XXXXXX").string();
   const int fd = ::mkostemp(name.data(), O_CLOEXEC);
-  if (fd < 0) fail("make", errno);
+  if (fd < 0) fail("make", folder, errno);
   ::unlink(name.c_str());
   return fd;
 }
 
 }  // namespace
 
-SpillFile::SpillFile(const std::filesystem::path& folder) : fd_(open_unnamed(folder)) {}
+SpillFile::SpillFile(const std::filesystem::path& folder) : folder_(folder), fd_(open_unnamed(folder)) {}
 
 SpillFile::~SpillFile() {
   ::close(fd_);
@@ -43,7 +43,7 @@ Extent SpillFile::append(const void* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(end_));
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("write", written < 0 ? errno : ENOSPC);
+    if (written <= 0) fail("write", folder_, written < 0 ? errno : ENOSPC);
     from += written;
     count -= static_cast<std::size_t>(written);
     end_ += static_cast<std::uint64_t>(written);
@@ -56,7 +56,7 @@ void SpillFile::read(std::uint64_t offset, void* to, std::size_t count) const {
   while (count > 0) {
     const ssize_t got = ::pread(fd_, at, count, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) fail("read", got < 0 ? errno : EIO);
+    if (got <= 0) fail("read", folder_, got < 0 ? errno : EIO);
     at += got;
     count -= static_cast<std::size_t>(got);
     offset += static_cast<std::uint64_t>(got);
@@ -78,19 +78,19 @@ void SpillList::discard(SpillFile& file) const {
 
 void SpillList::add(SpillFile& file, const void* bytes, std::size_t count, std::size_t block_bytes) {
   const auto* const from = static_cast<const std::byte*>(bytes);
-  waiting_.insert(waiting_.end(), from, from + count);
-  if (waiting_.size() < block_bytes) return;
-  extents_.push_back(file.append(waiting_.data(), waiting_.size()));
-  bytes_ += waiting_.size();
-  waiting_.clear();
+  buffer_.insert(buffer_.end(), from, from + count);
+  if (buffer_.size() < block_bytes) return;
+  extents_.push_back(file.append(buffer_.data(), buffer_.size()));
+  bytes_ += buffer_.size();
+  buffer_.clear();
 }
 
 void SpillList::finish(SpillFile& file) {
-  if (!waiting_.empty()) {
-    extents_.push_back(file.append(waiting_.data(), waiting_.size()));
-    bytes_ += waiting_.size();
+  if (!buffer_.empty()) {
+    extents_.push_back(file.append(buffer_.data(), buffer_.size()));
+    bytes_ += buffer_.size();
   }
-  waiting_ = {};
+  buffer_ = {};
 }
 
 void SpillList::read(const SpillFile& file, std::vector<std::byte>& to) const {

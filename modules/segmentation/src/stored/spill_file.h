@@ -32,11 +32,12 @@ class SpillFile {
   /// Reads bytes that were appended. Throws std::runtime_error if the disk fails.
   void read(std::uint64_t offset, void* to, std::size_t count) const;
 
-  /// Frees the space of bytes that are not needed any more, where the file system can. Data that the system
-  /// has not written to the disk yet never is then.
+  /// Frees the space of bytes that are not needed any more, if the file system can. Discarded data that is
+  /// still in the page cache is never written to the disk.
   void discard(const Extent& extent);
 
  private:
+  std::filesystem::path folder_;
   int fd_ = -1;
   std::uint64_t end_ = 0;
 };
@@ -44,11 +45,11 @@ class SpillFile {
 /// A list of records that is written to a SpillFile in blocks.
 class SpillList {
  public:
-  /// Adds bytes to the list; writes a block when `block_bytes` are waiting.
+  /// Adds bytes to the list; writes a block when the buffer has `block_bytes`.
   void add(SpillFile& file, const void* bytes, std::size_t count, std::size_t block_bytes);
-  /// Writes what is waiting and frees the buffer.
+  /// Writes and frees the buffer.
   void finish(SpillFile& file);
-  /// Returns the size of what was written.
+  /// Returns the number of bytes written.
   std::uint64_t bytes() const { return bytes_; }
   /// Reads all records into `to`, whose memory is used again. Call finish() before.
   void read(const SpillFile& file, std::vector<std::byte>& to) const;
@@ -56,7 +57,7 @@ class SpillList {
   void discard(SpillFile& file) const;
 
  private:
-  std::vector<std::byte> waiting_;
+  std::vector<std::byte> buffer_;
   std::vector<Extent> extents_;
   std::uint64_t bytes_ = 0;
 };

@@ -4,6 +4,7 @@
 #include "pcl_bv/segmentation/stored_clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -75,16 +76,32 @@ void in_order(const PointView& points, const ParallelPolicy& policy, const Work&
   }
 }
 
-// Returns the first valid point.
-std::optional<Coordinates> first_valid(const PointView& points) {
-  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+// Returns the median coordinates of valid points from all parts of the cloud, or nothing if there are none.
+// The grid of bricks ends 2^20 cells from there, so one point far away must not be the middle.
+std::optional<Coordinates> middle_of(const PointView& points) {
+  constexpr std::size_t max_parts = 8, each = 257;  // points that are left out between two
+  const std::size_t chunks = chunk_count(points.count), parts = std::min(chunks, max_parts);
+  std::array<std::vector<double>, 3> sample;
+  const auto add = [&](std::size_t chunk, std::size_t step) {
     const LoadedPoints part = load_chunk(points, chunk);
-    for (std::size_t i = 0; i < part.view().count; ++i) {
+    for (std::size_t i = 0; i < part.view().count; i += step) {
       const Coordinates p = load_point(part.view(), i);
-      if (is_valid(p)) return p;
+      if (!is_valid(p)) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sample[axis].push_back(p[axis]);
     }
-  }
-  return std::nullopt;
+  };
+  for (std::size_t i = 0; i < parts; ++i)
+    add(chunks * i / parts, each);
+  for (std::size_t chunk = 0; chunk < chunks && sample[0].empty(); ++chunk)
+    add(chunk, 1);
+  if (sample[0].empty()) return std::nullopt;
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  return Coordinates{median(sample[0]), median(sample[1]), median(sample[2])};
 }
 
 // Runs of points in the same cell.
@@ -171,7 +188,7 @@ void place_points(const PointView& part, std::size_t first, const Bricks& bricks
 // Writes the points to the lists of their bricks. The points of a list are in the order of the cloud.
 std::vector<SpillList> distribute(const PointView& points, const Bricks& bricks, const ParallelPolicy& policy,
                                   SpillFile& file) {
-  // All lists together wait for 64 MiB, so that blocks are as long as possible.
+  // The buffers of all lists have about 64 MiB together.
   const std::size_t block = std::clamp<std::size_t>((64U << 20U) / (bricks.size() + 1), 4096, 1U << 20U);
   const std::size_t record = 3 * size_of(points.scalar) + 8;
   std::vector<SpillList> lists(bricks.size());
@@ -198,6 +215,7 @@ struct StoredClusters::State {
   ScalarType scalar = ScalarType::float32;
   std::vector<StoredCluster> clusters;
   Counts counts;
+  std::size_t bricks = 0;
 };
 
 StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& options,
@@ -209,14 +227,17 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
       std::make_unique<State>(store.folder.empty() ? std::filesystem::temp_directory_path() : store.folder);
   State& state = *state_;
   state.scalar = points.scalar;
-  const std::optional<Coordinates> anchor = first_valid(points);
+  const std::optional<Coordinates> anchor = middle_of(points);
   if (!anchor) {
     state.counts.nonfinite = points.count;
     return;
   }
   Bricks bricks(*anchor, halo_of(options, points.scalar));
   state.counts.nonfinite = count_cells(points, execution.parallel, bricks);
-  bricks.divide(store.points_in_memory);
+  // More bricks would need more memory for their lists than for their points.
+  constexpr std::size_t max_bricks = 16'384;
+  bricks.divide(std::max(store.points_in_memory, points.count / max_bricks));
+  state.bricks = bricks.size();
   std::vector<SpillList> lists = distribute(points, bricks, execution.parallel, state.file);
   BrickClusterer clusterer(bricks, points.scalar, options, execution, state.file);
   std::vector<std::byte> records;
@@ -226,9 +247,13 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
     clusterer.add(brick, records);
   }
   state.clusters = clusterer.take_clusters();
-  join_pieces(clusterer, points.scalar, state.file, state.clusters);
-  select_and_sort(options, state.clusters, state.counts);
-  state.counts.noise = clusterer.noise();
+  state.counts.small = clusterer.counts().small;
+  state.counts.large = clusterer.counts().large;
+  state.counts.noise = clusterer.counts().noise;
+  join_pieces(clusterer, options, points.scalar, state.file, state.clusters, state.counts);
+  std::sort(state.clusters.begin(), state.clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
+    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
+  });
 }
 
 StoredClusters::~StoredClusters() = default;
@@ -237,6 +262,10 @@ StoredClusters& StoredClusters::operator=(StoredClusters&&) noexcept = default;
 
 std::size_t StoredClusters::size() const {
   return state_->clusters.size();
+}
+
+std::size_t StoredClusters::brick_count() const {
+  return state_->bricks;
 }
 
 std::size_t StoredClusters::point_count(std::size_t cluster) const {

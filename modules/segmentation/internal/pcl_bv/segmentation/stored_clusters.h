@@ -20,8 +20,8 @@ namespace [[gnu::visibility("default")]] detail {
 class SpillFile;
 
 struct StoredClusterOptions {
-  /// Points that are in memory at a time, if no small region has more of them. A point takes up to 150 bytes
-  /// then.
+  /// Maximum number of points in memory. A single cell of the grid and the points near a brick may exceed it,
+  /// and there are at most 16 384 bricks. A point takes up to 150 bytes, a double point 250.
   std::size_t points_in_memory = std::size_t{4} << 20;
   /// Where the temporary file is made; empty for the system's folder of temporary files.
   std::filesystem::path folder;
@@ -31,11 +31,11 @@ struct StoredClusterOptions {
 /// the system deletes when the process ends, whatever the reason.
 ///
 /// The points are distributed to boxes ("bricks") with about StoredClusterOptions::points_in_memory points
-/// each. A brick also gets the points of other bricks that can decide on its own points: those within the
-/// tolerance, or with min_points > 1 within twice the tolerance. Each brick is clustered in memory.
-/// Components of neighbouring bricks are joined if they have a core point in common. So every link and every
-/// core condition is decided in a brick that has all points that matter, and the result is that of the whole
-/// cloud.
+/// each. A brick also gets the points of other bricks that can affect the result for its own points: those
+/// within the tolerance, or with min_points > 1 within twice the tolerance. Each brick is clustered in
+/// memory. Components of neighbouring bricks are joined if they have a core point in common. So every link
+/// and every core condition is decided in a brick that has all points that matter, and the result is that of
+/// the whole cloud.
 class StoredClusters {
  public:
   /// Finds the clusters of the valid points. Takes two passes over the points. The order of the passes does
@@ -56,6 +56,9 @@ class StoredClusters {
 
   /// Number of clusters. They are in the order of Clusters: the largest first.
   std::size_t size() const;
+
+  /// Number of bricks.
+  std::size_t brick_count() const;
 
   /// Number of points of a cluster.
   std::size_t point_count(std::size_t cluster) const;
