@@ -171,41 +171,6 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   return worse(checked, write_files(job, options, frame, outcome, loaded));
 }
 
-/// Finds the objects of a cloud that is tiled over several inputs.
-Status process_tiled_objects(const Job& job, const Options& options, Outcome& outcome) {
-  Report& report = outcome.report;
-  const Execution execution = options.pipeline.execution();
-  LoadedCloud loaded(job, false, execution, options.origin);
-  report.parts = job.tiles->included_count();
-  report.origin = loaded.origin();
-  try {
-    add_tiled_objects(loaded.xyz(), options, report);
-  } catch (const TileError&) {
-    throw;
-  } catch (...) {
-    loaded.require_unchanged();  // a file that was changed is the better explanation
-    throw;
-  }
-  FrameResult counted;
-  counted.config = std::make_shared<PipelineConfig>(options.pipeline);
-  counted.points = report.points;
-  counted.counts = report.counts;
-  const std::string range = range_warning(counted, options.range_from);
-  if (!range.empty()) report_problem(job.input + ": " + range);
-  if (options.info) {
-    const RawCloud& cloud = loaded.cloud();
-    report.info =
-        CloudInfo{cloud_statistics(loaded.xyz(), execution), cloud.width, cloud.height, cloud.fields};
-  }
-  Aabb box;
-  for (const ClusterEntry& cluster : report.clusters)
-    if (!cluster.volumes.empty()) box.merge(aabb(cluster.volumes.front().volume));
-  const std::string coarse = coarse_warning(box, loaded.xyz().scalar);
-  if (!coarse.empty()) report_problem(job.input + ": " + coarse);
-  loaded.require_unchanged();
-  return worse(report_failures(report), write_mesh(job, report.clusters));
-}
-
 /// Processes a cloud that is tiled over several inputs. If an input fails, excludes it and processes the
 /// cloud again without it.
 Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
@@ -222,7 +187,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   for (;;) {
     if (job.tiles->included_count() == 0) throw IoError("no input could be read");
     try {
-      status = worse(status, options.clusters() ? process_tiled_objects(job, options, outcome)
+      status = worse(status, options.clusters() ? process_tiled_objects(job, options, outcome.report)
                                                 : process(job, options, pipeline, outcome));
       report_notes(*job.tiles);
       return status;

@@ -7,12 +7,17 @@
 #include <chrono>
 #include <utility>
 
+#include "commands/shared/messages.h"
+#include "loaded_cloud.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
 #include "pipeline/class_table.h"
 #include "pipeline/extent_limits.h"
 #include "pipeline/filtered_view.h"
+#include "process.h"
+#include "tiles.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -95,9 +100,8 @@ void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Re
   }
 }
 
-}  // namespace
-
-void add_tiled_objects(const PointView& cloud, const Options& options, Report& report) {
+// Finds the clusters of a cloud, whose points may be in files, and fits the volumes.
+void add_objects_of(const PointView& cloud, const Options& options, Report& report) {
   const Clock::time_point begin = Clock::now();
   const PipelineConfig& config = options.pipeline;
   const Execution execution = config.execution();
@@ -116,6 +120,41 @@ void add_tiled_objects(const PointView& cloud, const Options& options, Report& r
   report.clusters.clear();
   add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
   if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
+}
+
+}  // namespace
+
+Status process_tiled_objects(const Job& job, const Options& options, Report& report) {
+  const Execution execution = options.pipeline.execution();
+  LoadedCloud loaded(job, false, execution, options.origin);
+  report.parts = job.tiles->included_count();
+  report.origin = loaded.origin();
+  try {
+    add_objects_of(loaded.xyz(), options, report);
+  } catch (const TileError&) {
+    throw;
+  } catch (...) {
+    loaded.require_unchanged();  // a file that was changed is the better explanation
+    throw;
+  }
+  FrameResult counted;
+  counted.config = std::make_shared<PipelineConfig>(options.pipeline);
+  counted.points = report.points;
+  counted.counts = report.counts;
+  const std::string range = range_warning(counted, options.range_from);
+  if (!range.empty()) report_problem(job.input + ": " + range);
+  if (options.info) {
+    const RawCloud& cloud = loaded.cloud();
+    report.info =
+        CloudInfo{cloud_statistics(loaded.xyz(), execution), cloud.width, cloud.height, cloud.fields};
+  }
+  Aabb box;
+  for (const ClusterEntry& cluster : report.clusters)
+    if (!cluster.volumes.empty()) box.merge(aabb(cluster.volumes.front().volume));
+  const std::string coarse = coarse_warning(box, loaded.xyz().scalar);
+  if (!coarse.empty()) report_problem(job.input + ": " + coarse);
+  loaded.require_unchanged();
+  return worse(report_failures(report), write_mesh(job, report.clusters));
 }
 
 }  // namespace pcl_bv::detail

@@ -4,16 +4,16 @@
 // Objects of a cloud that is tiled over several inputs and can be larger than memory.
 #pragma once
 
+#include "inputs.h"
 #include "options.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/report/report.h"
+#include "status.h"
 
 namespace pcl_bv::detail {
 
-/// Finds the clusters of a cloud and fits the volumes. Sets the counts, the clusters and the times of the
-/// report, which are those of the same cloud in memory. The points of `cloud` may be in files; they are read
-/// two times, or three times with a filter. Throws as StoredClusters does, and passes on the errors of the
-/// files.
-void add_tiled_objects(const PointView& cloud, const Options& options, Report& report);
+/// Finds the clusters of a tiled cloud, fits the volumes and writes the mesh. The report has what it has for
+/// the same cloud in memory. Problems with volumes and files are reported on standard error and change the
+/// status. Throws TileError for an input that fails, and as StoredClusters does.
+Status process_tiled_objects(const Job& job, const Options& options, Report& report);
 
 }  // namespace pcl_bv::detail
