@@ -61,6 +61,7 @@ class PieceReader {
 // Writes the points of several pieces in the order of their numbers.
 StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFile& file) {
   std::vector<PieceReader> readers;
+  readers.reserve(pieces.size());
   for (const Piece& piece : pieces)
     readers.emplace_back(file, piece, step, std::min(kReadBytes, kAllReadBytes / pieces.size()));
   using Next = std::pair<std::uint64_t, std::size_t>;  // number of a point, and its reader
