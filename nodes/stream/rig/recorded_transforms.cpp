@@ -10,6 +10,7 @@
 #include "pcl_bv/messages/odometry.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/recording/recording.h"
+#include "stream/sources/sources.h"
 #include "transform_feed.h"
 
 namespace pcl_bv::detail {
