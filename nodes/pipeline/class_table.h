@@ -11,7 +11,8 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/segmentation/class_clusters.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// The cluster options and methods of a configuration, resolved for each class.
 class ClassTable {
@@ -34,4 +35,5 @@ class ClassTable {
   std::vector<std::vector<const Method*>> class_methods_;  // in the order of `class_options_`
 };
 
-}  // namespace pcl_bv::detail
+}  // namespace detail
+}  // namespace pcl_bv

@@ -13,7 +13,8 @@
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/clusters.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 enum class ExtentVerdict : std::uint8_t { keep, small, large };
 
@@ -39,4 +40,5 @@ class ExtentLimits {
   std::vector<ExtentVerdict> verdicts_;  // for each cluster; a member to reuse its memory
 };
 
-}  // namespace pcl_bv::detail
+}  // namespace detail
+}  // namespace pcl_bv
