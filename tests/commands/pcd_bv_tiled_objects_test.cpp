@@ -87,13 +87,9 @@ TEST_F(PcdBvTiledObjects, OfAnInputThatFailsAreLeftOut) {
   const Points points = yard(1);
   const std::string folder = tiles("tiles", points, 8);
   const Json expected = found(objects({"--cluster", "0.4"}, {"--together"}, folder));
-  file("tiles/99.pcd", "no cloud");
-  file("tiles/00a.pcd", header(100) + "1 2 3\n1 x 3\n");  // its header is good
+  add_bad_tiles("tiles");
   const Result result = objects({"--cluster", "0.4"}, {"--together"}, folder);
-  EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.err, HasSubstr("tiles/99.pcd: "));
-  EXPECT_THAT(result.err, HasSubstr("tiles/00a.pcd: "));
-  EXPECT_EQ(result.error_lines(), 2U);
+  expect_bad_tiles_named(result, "tiles");
   Json report = result.json();
   EXPECT_EQ(report["parts"], 8);
   EXPECT_TRUE(report["clusters"] == expected["clusters"]);

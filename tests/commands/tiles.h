@@ -4,6 +4,8 @@
 // A cloud as one file, and cut into many.
 #pragma once
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -78,6 +80,20 @@ class Tiled : public PcdBv {
       i % 3 == 2 ? text(path_of(folder, i), part) : binary(path_of(folder, i), part);
     }
     return at(folder);
+  }
+
+  /// Adds two inputs that cannot be read to a folder of tiles. The header of one of them is good.
+  void add_bad_tiles(const std::string& folder) const {
+    file(folder + "/99.pcd", "no cloud");
+    file(folder + "/00a.pcd", header(100) + "1 2 3\n1 x 3\n");
+  }
+
+  /// Expects one line for each of the inputs of add_bad_tiles(), and no other.
+  static void expect_bad_tiles_named(const Result& result, const std::string& folder) {
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, testing::HasSubstr(folder + "/99.pcd: "));
+    EXPECT_THAT(result.err, testing::HasSubstr(folder + "/00a.pcd: "));
+    EXPECT_EQ(result.error_lines(), 2U);
   }
 
   /// What a report says of the cloud, whatever it is called.

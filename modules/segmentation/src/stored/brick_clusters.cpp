@@ -28,7 +28,7 @@ BrickClusterer::BrickClusterer(const Bricks& bricks, ScalarType scalar, const Cl
                                const Execution& execution, SpillFile& file)
     : bricks_(bricks),
       scalar_(scalar),
-      step_(3 * size_of(scalar) + 8),
+      step_(record_bytes(scalar)),
       options_(options),
       execution_(execution),
       file_(file) {}
@@ -116,7 +116,7 @@ std::vector<SharedPoint> BrickClusterer::read(const Extent& extent) const {
 // Writes the points of complete clusters of allowed sizes without numbers, and those of pieces as records.
 void BrickClusterer::write_points(const std::vector<std::byte>& records) {
   const PointView view = view_of_records(records, step_, scalar_);
-  const std::size_t point_bytes = step_ - 8, first_cluster = clusters_.size();
+  const std::size_t point_bytes = step_ - kNumberBytes, first_cluster = clusters_.size();
   std::uint64_t cluster_bytes = 0, piece_bytes = 0;
   for (Component& component : components_) {
     if (component.shared) {

@@ -17,7 +17,11 @@
 namespace pcl_bv::detail {
 
 /// A record of a brick has the coordinates of a point and its number in the cloud, in 8 bytes.
-inline constexpr std::size_t kMaxRecordBytes = 3 * sizeof(double) + 8;
+inline constexpr std::size_t kNumberBytes = sizeof(std::uint64_t);
+inline constexpr std::size_t kMaxRecordBytes = 3 * sizeof(double) + kNumberBytes;
+constexpr std::size_t record_bytes(ScalarType scalar) {
+  return 3 * size_of(scalar) + kNumberBytes;
+}
 /// Set in the number of a point that belongs to another brick.
 inline constexpr std::uint64_t kOfOtherBrick = std::uint64_t{1} << 63;
 /// Set in the number of a point that belongs to the brick and that other bricks have, too.

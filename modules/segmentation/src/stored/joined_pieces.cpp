@@ -79,7 +79,7 @@ StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFil
     PieceReader& reader = readers[next.top().second];
     const std::size_t number = next.top().second;
     next.pop();
-    points.insert(points.end(), reader.record(), reader.record() + step - 8);
+    points.insert(points.end(), reader.record(), reader.record() + step - kNumberBytes);
     if (points.size() >= kWriteBytes) write();
     reader.next();
     if (!reader.done()) next.emplace(reader.number(), number);
@@ -105,7 +105,7 @@ void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_
 void join_pieces(const BrickClusterer& clusterer, const ClusterOptions& options, ScalarType scalar,
                  SpillFile& file, std::vector<StoredCluster>& clusters, Counts& counts) {
   const std::vector<Piece>& pieces = clusterer.pieces();
-  const std::size_t step = 3 * size_of(scalar) + 8;
+  const std::size_t step = record_bytes(scalar);
   UnionFind sets;
   sets.reset(pieces.size());
   for (std::uint32_t brick = 0; brick < clusterer.brick_count(); ++brick) {

@@ -49,8 +49,6 @@ class SpillList {
   void add(SpillFile& file, const void* bytes, std::size_t count, std::size_t block_bytes);
   /// Writes and frees the buffer.
   void finish(SpillFile& file);
-  /// Returns the number of bytes written.
-  std::uint64_t bytes() const { return bytes_; }
   /// Reads all records into `to`, whose memory is used again. Call finish() before.
   void read(const SpillFile& file, std::vector<std::byte>& to) const;
   /// Frees the space of the records.

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include "brick_clusters.h"
 #include "bricks.h"
@@ -190,7 +188,7 @@ std::vector<SpillList> distribute(const PointView& points, const Bricks& bricks,
                                   SpillFile& file) {
   // The buffers of all lists have about 64 MiB together.
   const std::size_t block = std::clamp<std::size_t>((64U << 20U) / (bricks.size() + 1), 4096, 1U << 20U);
-  const std::size_t record = 3 * size_of(points.scalar) + 8;
+  const std::size_t record = record_bytes(points.scalar);
   std::vector<SpillList> lists(bricks.size());
   in_order<PlacedPoints>(
       points, policy,

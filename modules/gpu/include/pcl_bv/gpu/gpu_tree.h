@@ -28,7 +28,7 @@ class DeviceTree;
 ///
 /// The points are sorted along a Morton curve (Lauterbach et al. 2009), 16 to a packet. Each packet has a
 /// box, each 16 boxes have a common box, and so on, as in a PointTree. The tree takes 22 bytes of device
-/// memory per point. The build needs another 16 bytes per point. A cloud that is larger than one buffer
+/// memory per point. The build needs another 12 bytes per point. A cloud that is larger than one buffer
 /// (GpuInfo::max_binding, 11 million points of 12 bytes) has a tree for each buffer.
 ///
 /// The device finds up to four points that can be the result of a query, and the processor decides among
