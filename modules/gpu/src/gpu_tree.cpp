@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include "device_tree.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "tree_queries.h"
 
 namespace pcl_bv {
@@ -80,18 +79,9 @@ std::optional<DeviceQuery> ball_query(const DeviceTree& tree, const Coordinates&
   return query;
 }
 
-void require_distance(double distance) {
-  if (distance >= 0) return;
-  std::ostringstream what;
-  what << "GpuTree: a distance must be 0 or more, not " << distance;
-  throw std::invalid_argument(what.str());
-}
-
 void require_radius(const MovingSphere& sphere) {
-  if (sphere.radius >= 0 && sphere.radius <= kMaxCoordinate) return;
-  std::ostringstream what;
-  what << "GpuTree: the radius of a moving sphere must be from 0 to 1e100, not " << sphere.radius;
-  throw std::invalid_argument(what.str());
+  if (!(sphere.radius >= 0 && sphere.radius <= kMaxCoordinate))
+    throw_out_of_range_value("GpuTree: the radius of a moving sphere must be from 0 to 1e100", sphere.radius);
 }
 
 // Returns the query of a moving sphere, or nothing if the processor must run it.
@@ -139,7 +129,7 @@ void nearest(const GpuTree& tree, const PointView& query_points, std::vector<Nei
              double max_distance, const Execution& execution) {
   if (query_points.source != nullptr)
     throw std::invalid_argument("GpuTree: the query points must be in memory");
-  require_distance(max_distance);
+  require_distance("GpuTree", max_distance);
   const FloatEnvironment environment;
   const DeviceTree& on_device = tree.on_device();
   const PointView points = on_device.cloud().points();

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "argument_checks.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "point_tree_state.h"
 #include "vectors.h"

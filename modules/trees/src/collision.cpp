@@ -7,11 +7,11 @@
 #include <bit>
 #include <stdexcept>
 
-#include "argument_checks.h"
 #include "inflated.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/execution.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "pcl_bv/volumes/pair_queries.h"
 #include "rotatable.h"
 #include "sphere_around.h"

@@ -5,9 +5,9 @@
 #include <bit>
 #include <limits>
 
-#include "argument_checks.h"
 #include "pcl_bv/kernels/swept_ball.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "point_tree_state.h"
 #include "vectors.h"
 

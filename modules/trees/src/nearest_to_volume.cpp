@@ -6,10 +6,10 @@
 #include <limits>
 #include <tuple>
 
-#include "argument_checks.h"
 #include "body_distance.h"
 #include "box_walk.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "point_tree_state.h"
 #include "vectors.h"
 

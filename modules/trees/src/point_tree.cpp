@@ -8,9 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "argument_checks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "point_tree_state.h"
 #include "vectors.h"
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cstring>
 
-#include "argument_checks.h"
 #include "convex_region.h"
 #include "inflated.h"
 #include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "region_runs.h"
 #include "vectors.h"
 #include "volume_boxes.h"

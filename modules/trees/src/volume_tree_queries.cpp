@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "argument_checks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
+#include "pcl_bv/trees/argument_checks.h"
 #include "pcl_bv/volumes/pair_queries.h"
 #include "vectors.h"
 #include "volume_nodes.h"
