@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <optional>
 #include <stdexcept>
 
 #include "brick_clusters.h"
@@ -19,6 +18,9 @@
 
 namespace pcl_bv::detail {
 namespace {
+
+// A larger number makes fewer cells, with more points near their borders.
+constexpr double kHalosPerCell = 16;
 
 // The points of one cluster in the temporary file.
 class SpillSource final : public PointSource {
@@ -74,34 +76,6 @@ void in_order(const PointView& points, const ParallelPolicy& policy, const Work&
   }
 }
 
-// Returns the median coordinates of valid points from all parts of the cloud, or nothing if there are none.
-// The grid of bricks ends 2^20 cells from there, so one point far away must not be the middle.
-std::optional<Coordinates> middle_of(const PointView& points) {
-  constexpr std::size_t max_parts = 8, each = 257;  // points that are left out between two
-  const std::size_t chunks = chunk_count(points.count), parts = std::min(chunks, max_parts);
-  std::array<std::vector<double>, 3> sample;
-  const auto add = [&](std::size_t chunk, std::size_t step) {
-    const LoadedPoints part = load_chunk(points, chunk);
-    for (std::size_t i = 0; i < part.view().count; i += step) {
-      const Coordinates p = load_point(part.view(), i);
-      if (!is_valid(p)) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        sample[axis].push_back(p[axis]);
-    }
-  };
-  for (std::size_t i = 0; i < parts; ++i)
-    add(chunks * i / parts, each);
-  for (std::size_t chunk = 0; chunk < chunks && sample[0].empty(); ++chunk)
-    add(chunk, 1);
-  if (sample[0].empty()) return std::nullopt;
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
-  return Coordinates{median(sample[0]), median(sample[1]), median(sample[2])};
-}
-
 // Runs of points in the same cell.
 struct CellCounts {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> runs;  // key of the cell, and points
@@ -119,14 +93,17 @@ std::size_t count_cells(const PointView& points, const ParallelPolicy& policy, B
   in_order<CellCounts>(
       points, policy,
       [&](const PointView& part, std::size_t, CellCounts& counts) {
+        GridCell cell;
         for (std::size_t i = 0; i < part.count; ++i) {
           const Coordinates p = load_point(part, i);
           if (!is_valid(p)) {
             ++counts.invalid;
             continue;
           }
-          const std::uint64_t key = bricks.cell_key(p);
-          if (counts.runs.empty() || counts.runs.back().first != key) counts.runs.emplace_back(key, 0);
+          if (const auto at = bricks.grid().scaled(p); !cell.contains(at)) {
+            cell = bricks.grid().cell_of(at);
+            counts.runs.emplace_back(cell.key, 0);
+          }
           ++counts.runs.back().second;
         }
       },
@@ -172,6 +149,7 @@ void place_points(const PointView& part, std::size_t first, const Bricks& bricks
     const Coordinates p = load_point(part, i);
     if (!is_valid(p)) continue;
     const Bricks::Place place = bricks.place(p, cursor);
+    if (place.own == Bricks::kNone) throw std::runtime_error("the points have changed while they were read");
     set_coordinates(p, part.scalar, record);
     const auto add = [&](std::uint32_t brick, std::uint64_t number) {
       std::memcpy(record + step, &number, sizeof number);
@@ -225,12 +203,7 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
       std::make_unique<State>(store.folder.empty() ? std::filesystem::temp_directory_path() : store.folder);
   State& state = *state_;
   state.scalar = points.scalar;
-  const std::optional<Coordinates> anchor = middle_of(points);
-  if (!anchor) {
-    state.counts.nonfinite = points.count;
-    return;
-  }
-  Bricks bricks(*anchor, halo_of(options, points.scalar));
+  Bricks bricks(BrickGrid(halo_of(options, points.scalar), kHalosPerCell));
   state.counts.nonfinite = count_cells(points, execution.parallel, bricks);
   // More bricks would need more memory for their lists than for their points.
   constexpr std::size_t max_bricks = 16'384;
