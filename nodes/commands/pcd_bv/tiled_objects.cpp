@@ -45,48 +45,78 @@ struct Object {
 
 class ObjectFitter {
  public:
-  ObjectFitter(const StoredClusters& clusters, const Options& options)
-      : clusters_(clusters),
-        options_(options),
+  explicit ObjectFitter(const Options& options)
+      : options_(options),
         methods_(options.pipeline.methods()),
-        method_options_(options.pipeline.method_options()) {}
+        method_options_(options.pipeline.method_options()),
+        execution_(options.pipeline.execution()) {}
 
-  std::vector<Object> fit() const {
-    std::vector<Object> objects(clusters_.size());
-    const Execution execution = options_.pipeline.execution();
+  /// Fits volumes to clusters in memory (StoredClusterOptions::visit).
+  void visit(const std::vector<PointView>& clusters) {
+    const std::size_t before = visited_.size();
+    visited_.resize(before + clusters.size());
+    std::vector<std::size_t> small;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      if (clusters[i].count > kManyPoints)
+        fit(clusters[i], execution_, visited_[before + i]);
+      else
+        small.push_back(i);
+    }
+    for_each_small(small.size(), [&](std::size_t i, const Execution& execution) {
+      fit(clusters[small[i]], execution, visited_[before + small[i]]);
+    });
+  }
+
+  /// Returns the objects of all clusters. To be called once.
+  std::vector<Object> fit(const StoredClusters& clusters) {
+    std::vector<Object> objects(clusters.size());
+    const auto fit_or_take = [&](std::size_t i, const Execution& execution) {
+      const std::size_t visit = clusters.visit_number(i);
+      if (visit == StoredClusters::kNotVisited)
+        fit(clusters.points(i).view(), execution, objects[i]);
+      else
+        objects[i] = std::move(visited_[visit]);
+    };
     std::size_t first_small = 0;  // clusters are sorted by size
-    for (; first_small < objects.size() && clusters_.point_count(first_small) > kManyPoints; ++first_small)
-      fit(first_small, execution, objects[first_small]);
-    const Execution serial{Serial{}, execution.isa};
-    for_each_range(execution.parallel, objects.size() - first_small, kAtATime,
-                   [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t i = first_small + begin; i < first_small + end; ++i)
-                       fit(i, serial, objects[i]);
-                   });
+    for (; first_small < objects.size() && clusters.point_count(first_small) > kManyPoints; ++first_small)
+      fit_or_take(first_small, execution_);
+    for_each_small(objects.size() - first_small, [&](std::size_t i, const Execution& execution) {
+      fit_or_take(first_small + i, execution);
+    });
     return objects;
   }
 
  private:
-  void fit(std::size_t cluster, const Execution& execution, Object& object) const {
-    const StoredClusters::Points points = clusters_.points(cluster);
-    object.verdict = extent_verdict(points.view(), options_.pipeline.cluster, method_options_.up, execution);
+  // Calls work(i, execution) for small clusters, which each use one thread.
+  template <typename Work>
+  void for_each_small(std::size_t count, const Work& work) const {
+    const Execution serial{Serial{}, execution_.isa};
+    for_each_range(execution_.parallel, count, kAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        work(i, serial);
+    });
+  }
+
+  void fit(const PointView& points, const Execution& execution, Object& object) const {
+    object.verdict = extent_verdict(points, options_.pipeline.cluster, method_options_.up, execution);
     if (object.verdict != ExtentVerdict::keep) return;
-    object.entry.points = points.view().count;
-    std::vector<Fitted<AnyVolume>> fits = fit_methods(points.view(), methods_, method_options_, execution);
+    object.entry.points = points.count;
+    std::vector<Fitted<AnyVolume>> fits = fit_methods(points, methods_, method_options_, execution);
     for (std::size_t m = 0; m < methods_.size(); ++m) {
       VolumeEntry& entry = object.entry.volumes.emplace_back();
       entry.method = methods_[m]->name;
       entry.failed = fits[m].reason;
       entry.volume = std::move(fits[m].volume);
       if (options_.check && entry.failed.empty())
-        entry.outside = verify(entry.volume, points.view(), execution).outside;
+        entry.outside = verify(entry.volume, points, execution).outside;
     }
   }
 
-  const StoredClusters& clusters_;
   const Options& options_;
   std::vector<const Method*> methods_;
   MethodOptions method_options_;
+  Execution execution_;
+  std::vector<Object> visited_;
 };
 
 void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Report& report) {
@@ -106,9 +136,12 @@ void add_objects_of(const PointView& cloud, const Options& options, Report& repo
   const PipelineConfig& config = options.pipeline;
   const Execution execution = config.execution();
   const FilteredView filtered = filter_points(cloud, config.filter, execution);
-  const StoredClusters clusters(
-      filtered.points, ClassTable(config).default_options(),
-      {std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1), {}}, execution);
+  ObjectFitter fitter(options);
+  StoredClusterOptions store;
+  store.points_in_memory = std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1);
+  store.visit = [&](const std::vector<PointView>& found) { fitter.visit(found); };
+  store.keep_visited = false;
+  const StoredClusters clusters(filtered.points, ClassTable(config).default_options(), store, execution);
   report.points = cloud.count;
   report.counts = clusters.counts();
   if (filtered.owner != nullptr) {  // dropped points count as not finite then
@@ -118,7 +151,7 @@ void add_objects_of(const PointView& cloud, const Options& options, Report& repo
   }
   const double segment = seconds_since(begin);
   report.clusters.clear();
-  add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
+  add_objects(clusters, fitter.fit(clusters), report);
   if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
 }
 

@@ -18,7 +18,8 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 }  // namespace
 
-BrickGrid::BrickGrid(double halo, double halos) : per_side_(1 / (halos * halo)), margin_((1 + 1e-9) / halos) {}
+BrickGrid::BrickGrid(double halo, double halos)
+    : per_side_(1 / (halos * halo)), margin_((1 + 1e-9) / halos) {}
 
 GridCell BrickGrid::cell_of(const std::array<double, 3>& at) const {
   GridCell cell;

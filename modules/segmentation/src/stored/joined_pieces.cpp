@@ -4,12 +4,9 @@
 #include "joined_pieces.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <queue>
-
-#include "union_find.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -21,22 +18,19 @@ constexpr std::size_t kWriteBytes = 1U << 20U;
 // Reads the records of a piece one after another.
 class PieceReader {
  public:
-  PieceReader(const SpillFile& file, const Piece& piece, std::size_t step, std::size_t buffer_bytes)
+  PieceReader(const SpillFile& file, const Piece& piece, ScalarType scalar, std::size_t buffer_bytes)
       : file_(&file),
         at_(piece.offset),
         left_(piece.points),
-        step_(step),
-        max_records_(std::max<std::size_t>(buffer_bytes / step, 1)) {
+        scalar_(scalar),
+        step_(record_bytes(scalar)),
+        max_records_(std::max<std::size_t>(buffer_bytes / step_, 1)) {
     fill();
   }
 
   bool done() const { return position_ == buffer_.size(); }
   const std::byte* record() const { return buffer_.data() + position_; }
-  std::uint64_t number() const {
-    std::uint64_t number;
-    std::memcpy(&number, record() + step_ - sizeof number, sizeof number);
-    return number & kNumberMask;
-  }
+  std::uint64_t number() const { return number_of_record(record(), scalar_) & kNumberMask; }
   void next() {
     position_ += step_;
     if (done()) fill();
@@ -54,16 +48,51 @@ class PieceReader {
 
   const SpillFile* file_;
   std::uint64_t at_, left_;
+  ScalarType scalar_;
   std::size_t step_, max_records_, position_ = 0;
   std::vector<std::byte> buffer_;
 };
 
-// Writes the points of several pieces in the order of their numbers.
-StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFile& file) {
+// Joins the pieces of two bricks that have the same core point.
+void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
+           std::vector<SharedPoint>::const_iterator end, std::uint32_t first_set, UnionFind& sets) {
+  auto it = own.begin();
+  for (; begin != end; ++begin) {
+    while (it != own.end() && it->number < begin->number)
+      ++it;
+    if (it == own.end()) return;
+    if (it->number == begin->number) sets.unite(first_set + it->piece, first_set + begin->piece);
+  }
+}
+
+}  // namespace
+
+void join_pieces(const BrickComponents& components, std::uint32_t first_set, UnionFind& sets) {
+  for (std::uint32_t brick = 0; brick < components.brick_count(); ++brick) {
+    const std::vector<SharedPoint> others = components.other_points(brick);
+    for (auto begin = others.begin(); begin != others.end();) {
+      const std::uint32_t owner = begin->owner;
+      const auto end =
+          std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
+      unite(components.own_points(owner), begin, end, first_set, sets);
+      begin = end;
+    }
+  }
+}
+
+std::vector<std::uint32_t> order_by_root(const std::vector<std::uint32_t>& roots) {
+  std::vector<std::uint32_t> order(roots.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return roots[a] < roots[b]; });
+  return order;
+}
+
+StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, SpillFile& file) {
   std::vector<PieceReader> readers;
   readers.reserve(pieces.size());
   for (const Piece& piece : pieces)
-    readers.emplace_back(file, piece, step, std::min(kReadBytes, kAllReadBytes / pieces.size()));
+    readers.emplace_back(file, piece, scalar, std::min(kReadBytes, kAllReadBytes / pieces.size()));
   using Next = std::pair<std::uint64_t, std::size_t>;  // number of a point, and its reader
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
   for (std::size_t r = 0; r < readers.size(); ++r)
@@ -79,66 +108,15 @@ StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFil
     PieceReader& reader = readers[next.top().second];
     const std::size_t number = next.top().second;
     next.pop();
-    points.insert(points.end(), reader.record(), reader.record() + step - kNumberBytes);
+    points.insert(points.end(), reader.record(), reader.record() + point_bytes(scalar));
     if (points.size() >= kWriteBytes) write();
     reader.next();
     if (!reader.done()) next.emplace(reader.number(), number);
   }
   if (!points.empty()) write();
+  for (const Piece& piece : pieces)
+    file.discard({piece.offset, piece.points * record_bytes(scalar)});
   return cluster;
-}
-
-// Joins the pieces of two bricks that have the same core point.
-void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
-           std::vector<SharedPoint>::const_iterator end, UnionFind& sets) {
-  auto it = own.begin();
-  for (; begin != end; ++begin) {
-    while (it != own.end() && it->number < begin->number)
-      ++it;
-    if (it == own.end()) return;
-    if (it->number == begin->number) sets.unite(it->piece, begin->piece);
-  }
-}
-
-}  // namespace
-
-void join_pieces(const BrickClusterer& clusterer, const ClusterOptions& options, ScalarType scalar,
-                 SpillFile& file, std::vector<StoredCluster>& clusters, Counts& counts) {
-  const std::vector<Piece>& pieces = clusterer.pieces();
-  const std::size_t step = record_bytes(scalar);
-  UnionFind sets;
-  sets.reset(pieces.size());
-  for (std::uint32_t brick = 0; brick < clusterer.brick_count(); ++brick) {
-    const std::vector<SharedPoint> others = clusterer.other_points(brick);
-    for (auto begin = others.begin(); begin != others.end();) {
-      const std::uint32_t owner = begin->owner;
-      const auto end =
-          std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
-      unite(clusterer.own_points(owner), begin, end, sets);
-      begin = end;
-    }
-  }
-  const std::vector<std::uint32_t>& roots = sets.roots();
-  std::vector<std::uint32_t> order(pieces.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return roots[a] < roots[b]; });
-  std::vector<Piece> of_cluster;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    of_cluster.push_back(pieces[order[i]]);
-    if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
-    std::uint64_t points = 0;
-    for (const Piece& piece : of_cluster)
-      points += piece.points;
-    if (is_size_allowed(options, points)) {
-      clusters.push_back(merge(of_cluster, step, file));
-    } else {
-      count_dropped(options, points, points, counts);
-    }
-    for (const Piece& piece : of_cluster)
-      file.discard({piece.offset, piece.points * step});
-    of_cluster.clear();
-  }
 }
 
 }  // namespace pcl_bv::detail

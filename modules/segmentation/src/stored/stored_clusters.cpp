@@ -29,7 +29,7 @@ class SpillSource final : public PointSource {
       : file_(file), cluster_(cluster), scalar_(scalar) {}
 
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
-    const std::size_t step = 3 * size_of(scalar_);
+    const std::size_t step = point_bytes(scalar_);
     if (buffer.size() < count * step) buffer.resize(count * step);
     file_.read(cluster_.offset + first * step, buffer.data(), count * step);
     return packed_points(buffer.data(), scalar_, count, first);
@@ -115,17 +115,6 @@ std::size_t count_cells(const PointView& points, const ParallelPolicy& policy, B
   return invalid;
 }
 
-// Writes a point's coordinates in the scalar type of the cloud, which is exact.
-void set_coordinates(const Coordinates& p, ScalarType scalar, std::byte* to) {
-  if (scalar == ScalarType::float32) {
-    const float xyz[3] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    std::memcpy(to, xyz, sizeof xyz);
-  } else {
-    const double xyz[3] = {p.x, p.y, p.z};
-    std::memcpy(to, xyz, sizeof xyz);
-  }
-}
-
 // Records of points, and the brick of each.
 struct PlacedPoints {
   std::vector<std::byte> records;
@@ -142,15 +131,15 @@ struct PlacedPoints {
 };
 
 void place_points(const PointView& part, std::size_t first, const Bricks& bricks, PlacedPoints& placed) {
-  const std::size_t step = 3 * size_of(part.scalar);
-  std::byte record[kMaxRecordBytes];
+  const std::size_t step = point_bytes(part.scalar);
+  std::byte record[record_bytes(ScalarType::float64)];
   Bricks::Cursor cursor;
   for (std::size_t i = 0; i < part.count; ++i) {
     const Coordinates p = load_point(part, i);
     if (!is_valid(p)) continue;
     const Bricks::Place place = bricks.place(p, cursor);
     if (place.own == Bricks::kNone) throw std::runtime_error("the points have changed while they were read");
-    set_coordinates(p, part.scalar, record);
+    write_coordinates(p, part.scalar, record);
     const auto add = [&](std::uint32_t brick, std::uint64_t number) {
       std::memcpy(record + step, &number, sizeof number);
       placed.add(record, step + sizeof number, brick);
@@ -192,7 +181,41 @@ struct StoredClusters::State {
   std::vector<StoredCluster> clusters;
   Counts counts;
   std::size_t bricks = 0;
+
+  void add_pieces(const BrickComponents& components, const std::vector<Piece>& pieces,
+                  const ClusterOptions& options);
+  void sort();
 };
+
+// Adds the clusters that consist of pieces and have an allowed size. Counts the points of the others.
+void StoredClusters::State::add_pieces(const BrickComponents& components, const std::vector<Piece>& pieces,
+                                       const ClusterOptions& options) {
+  UnionFind sets;
+  sets.reset(pieces.size());
+  join_pieces(components, 0, sets);
+  const std::vector<std::uint32_t>& roots = sets.roots();
+  const std::vector<std::uint32_t> order = order_by_root(roots);
+  std::vector<Piece> of_cluster;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    of_cluster.push_back(pieces[order[i]]);
+    if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
+    std::uint64_t points = 0;
+    for (const Piece& piece : of_cluster)
+      points += piece.points;
+    if (is_size_allowed(options, points)) {
+      clusters.push_back(merge_pieces(of_cluster, scalar, file));
+    } else {
+      count_dropped(options, points, points, counts);
+    }
+    of_cluster.clear();
+  }
+}
+
+void StoredClusters::State::sort() {
+  std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
+    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
+  });
+}
 
 StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& options,
                                const StoredClusterOptions& store, const Execution& execution) {
@@ -210,21 +233,21 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
   bricks.divide(std::max(store.points_in_memory, points.count / max_bricks));
   state.bricks = bricks.size();
   std::vector<SpillList> lists = distribute(points, bricks, execution.parallel, state.file);
-  BrickClusterer clusterer(bricks, points.scalar, options, execution, state.file);
+  BrickComponents components(bricks, points.scalar, options, PieceRule::shared, execution, state.file);
+  BrickClusters clusters(components, options, store, state.file);
   std::vector<std::byte> records;
   for (std::uint32_t brick = 0; brick < lists.size(); ++brick) {
     lists[brick].read(state.file, records);
     lists[brick].discard(state.file);
-    clusterer.add(brick, records);
+    components.add(brick, records, record_bytes(points.scalar));
+    clusters.add(records, record_bytes(points.scalar));
   }
-  state.clusters = clusterer.take_clusters();
-  state.counts.small = clusterer.counts().small;
-  state.counts.large = clusterer.counts().large;
-  state.counts.noise = clusterer.counts().noise;
-  join_pieces(clusterer, options, points.scalar, state.file, state.clusters, state.counts);
-  std::sort(state.clusters.begin(), state.clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
-    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
-  });
+  state.clusters = clusters.take_clusters();
+  state.counts.small = clusters.counts().small;
+  state.counts.large = clusters.counts().large;
+  state.counts.noise = components.noise_points();
+  state.add_pieces(components, clusters.pieces(), options);
+  state.sort();
 }
 
 StoredClusters::~StoredClusters() = default;
@@ -243,6 +266,10 @@ std::size_t StoredClusters::point_count(std::size_t cluster) const {
   return state_->clusters[cluster].points;
 }
 
+std::size_t StoredClusters::visit_number(std::size_t cluster) const {
+  return state_->clusters[cluster].visit;
+}
+
 const Counts& StoredClusters::counts() const {
   return state_->counts;
 }
@@ -252,7 +279,7 @@ StoredClusters::Points StoredClusters::points(std::size_t cluster) const {
   const StoredCluster& stored = state.clusters[cluster];
   Points points;
   if (stored.points <= kChunkPoints) {
-    points.bytes_.resize(3 * size_of(state.scalar) * stored.points);
+    points.bytes_.resize(point_bytes(state.scalar) * stored.points);
     state.file.read(stored.offset, points.bytes_.data(), points.bytes_.size());
     points.view_ = packed_points(points.bytes_.data(), state.scalar, stored.points);
   } else {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct StoredClusterOptions {
   std::size_t points_in_memory = std::size_t{4} << 20;
   /// Where the temporary file is made; empty for the system's folder of temporary files.
   std::filesystem::path folder;
+  /// If set, is called with the clusters of a brick while their points are in memory, which saves writing
+  /// them to the temporary file. These are the clusters of allowed sizes that have no part in other bricks.
+  /// Visited clusters are numbered over all calls. Points are in the order of the cloud.
+  std::function<void(const std::vector<PointView>& clusters)> visit{};
+  /// Whether visited clusters have points(), too.
+  bool keep_visited = true;
 };
 
 /// The clusters of EuclideanClusterer for a cloud of any size. Their points are in a temporary file, which
@@ -38,6 +45,8 @@ struct StoredClusterOptions {
 /// the whole cloud.
 class StoredClusters {
  public:
+  static constexpr std::size_t kNotVisited = ~std::size_t{0};
+
   /// Finds the clusters of the valid points. Takes two passes over the points. The order of the passes does
   /// not depend on the execution, nor does the result.
   ///
@@ -62,6 +71,9 @@ class StoredClusters {
 
   /// Number of points of a cluster.
   std::size_t point_count(std::size_t cluster) const;
+
+  /// Number of the cluster among the visited clusters (StoredClusterOptions::visit), or kNotVisited.
+  std::size_t visit_number(std::size_t cluster) const;
 
   /// The points of a cluster in the order of the cloud, in memory or in the temporary file.
   class Points {
