@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
+#include <unordered_map>
 #include <utility>
 
 #include "commands/shared/messages.h"
@@ -52,51 +54,39 @@ class ObjectFitter {
         execution_(options.pipeline.execution()) {}
 
   /// Fits volumes to clusters in memory (StoredClusterOptions::visit).
-  void visit(const std::vector<PointView>& clusters) {
-    const std::size_t before = visited_.size();
-    visited_.resize(before + clusters.size());
-    std::vector<std::size_t> small;
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-      if (clusters[i].count > kManyPoints)
-        fit(clusters[i], execution_, visited_[before + i]);
-      else
-        small.push_back(i);
-    }
-    for_each_small(small.size(), [&](std::size_t i, const Execution& execution) {
-      fit(clusters[small[i]], execution, visited_[before + small[i]]);
+  void visit(std::size_t brick, const std::vector<PointView>& clusters, const Execution& execution) {
+    std::vector<Object> objects(clusters.size());
+    const Execution serial{Serial{}, execution.isa};
+    for_each_range(execution.parallel, clusters.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        fit(clusters[i], serial, objects[i]);
     });
+    const std::lock_guard lock(mutex_);
+    visited_[brick] = std::move(objects);
   }
 
   /// Returns the objects of all clusters. To be called once.
   std::vector<Object> fit(const StoredClusters& clusters) {
     std::vector<Object> objects(clusters.size());
     const auto fit_or_take = [&](std::size_t i, const Execution& execution) {
-      const std::size_t visit = clusters.visit_number(i);
-      if (visit == StoredClusters::kNotVisited)
-        fit(clusters.points(i).view(), execution, objects[i]);
+      if (const auto visit = clusters.visit(i))
+        objects[i] = std::move(visited_.at(visit->brick)[visit->number]);
       else
-        objects[i] = std::move(visited_[visit]);
+        fit(clusters.points(i).view(), execution, objects[i]);
     };
     std::size_t first_small = 0;  // clusters are sorted by size
     for (; first_small < objects.size() && clusters.point_count(first_small) > kManyPoints; ++first_small)
       fit_or_take(first_small, execution_);
-    for_each_small(objects.size() - first_small, [&](std::size_t i, const Execution& execution) {
-      fit_or_take(first_small + i, execution);
-    });
+    const Execution serial{Serial{}, execution_.isa};
+    for_each_range(execution_.parallel, objects.size() - first_small, kAtATime,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t i = first_small + begin; i < first_small + end; ++i)
+                       fit_or_take(i, serial);
+                   });
     return objects;
   }
 
  private:
-  // Calls work(i, execution) for small clusters, which each use one thread.
-  template <typename Work>
-  void for_each_small(std::size_t count, const Work& work) const {
-    const Execution serial{Serial{}, execution_.isa};
-    for_each_range(execution_.parallel, count, kAtATime, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        work(i, serial);
-    });
-  }
-
   void fit(const PointView& points, const Execution& execution, Object& object) const {
     object.verdict = extent_verdict(points, options_.pipeline.cluster, method_options_.up, execution);
     if (object.verdict != ExtentVerdict::keep) return;
@@ -116,7 +106,8 @@ class ObjectFitter {
   std::vector<const Method*> methods_;
   MethodOptions method_options_;
   Execution execution_;
-  std::vector<Object> visited_;
+  std::mutex mutex_;
+  std::unordered_map<std::size_t, std::vector<Object>> visited_;  // by brick
 };
 
 void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Report& report) {
@@ -139,7 +130,9 @@ void add_objects_of(const PointView& cloud, const Options& options, Report& repo
   ObjectFitter fitter(options);
   StoredClusterOptions store;
   store.points_in_memory = std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1);
-  store.visit = [&](const std::vector<PointView>& found) { fitter.visit(found); };
+  store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& part) {
+    fitter.visit(brick, found, part);
+  };
   store.keep_visited = false;
   const StoredClusters clusters(filtered.points, ClassTable(config).default_options(), store, execution);
   report.points = cloud.count;

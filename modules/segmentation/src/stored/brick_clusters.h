@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "brick_components.h"
@@ -30,7 +31,7 @@ inline void count_dropped(const ClusterOptions& options, std::uint64_t added, st
 struct StoredCluster {
   std::uint64_t offset, points;
   std::uint64_t first_number;  ///< Smallest number of its points.
-  std::size_t visit = StoredClusters::kNotVisited;
+  std::optional<StoredVisit> visit{};
 };
 
 /// The points of a piece, as records in the temporary file.
@@ -38,39 +39,37 @@ struct Piece {
   std::uint64_t offset, points;
 };
 
+/// What is left of a brick.
+struct BrickResult {
+  std::vector<StoredCluster> clusters;  ///< Clusters of allowed sizes with all their points in the brick.
+  std::vector<Piece> pieces;
+  SharedPoints shared;
+  Counts counts;  ///< Points of noise, and of clusters in the brick that are dropped because of their size.
+};
+
+/// Writes the points of bricks. Several objects may write to the same file at the same time.
 class BrickClusters {
  public:
   /// `visit` and `keep_visited` are those of StoredClusterOptions.
   BrickClusters(const BrickComponents& components, const ClusterOptions& options,
-                const StoredClusterOptions& store, SpillFile& file)
-      : components_(components), options_(options), store_(store), file_(file) {}
+                const StoredClusterOptions& store, const Execution& execution, SpillFile& file)
+      : components_(components), options_(options), store_(store), execution_(execution), file_(file) {}
 
-  /// Adds the brick that was added to the components last, with its records.
-  void add(const std::vector<std::byte>& records, std::size_t step);
-
-  /// Clusters with all their points in one brick. To be called once.
-  std::vector<StoredCluster> take_clusters() { return std::move(clusters_); }
-
-  const std::vector<Piece>& pieces() const { return pieces_; }
-
-  /// Points of clusters in one brick that are dropped because of their size.
-  const Counts& counts() const { return counts_; }
+  /// Writes the brick whose components were found last.
+  BrickResult write(std::uint32_t brick, const std::vector<std::byte>& records, std::size_t step);
 
  private:
-  void make_room();
-  void write_clusters(std::size_t first);
+  void make_room(std::vector<Piece>& pieces);
+  void write_clusters(std::uint32_t brick, std::vector<StoredCluster>& clusters);
 
   const BrickComponents& components_;
   ClusterOptions options_;
   const StoredClusterOptions& store_;
+  Execution execution_;
   SpillFile& file_;
   std::vector<std::uint64_t> next_;  // for each component, the position of its next point in a buffer
-  std::vector<std::uint32_t> seen_;  // for each component, whether it is in clusters_
+  std::vector<std::uint8_t> seen_;   // for each component, whether it is in the list of clusters
   std::vector<std::byte> points_of_clusters_, points_of_pieces_;  // buffers
-  std::vector<StoredCluster> clusters_;
-  std::vector<Piece> pieces_;
-  std::size_t visited_ = 0;
-  Counts counts_;
 };
 
 }  // namespace pcl_bv::detail

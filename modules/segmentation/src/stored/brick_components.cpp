@@ -4,7 +4,6 @@
 #include "brick_components.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace pcl_bv::detail {
 
@@ -12,16 +11,17 @@ BrickComponents::BrickComponents(const Bricks& bricks, ScalarType scalar, const 
                                  PieceRule rule, const Execution& execution, SpillFile& file)
     : bricks_(bricks), scalar_(scalar), options_(options), rule_(rule), execution_(execution), file_(file) {}
 
-void BrickComponents::add(std::uint32_t brick, const std::vector<std::byte>& records, std::size_t step) {
+void BrickComponents::find(std::uint32_t brick, const std::vector<std::byte>& records, std::size_t step) {
   const PointView view = view_of_records(records, step, scalar_);
   ComponentAccess::find(clusterer_, view, options_, execution_.parallel, found_);
   measure(view);
-  number_pieces(rule_);
+  number_pieces();
   write_shared(brick, view);
 }
 
 // Counts the points of each component that belong to the brick, and finds the components that are shared.
 void BrickComponents::measure(const PointView& records) {
+  noise_points_ = 0;
   components_.assign(records.count + 1, {});
   shared_.assign(records.count, 0);
   for (std::size_t i = 0; i < records.count; ++i) {
@@ -41,11 +41,10 @@ void BrickComponents::measure(const PointView& records) {
 }
 
 // A component without points of this brick needs no piece: the bricks of its points find the same links.
-void BrickComponents::number_pieces(PieceRule rule) {
+void BrickComponents::number_pieces() {
+  pieces_ = 0;
   for (Component& component : components_) {
-    if (component.points == 0 || (rule == PieceRule::shared && !component.shared)) continue;
-    if (pieces_ == kNoPiece) throw std::length_error("too many parts of clusters: use more memory");
-    component.piece = pieces_++;
+    if (component.points > 0 && (rule_ == PieceRule::all || component.shared)) component.piece = pieces_++;
   }
 }
 
@@ -66,18 +65,11 @@ void BrickComponents::write_shared(std::uint32_t brick, const PointView& records
   }
   std::stable_sort(others.begin(), others.end(),
                    [](const SharedPoint& a, const SharedPoint& b) { return a.owner < b.owner; });
-  own_.push_back(write(own));
-  others_.push_back(write(others));
+  shared_points_ = {write(own), write(others)};
 }
 
 Extent BrickComponents::write(const std::vector<SharedPoint>& points) {
   return file_.append(points.data(), points.size() * sizeof(SharedPoint));
-}
-
-std::vector<SharedPoint> BrickComponents::read(const Extent& extent) const {
-  std::vector<SharedPoint> points(extent.bytes / sizeof(SharedPoint));
-  file_.read(extent.offset, points.data(), extent.bytes);
-  return points;
 }
 
 }  // namespace pcl_bv::detail

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the components of bricks one after another.
+// Finds the components of a brick.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,14 @@ namespace pcl_bv::detail {
 /// A core point that two bricks have, and its piece in one of them.
 struct SharedPoint {
   std::uint64_t number;
-  std::uint32_t piece;
+  std::uint32_t piece;  ///< Number of the piece in its brick.
   std::uint32_t owner;  ///< The brick to which the point belongs.
+};
+
+/// The shared points of a brick in the temporary file.
+struct SharedPoints {
+  Extent own;     ///< Those that belong to the brick, by ascending number.
+  Extent others;  ///< Those that belong to other bricks, by owner and ascending number.
 };
 
 /// Which components of bricks become pieces, which can be joined with others.
@@ -30,15 +36,15 @@ enum class PieceRule {
   all
 };
 
-/// A piece is the part of a cluster that belongs to one brick.
+/// Finds the components of one brick after another. A piece is the part of a cluster that belongs to a brick.
 class BrickComponents {
  public:
   static constexpr std::uint32_t kNoPiece = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNoise = ~std::uint32_t{0};
 
-  /// A component of the brick that was added last.
   struct Component {
     std::uint64_t points = 0;        ///< Points that belong to the brick.
-    std::uint32_t piece = kNoPiece;  ///< Number of the piece, counted over all bricks.
+    std::uint32_t piece = kNoPiece;  ///< Number of the piece in the brick.
     bool shared = false;             ///< Whether it has a core point that two bricks have.
   };
 
@@ -47,39 +53,27 @@ class BrickComponents {
 
   ScalarType scalar() const { return scalar_; }
 
-  /// Adds a brick with its records, each of `step` bytes. Bricks must come in ascending order, and the
-  /// records of a brick in the order of their numbers.
-  void add(std::uint32_t brick, const std::vector<std::byte>& records, std::size_t step);
-
-  // About the brick that was added last.
+  /// Finds the components of a brick with records of `step` bytes, in the order of their numbers. Writes the
+  /// shared points. All results are about this brick until the next call.
+  void find(std::uint32_t brick, const std::vector<std::byte>& records, std::size_t step);
 
   /// Returns the components. Some have no points.
   const std::vector<Component>& components() const { return components_; }
+  std::uint32_t piece_count() const { return pieces_; }
   /// Returns the component of a record; kNoise for noise.
   std::uint32_t component_of(std::size_t record) const {
     return found_.component[record] == found_.noise ? kNoise : found_.component[record];
   }
-  static constexpr std::uint32_t kNoise = ~std::uint32_t{0};
   /// Returns whether a record is known to be a core point. Of a record that belongs to another brick this is
   /// not always known.
   bool is_core(std::size_t record) const { return found_.core[record] != 0; }
-
-  // About all bricks.
-
-  std::size_t brick_count() const { return own_.size(); }
-  std::uint32_t piece_count() const { return pieces_; }
   std::uint64_t noise_points() const { return noise_points_; }
-
-  /// Returns the shared points of a brick that belong to it, by ascending number.
-  std::vector<SharedPoint> own_points(std::uint32_t brick) const { return read(own_[brick]); }
-  /// Returns the shared points of a brick that belong to other bricks, by owner and ascending number.
-  std::vector<SharedPoint> other_points(std::uint32_t brick) const { return read(others_[brick]); }
+  const SharedPoints& shared_points() const { return shared_points_; }
 
  private:
   void measure(const PointView& records);
-  void number_pieces(PieceRule rule);
+  void number_pieces();
   void write_shared(std::uint32_t brick, const PointView& records);
-  std::vector<SharedPoint> read(const Extent& extent) const;
   Extent write(const std::vector<SharedPoint>& points);
 
   const Bricks& bricks_;
@@ -92,7 +86,7 @@ class BrickComponents {
   PointComponents found_;
   std::vector<Component> components_;
   std::vector<std::uint8_t> shared_;  // for each record, whether other bricks have the point
-  std::vector<Extent> own_, others_;
+  SharedPoints shared_points_;
   std::uint32_t pieces_ = 0;
   std::uint64_t noise_points_ = 0;
 };

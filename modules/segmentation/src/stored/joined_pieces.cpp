@@ -53,28 +53,38 @@ class PieceReader {
   std::vector<std::byte> buffer_;
 };
 
-// Joins the pieces of two bricks that have the same core point.
-void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
-           std::vector<SharedPoint>::const_iterator end, std::uint32_t first_set, UnionFind& sets) {
+std::vector<SharedPoint> read(const SpillFile& file, const Extent& extent) {
+  std::vector<SharedPoint> points(extent.bytes / sizeof(SharedPoint));
+  file.read(extent.offset, points.data(), extent.bytes);
+  return points;
+}
+
+// Calls visit(piece, other piece) for points that are in both lists, which are sorted by number.
+template <typename Visit>
+void for_each_pair(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
+                   std::vector<SharedPoint>::const_iterator end, const Visit& visit) {
   auto it = own.begin();
   for (; begin != end; ++begin) {
     while (it != own.end() && it->number < begin->number)
       ++it;
     if (it == own.end()) return;
-    if (it->number == begin->number) sets.unite(first_set + it->piece, first_set + begin->piece);
+    if (it->number == begin->number) visit(it->piece, begin->piece);
   }
 }
 
 }  // namespace
 
-void join_pieces(const BrickComponents& components, std::uint32_t first_set, UnionFind& sets) {
-  for (std::uint32_t brick = 0; brick < components.brick_count(); ++brick) {
-    const std::vector<SharedPoint> others = components.other_points(brick);
+void join_pieces(const std::vector<BrickResult>& bricks, const std::vector<std::uint32_t>& first_set,
+                 const SpillFile& file, UnionFind& sets) {
+  for (std::size_t brick = 0; brick < bricks.size(); ++brick) {
+    const std::vector<SharedPoint> others = read(file, bricks[brick].shared.others);
     for (auto begin = others.begin(); begin != others.end();) {
       const std::uint32_t owner = begin->owner;
       const auto end =
           std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
-      unite(components.own_points(owner), begin, end, first_set, sets);
+      for_each_pair(read(file, bricks[owner].shared.own), begin, end, [&](std::uint32_t a, std::uint32_t b) {
+        sets.unite(first_set[owner] + a, first_set[brick] + b);
+      });
       begin = end;
     }
   }

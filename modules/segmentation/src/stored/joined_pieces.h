@@ -11,8 +11,9 @@
 
 namespace pcl_bv::detail {
 
-/// Joins the sets of pieces that have a core point in common. Piece p is the set `first_set` + p.
-void join_pieces(const BrickComponents& components, std::uint32_t first_set, UnionFind& sets);
+/// Joins the sets of pieces that have a core point in common. Piece p of brick b is the set first_set[b] + p.
+void join_pieces(const std::vector<BrickResult>& bricks, const std::vector<std::uint32_t>& first_set,
+                 const SpillFile& file, UnionFind& sets);
 
 /// Returns the numbers 0 to roots.size() - 1, ordered by their roots.
 std::vector<std::uint32_t> order_by_root(const std::vector<std::uint32_t>& roots);

@@ -4,11 +4,13 @@
 #include "pcl_bv/segmentation/stored_clusters.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "brick_clusters.h"
+#include "brick_components.h"
 #include "bricks.h"
 #include "components.h"
 #include "joined_pieces.h"
@@ -171,6 +173,36 @@ std::vector<SpillList> distribute(const PointView& points, const Bricks& bricks,
   return lists;
 }
 
+// Bricks with fewer points have too many points of their neighbours.
+constexpr std::size_t kFewPoints = 1U << 18U;
+
+std::size_t bricks_at_a_time(const StoredClusterOptions& store, const ParallelPolicy& policy) {
+  return std::clamp<std::size_t>(store.points_in_memory / kFewPoints, 1, thread_count(policy));
+}
+
+// Clusters the points of all bricks. Several bricks are in memory at a time, each for one thread.
+std::vector<BrickResult> work_on(const Bricks& bricks, const std::vector<SpillList>& lists, ScalarType scalar,
+                                 const ClusterOptions& options, const StoredClusterOptions& store,
+                                 const Execution& execution, SpillFile& file) {
+  const std::size_t workers = std::min(bricks_at_a_time(store, execution.parallel), lists.size());
+  const Execution of_worker = workers > 1 ? Execution{Serial{}, execution.isa} : execution;
+  std::vector<BrickResult> results(lists.size());
+  std::atomic<std::size_t> next = 0;
+  for_each_chunk(workers > 1 ? execution.parallel : ParallelPolicy{Serial{}}, workers, [&](std::size_t) {
+    BrickComponents components(bricks, scalar, options, PieceRule::shared, of_worker, file);
+    BrickClusters clusters(components, options, store, of_worker, file);
+    std::vector<std::byte> records;
+    for (std::size_t i = next++; i < lists.size(); i = next++) {
+      const auto brick = static_cast<std::uint32_t>(i);
+      lists[i].read(file, records);
+      lists[i].discard(file);
+      components.find(brick, records, record_bytes(scalar));
+      results[i] = clusters.write(brick, records, record_bytes(scalar));
+    }
+  });
+  return results;
+}
+
 }  // namespace
 
 struct StoredClusters::State {
@@ -180,19 +212,39 @@ struct StoredClusters::State {
   ScalarType scalar = ScalarType::float32;
   std::vector<StoredCluster> clusters;
   Counts counts;
-  std::size_t bricks = 0;
+  std::size_t brick_count = 0;
 
-  void add_pieces(const BrickComponents& components, const std::vector<Piece>& pieces,
-                  const ClusterOptions& options);
-  void sort();
+  void add(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
+  void add_pieces(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
 };
 
+void StoredClusters::State::add(const std::vector<BrickResult>& bricks, const ClusterOptions& options) {
+  for (const BrickResult& brick : bricks) {
+    clusters.insert(clusters.end(), brick.clusters.begin(), brick.clusters.end());
+    counts.small += brick.counts.small;
+    counts.large += brick.counts.large;
+    counts.noise += brick.counts.noise;
+  }
+  add_pieces(bricks, options);
+  std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
+    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
+  });
+}
+
 // Adds the clusters that consist of pieces and have an allowed size. Counts the points of the others.
-void StoredClusters::State::add_pieces(const BrickComponents& components, const std::vector<Piece>& pieces,
+void StoredClusters::State::add_pieces(const std::vector<BrickResult>& bricks,
                                        const ClusterOptions& options) {
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> first_set;
+  for (const BrickResult& brick : bricks) {
+    first_set.push_back(static_cast<std::uint32_t>(pieces.size()));
+    pieces.insert(pieces.end(), brick.pieces.begin(), brick.pieces.end());
+    if (pieces.size() > std::numeric_limits<std::uint32_t>::max())
+      throw std::length_error("too many parts of clusters: use more memory");
+  }
   UnionFind sets;
   sets.reset(pieces.size());
-  join_pieces(components, 0, sets);
+  join_pieces(bricks, first_set, file, sets);
   const std::vector<std::uint32_t>& roots = sets.roots();
   const std::vector<std::uint32_t> order = order_by_root(roots);
   std::vector<Piece> of_cluster;
@@ -211,12 +263,6 @@ void StoredClusters::State::add_pieces(const BrickComponents& components, const 
   }
 }
 
-void StoredClusters::State::sort() {
-  std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
-    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
-  });
-}
-
 StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& options,
                                const StoredClusterOptions& store, const Execution& execution) {
   const FloatEnvironment environment;
@@ -230,24 +276,11 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
   state.counts.nonfinite = count_cells(points, execution.parallel, bricks);
   // More bricks would need more memory for their lists than for their points.
   constexpr std::size_t max_bricks = 16'384;
-  bricks.divide(std::max(store.points_in_memory, points.count / max_bricks));
-  state.bricks = bricks.size();
-  std::vector<SpillList> lists = distribute(points, bricks, execution.parallel, state.file);
-  BrickComponents components(bricks, points.scalar, options, PieceRule::shared, execution, state.file);
-  BrickClusters clusters(components, options, store, state.file);
-  std::vector<std::byte> records;
-  for (std::uint32_t brick = 0; brick < lists.size(); ++brick) {
-    lists[brick].read(state.file, records);
-    lists[brick].discard(state.file);
-    components.add(brick, records, record_bytes(points.scalar));
-    clusters.add(records, record_bytes(points.scalar));
-  }
-  state.clusters = clusters.take_clusters();
-  state.counts.small = clusters.counts().small;
-  state.counts.large = clusters.counts().large;
-  state.counts.noise = components.noise_points();
-  state.add_pieces(components, clusters.pieces(), options);
-  state.sort();
+  bricks.divide(std::max(store.points_in_memory / bricks_at_a_time(store, execution.parallel),
+                         points.count / max_bricks));
+  state.brick_count = bricks.size();
+  const std::vector<SpillList> lists = distribute(points, bricks, execution.parallel, state.file);
+  state.add(work_on(bricks, lists, points.scalar, options, store, execution, state.file), options);
 }
 
 StoredClusters::~StoredClusters() = default;
@@ -259,14 +292,14 @@ std::size_t StoredClusters::size() const {
 }
 
 std::size_t StoredClusters::brick_count() const {
-  return state_->bricks;
+  return state_->brick_count;
 }
 
 std::size_t StoredClusters::point_count(std::size_t cluster) const {
   return state_->clusters[cluster].points;
 }
 
-std::size_t StoredClusters::visit_number(std::size_t cluster) const {
+std::optional<StoredVisit> StoredClusters::visit(std::size_t cluster) const {
   return state_->clusters[cluster].visit;
 }
 

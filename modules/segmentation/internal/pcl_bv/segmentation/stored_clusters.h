@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/parallel/execution.h"
@@ -20,6 +21,12 @@ namespace [[gnu::visibility("default")]] detail {
 
 class SpillFile;
 
+/// Identifies a cluster that was visited (StoredClusterOptions::visit).
+struct StoredVisit {
+  std::size_t brick = 0;
+  std::size_t number = 0;  ///< Among the clusters of the call.
+};
+
 struct StoredClusterOptions {
   /// Maximum number of points in memory. A single cell of the grid and the points near a brick may exceed it,
   /// and there are at most 16 384 bricks. A point takes up to 150 bytes, a double point 250.
@@ -28,8 +35,10 @@ struct StoredClusterOptions {
   std::filesystem::path folder;
   /// If set, is called with the clusters of a brick while their points are in memory, which saves writing
   /// them to the temporary file. These are the clusters of allowed sizes that have no part in other bricks.
-  /// Visited clusters are numbered over all calls. Points are in the order of the cloud.
-  std::function<void(const std::vector<PointView>& clusters)> visit{};
+  /// Points are in the order of the cloud. There is at most one call for each brick. Several threads may call
+  /// at the same time, each with the execution that the call may use.
+  std::function<void(std::size_t brick, const std::vector<PointView>& clusters, const Execution& execution)>
+      visit{};
   /// Whether visited clusters have points(), too.
   bool keep_visited = true;
 };
@@ -45,8 +54,6 @@ struct StoredClusterOptions {
 /// the whole cloud.
 class StoredClusters {
  public:
-  static constexpr std::size_t kNotVisited = ~std::size_t{0};
-
   /// Finds the clusters of the valid points. Takes two passes over the points. The order of the passes does
   /// not depend on the execution, nor does the result.
   ///
@@ -72,8 +79,8 @@ class StoredClusters {
   /// Number of points of a cluster.
   std::size_t point_count(std::size_t cluster) const;
 
-  /// Number of the cluster among the visited clusters (StoredClusterOptions::visit), or kNotVisited.
-  std::size_t visit_number(std::size_t cluster) const;
+  /// The visit of a cluster, or nothing if it was not visited.
+  std::optional<StoredVisit> visit(std::size_t cluster) const;
 
   /// The points of a cluster in the order of the cloud, in memory or in the temporary file.
   class Points {
