@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "brick_components.h"
+#include "pcl_bv/segmentation/cluster_share.h"
 #include "pcl_bv/segmentation/clusters.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
 #include "spill_file.h"
@@ -32,11 +33,20 @@ struct StoredCluster {
   std::uint64_t offset, points;
   std::uint64_t first_number;  ///< Smallest number of its points.
   std::optional<StoredVisit> visit{};
+  std::optional<ComponentOfShare> component{};  ///< If it is a component of a share.
 };
 
-/// The points of a piece, as records in the temporary file.
+/// A run of a share.
+struct PieceOfShare {
+  const ClusterShare* share = nullptr;
+  std::size_t number = 0;       ///< Of the share, among the shares that are merged.
+  std::uint32_t check_sum = 0;  ///< ShareRun::check_sum.
+};
+
+/// The points of a piece, as records in the temporary file or in a share.
 struct Piece {
   std::uint64_t offset, points;
+  PieceOfShare from{};
 };
 
 /// What is left of a brick.

@@ -8,50 +8,14 @@
 #include <numeric>
 #include <queue>
 
+#include "piece_reader.h"
+
 namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kReadBytes = 64U << 10U;     // of a piece at a time
 constexpr std::size_t kAllReadBytes = 64U << 20U;  // of all pieces of a cluster
 constexpr std::size_t kWriteBytes = 1U << 20U;
-
-// Reads the records of a piece one after another.
-class PieceReader {
- public:
-  PieceReader(const SpillFile& file, const Piece& piece, ScalarType scalar, std::size_t buffer_bytes)
-      : file_(&file),
-        at_(piece.offset),
-        left_(piece.points),
-        scalar_(scalar),
-        step_(record_bytes(scalar)),
-        max_records_(std::max<std::size_t>(buffer_bytes / step_, 1)) {
-    fill();
-  }
-
-  bool done() const { return position_ == buffer_.size(); }
-  const std::byte* record() const { return buffer_.data() + position_; }
-  std::uint64_t number() const { return number_of_record(record(), scalar_) & kNumberMask; }
-  void next() {
-    position_ += step_;
-    if (done()) fill();
-  }
-
- private:
-  void fill() {
-    const std::size_t records = std::min<std::uint64_t>(left_, max_records_);
-    buffer_.resize(records * step_);
-    file_->read(at_, buffer_.data(), buffer_.size());
-    at_ += buffer_.size();
-    left_ -= records;
-    position_ = 0;
-  }
-
-  const SpillFile* file_;
-  std::uint64_t at_, left_;
-  ScalarType scalar_;
-  std::size_t step_, max_records_, position_ = 0;
-  std::vector<std::byte> buffer_;
-};
 
 std::vector<SharedPoint> read(const SpillFile& file, const Extent& extent) {
   std::vector<SharedPoint> points(extent.bytes / sizeof(SharedPoint));
@@ -74,15 +38,15 @@ void for_each_pair(const std::vector<SharedPoint>& own, std::vector<SharedPoint>
 
 }  // namespace
 
-void join_pieces(const std::vector<BrickResult>& bricks, const std::vector<std::uint32_t>& first_set,
+void join_pieces(const std::vector<SharedPoints>& bricks, const std::vector<std::uint32_t>& first_set,
                  const SpillFile& file, UnionFind& sets) {
   for (std::size_t brick = 0; brick < bricks.size(); ++brick) {
-    const std::vector<SharedPoint> others = read(file, bricks[brick].shared.others);
+    const std::vector<SharedPoint> others = read(file, bricks[brick].others);
     for (auto begin = others.begin(); begin != others.end();) {
       const std::uint32_t owner = begin->owner;
       const auto end =
           std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
-      for_each_pair(read(file, bricks[owner].shared.own), begin, end, [&](std::uint32_t a, std::uint32_t b) {
+      for_each_pair(read(file, bricks[owner].own), begin, end, [&](std::uint32_t a, std::uint32_t b) {
         sets.unite(first_set[owner] + a, first_set[brick] + b);
       });
       begin = end;
@@ -125,7 +89,7 @@ StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, 
   }
   if (!points.empty()) write();
   for (const Piece& piece : pieces)
-    file.discard({piece.offset, piece.points * record_bytes(scalar)});
+    if (piece.from.share == nullptr) file.discard({piece.offset, piece.points * record_bytes(scalar)});
   return cluster;
 }
 

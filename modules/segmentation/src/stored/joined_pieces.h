@@ -12,7 +12,7 @@
 namespace pcl_bv::detail {
 
 /// Joins the sets of pieces that have a core point in common. Piece p of brick b is the set first_set[b] + p.
-void join_pieces(const std::vector<BrickResult>& bricks, const std::vector<std::uint32_t>& first_set,
+void join_pieces(const std::vector<SharedPoints>& bricks, const std::vector<std::uint32_t>& first_set,
                  const SpillFile& file, UnionFind& sets);
 
 /// Returns the numbers 0 to roots.size() - 1, ordered by their roots.

@@ -20,7 +20,9 @@ inline constexpr std::size_t kNumberBytes = sizeof(std::uint64_t);
 inline constexpr std::uint64_t kOfOtherBrick = std::uint64_t{1} << 63;
 /// Set in the number of a point that belongs to the brick and that other bricks have, too.
 inline constexpr std::uint64_t kInOtherBricks = std::uint64_t{1} << 62;
-inline constexpr std::uint64_t kNumberMask = kInOtherBricks - 1;
+/// Set in the number of a core point of a share.
+inline constexpr std::uint64_t kCore = std::uint64_t{1} << 61;
+inline constexpr std::uint64_t kNumberMask = kCore - 1;
 
 constexpr std::size_t point_bytes(ScalarType scalar) {
   return 3 * size_of(scalar);

@@ -31,7 +31,8 @@ int open_unnamed(const std::filesystem::path& folder) {
 
 }  // namespace
 
-SpillFile::SpillFile(const std::filesystem::path& folder) : folder_(folder), fd_(open_unnamed(folder)) {}
+SpillFile::SpillFile(const std::filesystem::path& folder)
+    : folder_(folder.empty() ? std::filesystem::temp_directory_path() : folder), fd_(open_unnamed(folder_)) {}
 
 SpillFile::~SpillFile() {
   ::close(fd_);

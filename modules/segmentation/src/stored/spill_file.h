@@ -21,7 +21,8 @@ struct Extent {
 /// ends. All functions may be called by several threads at the same time.
 class SpillFile {
  public:
-  /// Makes the file in a folder. Throws std::runtime_error with the reason.
+  /// Makes the file in a folder; an empty path is the system's folder of temporary files. Throws
+  /// std::runtime_error with the reason.
   explicit SpillFile(const std::filesystem::path& folder);
   ~SpillFile();
   SpillFile(const SpillFile&) = delete;
