@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numeric>
 
 #include "stored_scenes.h"
@@ -60,6 +61,26 @@ std::vector<const ClusterShare*> pointers(const Shares& shares) {
   return all;
 }
 
+// A cluster that is a component of a share has the points of that component.
+void expect_components_to_match(const Shares& shares, ClusterOptions options, const StoredClusters& joined) {
+  options.min_size = 1;
+  options.oversized = Oversized::keep;
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    const StoredClusters alone({shares[s].get()}, options);
+    std::map<std::uint32_t, std::size_t> number;  // of the component, to the number in `alone`
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      number[alone.component(i).value().number] = i;
+    EXPECT_EQ(number.size(), shares[s]->components().size());
+    const ClusterBytes of_share = bytes_of(alone), of_all = bytes_of(joined);
+    for (std::size_t i = 0; i < joined.size(); ++i) {
+      const auto component = joined.component(i);
+      if (component && component->share == s) {
+        EXPECT_EQ(of_all[i], of_share[number.at(component->number)]);
+      }
+    }
+  }
+}
+
 template <typename T>
 class ClusterSharesOf : public testing::Test {};
 using ScalarTypes = testing::Types<float, double>;
@@ -90,6 +111,7 @@ TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudForAnyTilingAndOrder)
     EXPECT_EQ(joined.counts().small, expected.small_points);
     EXPECT_EQ(joined.counts().large, expected.large_points);
     EXPECT_EQ(joined.counts().noise, expected.noise_points);
+    expect_components_to_match(shares, options, joined);
     if (testing::Test::HasFailure()) return;
   }
 }
