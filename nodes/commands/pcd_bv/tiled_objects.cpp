@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <numeric>
+#include <optional>
 #include <utility>
 
+#include "class_points.h"
 #include "commands/shared/messages.h"
+#include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/nodes/frame_result.h"
@@ -16,6 +21,7 @@
 #include "pipeline/class_table.h"
 #include "pipeline/extent_limits.h"
 #include "pipeline/filtered_view.h"
+#include "pipeline/ground_view.h"
 #include "process.h"
 #include "tiles.h"
 
@@ -41,14 +47,28 @@ double seconds_since(Clock::time_point begin) {
 struct Object {
   ExtentVerdict verdict = ExtentVerdict::keep;
   ClusterEntry entry;
+  Coordinates first;  // the cluster's first point
 };
+
+// Returns the requested methods for objects of a class, in the order of all methods.
+std::vector<const Method*> methods_of(const PipelineConfig& config, const ClassTable& table,
+                                      std::optional<std::int64_t> value) {
+  const std::vector<const Method*>& requested = table.methods_of(value);
+  std::vector<const Method*> methods = config.methods();
+  std::erase_if(methods, [&](const Method* method) {
+    return std::find(requested.begin(), requested.end(), method) == requested.end();
+  });
+  return methods;
+}
 
 class ObjectFitter {
  public:
-  ObjectFitter(const StoredClusters& clusters, const Options& options)
+  ObjectFitter(const StoredClusters& clusters, const Options& options, const ClassTable& table,
+               std::optional<std::int64_t> class_value)
       : clusters_(clusters),
         options_(options),
-        methods_(options.pipeline.methods()),
+        class_value_(class_value),
+        methods_(methods_of(options.pipeline, table, class_value)),
         method_options_(options.pipeline.method_options()) {}
 
   std::vector<Object> fit() const {
@@ -72,6 +92,8 @@ class ObjectFitter {
     object.verdict = extent_verdict(points.view(), options_.pipeline.cluster, method_options_.up, execution);
     if (object.verdict != ExtentVerdict::keep) return;
     object.entry.points = points.view().count;
+    object.entry.class_value = class_value_;
+    object.first = load_point(LoadedPoints(points.view(), 0, 1).view(), 0);
     std::vector<Fitted<AnyVolume>> fits = fit_methods(points.view(), methods_, method_options_, execution);
     for (std::size_t m = 0; m < methods_.size(); ++m) {
       VolumeEntry& entry = object.entry.volumes.emplace_back();
@@ -85,41 +107,148 @@ class ObjectFitter {
 
   const StoredClusters& clusters_;
   const Options& options_;
+  std::optional<std::int64_t> class_value_;
   std::vector<const Method*> methods_;
   MethodOptions method_options_;
 };
 
-void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Report& report) {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    Object& object = objects[i];
-    if (object.verdict == ExtentVerdict::small) report.counts.small += clusters.point_count(i);
-    if (object.verdict == ExtentVerdict::large) report.counts.large += clusters.point_count(i);
-    if (object.verdict != ExtentVerdict::keep) continue;
-    object.entry.id = report.clusters.size();
-    report.clusters.push_back(std::move(object.entry));
-  }
+// The points to be clustered, and the stages that have dropped others.
+struct RemainingPoints {
+  FilteredView filtered;
+  GroundView ground;
+  PointView points;
+};
+
+RemainingPoints remaining_points(const PointView& cloud, const PipelineConfig& config) {
+  RemainingPoints remaining;
+  remaining.filtered = filter_points(cloud, config.filter, config.execution());
+  remaining.points = remaining.filtered.points;
+  if (config.ground.method != GroundMethod::slope) return remaining;
+  remaining.ground = remove_slope_ground(remaining.points, config.ground, config.execution());
+  remaining.points = remaining.ground.points;
+  return remaining;
 }
 
+// Sets the numbers of points that are dropped before the clustering, to which `valid` points are left.
+void count_dropped(const RemainingPoints& remaining, std::size_t valid, Report& report) {
+  const bool filtered = remaining.filtered.owner != nullptr, ground = remaining.ground.owner != nullptr;
+  const std::size_t before = ground ? remaining.ground.valid : valid;
+  report.counts.nonfinite = filtered ? remaining.filtered.counts.nonfinite : remaining.points.count - before;
+  report.counts.range = remaining.filtered.counts.range;
+  report.counts.inside = remaining.filtered.counts.inside;
+  report.counts.ground = before - valid;
+}
+
+class TiledObjects {
+ public:
+  TiledObjects(const Options& options, ScalarType scalar, Report& report)
+      : options_(options), report_(report), table_(options.pipeline) {
+    store_.points_in_memory = std::max<std::size_t>(options.memory_bytes / bytes_per_point(scalar), 1);
+  }
+
+  // Adds the objects of all classes. They have the order of the objects of a cloud in memory.
+  void add_classes(const ClassifiedPoints& cloud, const RemainingPoints& remaining) {
+    const ParallelPolicy& policy = options_.pipeline.execution().parallel;
+    std::size_t valid = 0;
+    for (const auto& [value, count] : count_classes(cloud, policy)) {
+      valid += count;
+      const auto own = std::find_if(table_.class_options().begin(), table_.class_options().end(),
+                                    [value = value](const ClassOptions& one) { return one.value == value; });
+      const bool has_own = own != table_.class_options().end();
+      if (has_own && own->drop) {
+        report_.counts.dropped_class += count;
+      } else {
+        add_clusters(ClassPoints(cloud, value).view(), has_own ? own->clusters : table_.default_options(),
+                     value);
+      }
+    }
+    count_dropped(remaining, valid, report_);
+    sort(cloud, policy);
+  }
+
+  // Adds the objects of points without classes.
+  void add_all(const RemainingPoints& remaining) {
+    const std::size_t invalid = add_clusters(remaining.points, table_.default_options(), std::nullopt);
+    count_dropped(remaining, remaining.points.count - invalid, report_);
+  }
+
+  double fit_seconds() const { return fit_seconds_; }
+
+  void write_report() {
+    report_.clusters.clear();
+    for (Object& object : objects_) {
+      object.entry.id = report_.clusters.size();
+      report_.clusters.push_back(std::move(object.entry));
+    }
+  }
+
+ private:
+  // Returns the number of points that are not valid.
+  std::size_t add_clusters(const PointView& points, const ClusterOptions& options,
+                           std::optional<std::int64_t> value) {
+    const StoredClusters clusters(points, options, store_, options_.pipeline.execution());
+    Counts& counts = report_.counts;
+    counts.small += clusters.counts().small;
+    counts.large += clusters.counts().large;
+    counts.noise += clusters.counts().noise;
+    const Clock::time_point begin = Clock::now();
+    std::vector<Object> objects = ObjectFitter(clusters, options_, table_, value).fit();
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const ExtentVerdict verdict = objects[i].verdict;
+      if (verdict == ExtentVerdict::small) counts.small += clusters.point_count(i);
+      if (verdict == ExtentVerdict::large) counts.large += clusters.point_count(i);
+      if (verdict == ExtentVerdict::keep) objects_.push_back(std::move(objects[i]));
+    }
+    fit_seconds_ += seconds_since(begin);
+    return clusters.counts().nonfinite;
+  }
+
+  // Sorts the objects of several classes: the largest first, then by their first point.
+  void sort(const ClassifiedPoints& cloud, const ParallelPolicy& policy) {
+    std::vector<ClassPoint> firsts;
+    for (const Object& object : objects_)
+      firsts.push_back({object.first, *object.entry.class_value});
+    const bool one_class = std::all_of(firsts.begin(), firsts.end(), [&](const ClassPoint& point) {
+      return point.value == firsts.front().value;
+    });
+    if (one_class) return;
+    const std::vector<std::size_t> numbers = first_numbers(cloud, firsts, policy);
+    std::vector<std::size_t> order(objects_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const std::size_t size_a = objects_[a].entry.points, size_b = objects_[b].entry.points;
+      return size_a != size_b ? size_a > size_b : numbers[a] < numbers[b];
+    });
+    std::vector<Object> sorted;
+    for (const std::size_t i : order)
+      sorted.push_back(std::move(objects_[i]));
+    objects_ = std::move(sorted);
+  }
+
+  const Options& options_;
+  Report& report_;
+  ClassTable table_;
+  StoredClusterOptions store_;
+  std::vector<Object> objects_;
+  double fit_seconds_ = 0;
+};
+
 // Finds the clusters of a cloud, whose points may be in files, and fits the volumes.
-void add_objects_of(const PointView& cloud, const Options& options, Report& report) {
+void add_objects_of(const PointView& cloud, const Tiles& tiles, const Options& options, Report& report) {
   const Clock::time_point begin = Clock::now();
   const PipelineConfig& config = options.pipeline;
-  const Execution execution = config.execution();
-  const FilteredView filtered = filter_points(cloud, config.filter, execution);
-  const StoredClusters clusters(
-      filtered.points, ClassTable(config).default_options(),
-      {std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1), {}}, execution);
   report.points = cloud.count;
-  report.counts = clusters.counts();
-  if (filtered.owner != nullptr) {  // dropped points count as not finite then
-    report.counts.nonfinite = filtered.counts.nonfinite;
-    report.counts.range = filtered.counts.range;
-    report.counts.inside = filtered.counts.inside;
+  report.counts = Counts();
+  const RemainingPoints remaining = remaining_points(cloud, config);
+  TiledObjects objects(options, cloud.scalar, report);
+  if (const auto& field = config.cluster.class_field) {
+    objects.add_classes({remaining.points, tiles, field->name}, remaining);
+  } else {
+    objects.add_all(remaining);
   }
-  const double segment = seconds_since(begin);
-  report.clusters.clear();
-  add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
-  if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
+  objects.write_report();
+  const double all = seconds_since(begin);
+  if (options.timings) report.seconds = {0, all - objects.fit_seconds(), objects.fit_seconds()};
 }
 
 }  // namespace
@@ -130,7 +259,7 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   report.parts = job.tiles->included_count();
   report.origin = loaded.origin();
   try {
-    add_objects_of(loaded.xyz(), options, report);
+    add_objects_of(loaded.xyz(), *job.tiles, options, report);
   } catch (const TileError&) {
     throw;
   } catch (...) {
@@ -143,6 +272,8 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   counted.counts = report.counts;
   const std::string range = range_warning(counted, options.range_from);
   if (!range.empty()) report_problem(job.input + ": " + range);
+  const std::string ground = ground_warning(counted, option_names(false));
+  if (!ground.empty()) report_problem(job.input + ": " + ground);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info =
