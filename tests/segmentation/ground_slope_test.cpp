@@ -38,8 +38,7 @@ class Definition {
       const auto [at, inserted] = low_.emplace(cell(p), p[2]);
       if (!inserted) at->second = std::min(at->second, p[2]);
     }
-    for (const auto& [c, low] : low_)
-      if (!is_outlier(c)) sources_.emplace(c, low);
+    find_outliers();
     for (const auto& [c, low] : low_) {
       double height = INFINITY;
       for (const auto& [other, other_low] : sources_)
@@ -70,13 +69,39 @@ class Definition {
     const long dx = a[0] - b[0], dy = a[1] - b[1];
     return std::sqrt(static_cast<double>(dx * dx + dy * dy));
   }
-  bool is_outlier(const Cell& c) const {
-    int higher = 0, others = 0;
-    for (const auto& [other, low] : low_) {
-      if (other == c || distance(other, c) > 5) continue;
-      low > low_.at(c) + rise() * distance(other, c) + options_.distance ? ++higher : ++others;
+  bool is_above(const Cell& a, const Cell& b) const {
+    return low_.at(a) > low_.at(b) + rise() * distance(a, b) + options_.distance;
+  }
+  // Gives the cells of each patch the same number, and counts them.
+  void number_patches() {
+    for (const auto& [start, low] : low_) {
+      if (patch_.contains(start)) continue;
+      const std::size_t number = patch_size_.size();
+      std::vector<Cell> cells{start};
+      patch_[start] = number;
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Cell from = cells[i];
+        for (const auto& [to, to_low] : low_) {
+          if (distance(from, to) > 5 || is_above(from, to) || is_above(to, from)) continue;
+          if (patch_.emplace(to, number).second) cells.push_back(to);
+        }
+      }
+      patch_size_.push_back(cells.size());
     }
-    return higher >= 8 && others < 3;
+  }
+  bool is_below_large_patch(const Cell& c) const {
+    return std::any_of(low_.begin(), low_.end(), [&](const auto& other) {
+      return distance(c, other.first) <= 5 && is_above(other.first, c) &&
+             patch_size_[patch_.at(other.first)] >= 20;
+    });
+  }
+  void find_outliers() {
+    number_patches();
+    std::vector<bool> below(patch_size_.size());
+    for (const auto& [c, low] : low_)
+      if (is_below_large_patch(c)) below[patch_[c]] = true;
+    for (const auto& [c, low] : low_)
+      if (patch_size_[patch_[c]] >= 20 || !below[patch_[c]]) sources_.emplace(c, low);
   }
   double slope(const Cell& c, const Cell& step) const {
     const auto before = height_.find({c[0] - step[0], c[1] - step[1]}),
@@ -89,6 +114,8 @@ class Definition {
 
   GroundSlopeOptions options_;
   std::map<Cell, double> low_, sources_, height_;
+  std::map<Cell, std::size_t> patch_;
+  std::vector<std::size_t> patch_size_;
 };
 
 // Hills with boxes, pits and gaps.

@@ -16,10 +16,11 @@ namespace {
 constexpr std::size_t kCellsAtATime = 4096;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Cells within kRadius are compared with a possible outlier. It is no outlier if kEnoughSimilar of them
-// are similar or lower, or if fewer than kEnoughHigher are clearly higher.
+// Cells at most this far from each other can be linked.
 constexpr int kRadius = 5;
-constexpr int kEnoughSimilar = 3, kEnoughHigher = 8;
+// Smallest number of linked cells that are certainly no reflection. The reflections of a road that were seen
+// in recorded sweeps have up to 8 cells of 1 m.
+constexpr std::size_t kPatch = 20;
 
 struct Offset {
   int dx, dy;
@@ -40,20 +41,59 @@ std::vector<Offset> offsets_nearby() {
   return offsets;
 }
 
-bool is_low_outlier(const SlopeCells& cells, const SlopeCell& cell, const std::vector<Offset>& offsets,
-                    double rise, double margin) {
-  int higher = 0, similar = 0;
-  for (const Offset& offset : offsets) {
-    const SlopeCell* const other = cells.neighbour(cell, offset.dx, offset.dy);
-    if (other == nullptr) continue;
-    if (other->height > cell.height + rise * offset.distance + margin) {
-      ++higher;
-    } else if (++similar == kEnoughSimilar) {
-      return false;
+// Finds low outliers in the graph whose nodes are the cells.
+class LowOutliers {
+ public:
+  LowOutliers(const SlopeCells& cells, double rise, double margin)
+      : cells_(cells), rise_(rise), margin_(margin), offsets_(offsets_nearby()) {}
+
+  bool contains(std::uint32_t cell) const {
+    std::vector<std::uint32_t> patch, other_patch;
+    if (is_large(cell, patch)) return false;
+    for (const std::uint32_t member : patch) {
+      const bool below = any_neighbour(member, [&](std::uint32_t other, double distance) {
+        return is_above(other, member, distance) && is_large(other, other_patch);
+      });
+      if (below) return true;
     }
+    return false;
   }
-  return higher >= kEnoughHigher;
-}
+
+ private:
+  // Returns whether `cell` is higher than a cone on `base` by more than the margin.
+  bool is_above(std::uint32_t cell, std::uint32_t base, double distance) const {
+    return cells_[cell].height > cells_[base].height + rise_ * distance + margin_;
+  }
+
+  // Returns whether match(neighbour, distance) is true for any cell with points nearby.
+  template <typename Match>
+  bool any_neighbour(std::uint32_t cell, const Match& match) const {
+    for (const Offset& offset : offsets_) {
+      const std::optional<std::uint32_t> other = cells_.neighbour(cells_[cell].at, offset.dx, offset.dy);
+      if (other && match(*other, offset.distance)) return true;
+    }
+    return false;
+  }
+
+  // Returns whether at least kPatch cells are connected to the cell, with itself. If not, `patch` has them.
+  bool is_large(std::uint32_t cell, std::vector<std::uint32_t>& patch) const {
+    patch.assign(1, cell);
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      const std::uint32_t from = patch[i];
+      const bool large = any_neighbour(from, [&](std::uint32_t other, double distance) {
+        if (is_above(other, from, distance) || is_above(from, other, distance)) return false;
+        if (std::find(patch.begin(), patch.end(), other) == patch.end()) patch.push_back(other);
+        return patch.size() == kPatch;
+      });
+      if (large) return true;
+    }
+    return false;
+  }
+
+  const SlopeCells& cells_;
+  double rise_, margin_;
+  std::vector<Offset> offsets_;
+};
 
 // Inserts a 0 before each bit.
 std::uint64_t spread(std::uint32_t bits) {
@@ -182,29 +222,27 @@ double less_steep(double a, double b) {
 }
 
 float rise_along(const SlopeCells& cells, const SlopeCell& cell, int dx, int dy) {
-  const SlopeCell* const before = cells.neighbour(cell, -dx, -dy);
-  const SlopeCell* const after = cells.neighbour(cell, dx, dy);
-  if (before == nullptr || after == nullptr) return 0;
-  return static_cast<float>(less_steep(cell.height - before->height, after->height - cell.height));
+  const auto before = cells.neighbour(cell.at, -dx, -dy), after = cells.neighbour(cell.at, dx, dy);
+  if (!before || !after) return 0;
+  const double to = cells[*after].height - cell.height, from = cell.height - cells[*before].height;
+  return static_cast<float>(less_steep(from, to));
 }
 
 }  // namespace
 
-const SlopeCell* SlopeCells::neighbour(const SlopeCell& cell, int dx, int dy) const {
-  const std::int64_t x = std::int64_t{cell.at.x} + dx, y = std::int64_t{cell.at.y} + dy;
-  const CellPosition at{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
-  if (at.x != x || at.y != y) return nullptr;
-  const std::optional<std::uint32_t> number = find(at);
-  return number ? &cells_[*number] : nullptr;
+std::optional<std::uint32_t> SlopeCells::neighbour(CellPosition at, int dx, int dy) const {
+  const std::int64_t x = std::int64_t{at.x} + dx, y = std::int64_t{at.y} + dy;
+  const CellPosition other{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
+  return other.x == x && other.y == y ? find(other) : std::nullopt;
 }
 
 std::vector<std::uint8_t> low_outliers(const SlopeCells& cells, double rise, double margin,
                                        const ParallelPolicy& policy) {
   std::vector<std::uint8_t> outlier(cells.size());
-  const std::vector<Offset> offsets = offsets_nearby();
+  const LowOutliers outliers(cells, rise, margin);
   for_each_range(policy, cells.size(), kCellsAtATime, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      outlier[i] = is_low_outlier(cells, cells[i], offsets, rise, margin) ? 1 : 0;
+      outlier[i] = outliers.contains(static_cast<std::uint32_t>(i)) ? 1 : 0;
   });
   return outlier;
 }

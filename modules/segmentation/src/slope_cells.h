@@ -43,8 +43,9 @@ class SlopeCells {
   /// Returns the number of a cell; nullopt if the cell has no points.
   std::optional<std::uint32_t> find(CellPosition at) const { return index_.find_number(key_of(at)); }
 
-  /// Returns the cell that is (dx, dy) cells away; null if it has no points or is outside the grid.
-  const SlopeCell* neighbour(const SlopeCell& cell, int dx, int dy) const;
+  /// Returns the number of the cell that is (dx, dy) cells away from `at`; nullopt if it has no points or is
+  /// outside the grid.
+  std::optional<std::uint32_t> neighbour(CellPosition at, int dx, int dy) const;
 
   std::size_t size() const { return cells_.size(); }
   SlopeCell& operator[](std::size_t number) { return cells_[number]; }
@@ -59,8 +60,8 @@ class SlopeCells {
   std::vector<SlopeCell> cells_;
 };
 
-/// Returns a 1 for each cell whose height is an outlier: cells within 5 cells whose heights exceed it by more
-/// than `rise` per cell and `margin` in addition number at least 8, and all others number less than 3.
+/// Returns a 1 for each cell whose height is an outlier, as described at split_ground_by_slope(). A cell is
+/// above another one if it is higher by more than rise * (distance in cells) + margin.
 std::vector<std::uint8_t> low_outliers(const SlopeCells& cells, double rise, double margin,
                                        const ParallelPolicy& policy);
 

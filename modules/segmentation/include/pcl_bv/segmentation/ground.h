@@ -193,10 +193,12 @@ struct GroundSlopeOptions {
 ///
 /// A grid of square cells is laid perpendicular to `up`. The steps are:
 /// - Each cell stores the height of its lowest point.
-/// - Low outliers, e.g. reflections, are found. The cells within 5 cells of a cell c are compared with c. A
-///   cell contradicts c if it is higher by more than distance + max_slope * (distance of both centres), where
-///   max_slope is the tangent of max_slope_degrees. c is a low outlier if at least 8 cells contradict c and
-///   less than 3 do not.
+/// - Low outliers, e.g. reflections, are found. A cell is above another one if its height exceeds that of the
+///   other by more than distance + max_slope * (distance of both centres), where max_slope is the tangent of
+///   max_slope_degrees. Cells within 5 cells of each other are linked if neither is above the other. A cell
+///   is a low outlier if the patch of cells that are linked with it, directly or through others, has less
+///   than 20 cells, and a cell within 5 cells of the patch is above the patch and has a patch of 20 cells or
+///   more.
 /// - The surface in the centre of a cell c is the minimum of low(c') + max_slope * |c - c'| over all cells c'
 ///   that are no low outliers. This is the lower envelope of cones.
 /// - Within a cell the surface is a plane. Along each axis of the grid, its slope is that to the next cell or
