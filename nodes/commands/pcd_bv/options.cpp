@@ -180,16 +180,18 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
-  reject(config.ground.method != GroundMethod::none, "--ground (ground.method)");
+  const bool ground = config.ground.method != GroundMethod::none;
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   if (options.clusters() && clusters_tiles) {
     reject_combinations(line, "--together --cluster", {"--image", "--view-html", "--gpu"});
+    reject(ground && config.ground.method != GroundMethod::slope,
+           "--ground plane or zones (ground.method), only with --ground slope");
     reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
     reject(config.cluster.oversized == Oversized::split, "--oversized split");
-    reject(config.cluster.class_field.has_value(), "--class (cluster.class_field)");
     reject(config.track.enabled, "track.enabled");
     reject(config.effective_refine() != Refine::off, "cluster.refine");
   } else {
+    reject(ground, "--ground (ground.method)");
     reject(options.clusters(), "--cluster (cluster.tolerance)");
     reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
            "cluster.min_size or max_size");

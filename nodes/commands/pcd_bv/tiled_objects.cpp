@@ -5,33 +5,26 @@
 
 #include <algorithm>
 #include <chrono>
-#include <mutex>
-#include <unordered_map>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
+#include "class_points.h"
 #include "commands/shared/messages.h"
+#include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
-#include "pcl_bv/fitting/fit.h"
+#include "object_fitter.h"
 #include "pcl_bv/nodes/frame_result.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
 #include "pipeline/class_table.h"
 #include "pipeline/extent_limits.h"
 #include "pipeline/filtered_view.h"
+#include "pipeline/ground_view.h"
 #include "process.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
 namespace {
-
-// Bytes that a point in memory takes while a brick is clustered.
-constexpr std::size_t bytes_per_point(ScalarType scalar) {
-  return scalar == ScalarType::float32 ? 150 : 250;
-}
-// Clusters with more points use all threads for each fit. Smaller ones are distributed over the threads.
-constexpr std::size_t kManyPoints = 200'000;
-// Clusters that a thread takes at a time.
-constexpr std::size_t kAtATime = 16;
 
 using Clock = std::chrono::steady_clock;
 
@@ -39,113 +32,135 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// A cluster with its volumes, or why it is dropped.
-struct Object {
-  ExtentVerdict verdict = ExtentVerdict::keep;
-  ClusterEntry entry;
+// The points to be clustered, and the stages that have dropped others.
+struct RemainingPoints {
+  FilteredView filtered;
+  GroundView ground;
+  PointView points;
 };
 
-class ObjectFitter {
+RemainingPoints remaining_points(const PointView& cloud, const PipelineConfig& config) {
+  RemainingPoints remaining;
+  remaining.filtered = filter_points(cloud, config.filter, config.execution());
+  remaining.points = remaining.filtered.points;
+  if (config.ground.method != GroundMethod::slope) return remaining;
+  remaining.ground = remove_slope_ground(remaining.points, config.ground, config.execution());
+  remaining.points = remaining.ground.points;
+  return remaining;
+}
+
+// Sets the numbers of points that are dropped before the clustering, to which `valid` points are left.
+void count_dropped(const RemainingPoints& remaining, std::size_t valid, Report& report) {
+  const bool filtered = remaining.filtered.owner != nullptr, ground = remaining.ground.owner != nullptr;
+  const std::size_t before = ground ? remaining.ground.valid : valid;
+  report.counts.nonfinite = filtered ? remaining.filtered.counts.nonfinite : remaining.points.count - before;
+  report.counts.range = remaining.filtered.counts.range;
+  report.counts.inside = remaining.filtered.counts.inside;
+  report.counts.ground = before - valid;
+}
+
+class TiledObjects {
  public:
-  explicit ObjectFitter(const Options& options)
+  TiledObjects(const Options& options, ScalarType scalar, Report& report)
       : options_(options),
-        methods_(options.pipeline.methods()),
-        method_options_(options.pipeline.method_options()),
-        execution_(options.pipeline.execution()) {}
+        report_(report),
+        table_(options.pipeline),
+        store_(store_options(options, scalar)) {}
 
-  /// Fits volumes to clusters in memory (StoredClusterOptions::visit).
-  void visit(std::size_t brick, const std::vector<PointView>& clusters, const Execution& execution) {
-    std::vector<Object> objects(clusters.size());
-    const Execution serial{Serial{}, execution.isa};
-    for_each_range(execution.parallel, clusters.size(), kAtATime, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        fit(clusters[i], serial, objects[i]);
-    });
-    const std::lock_guard lock(mutex_);
-    visited_[brick] = std::move(objects);
+  // Adds the objects of all classes. They have the order of the objects of a cloud in memory.
+  void add_classes(const ClassifiedPoints& cloud, const RemainingPoints& remaining) {
+    const ParallelPolicy& policy = options_.pipeline.execution().parallel;
+    std::size_t valid = 0;
+    for (const auto& [value, count] : count_classes(cloud, policy)) {
+      valid += count;
+      const auto own = std::find_if(table_.class_options().begin(), table_.class_options().end(),
+                                    [value = value](const ClassOptions& one) { return one.value == value; });
+      const bool has_own = own != table_.class_options().end();
+      if (has_own && own->drop) {
+        report_.counts.dropped_class += count;
+      } else {
+        add_clusters(ClassPoints(cloud, value).view(), has_own ? own->clusters : table_.default_options(),
+                     value);
+      }
+    }
+    count_dropped(remaining, valid, report_);
+    sort();
   }
 
-  /// Returns the objects of all clusters. To be called once.
-  std::vector<Object> fit(const StoredClusters& clusters) {
-    std::vector<Object> objects(clusters.size());
-    const auto fit_or_take = [&](std::size_t i, const Execution& execution) {
-      if (const auto visit = clusters.visit(i))
-        objects[i] = std::move(visited_.at(visit->brick)[visit->number]);
-      else
-        fit(clusters.points(i).view(), execution, objects[i]);
-    };
-    std::size_t first_small = 0;  // clusters are sorted by size
-    for (; first_small < objects.size() && clusters.point_count(first_small) > kManyPoints; ++first_small)
-      fit_or_take(first_small, execution_);
-    const Execution serial{Serial{}, execution_.isa};
-    for_each_range(execution_.parallel, objects.size() - first_small, kAtATime,
-                   [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t i = first_small + begin; i < first_small + end; ++i)
-                       fit_or_take(i, serial);
-                   });
-    return objects;
+  // Adds the objects of points without classes.
+  void add_all(const RemainingPoints& remaining) {
+    const std::size_t invalid = add_clusters(remaining.points, table_.default_options(), std::nullopt);
+    count_dropped(remaining, remaining.points.count - invalid, report_);
   }
 
- private:
-  void fit(const PointView& points, const Execution& execution, Object& object) const {
-    object.verdict = extent_verdict(points, options_.pipeline.cluster, method_options_.up, execution);
-    if (object.verdict != ExtentVerdict::keep) return;
-    object.entry.points = points.count;
-    std::vector<Fitted<AnyVolume>> fits = fit_methods(points, methods_, method_options_, execution);
-    for (std::size_t m = 0; m < methods_.size(); ++m) {
-      VolumeEntry& entry = object.entry.volumes.emplace_back();
-      entry.method = methods_[m]->name;
-      entry.failed = fits[m].reason;
-      entry.volume = std::move(fits[m].volume);
-      if (options_.check && entry.failed.empty())
-        entry.outside = verify(entry.volume, points, execution).outside;
+  double fit_seconds() const { return fit_seconds_; }
+
+  void write_report() {
+    report_.clusters.clear();
+    for (Object& object : objects_) {
+      object.entry.id = report_.clusters.size();
+      report_.clusters.push_back(std::move(object.entry));
     }
   }
 
+ private:
+  // Returns the number of points that are not valid.
+  std::size_t add_clusters(const PointView& points, const ClusterOptions& options,
+                           std::optional<std::int64_t> value) {
+    ObjectFitter fitter(options_, table_, value);
+    StoredClusterOptions store = store_;
+    store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
+      fitter.visit(brick, found, execution);
+    };
+    const StoredClusters clusters(points, options, store, options_.pipeline.execution());
+    Counts& counts = report_.counts;
+    counts.small += clusters.counts().small;
+    counts.large += clusters.counts().large;
+    counts.noise += clusters.counts().noise;
+    const Clock::time_point begin = Clock::now();
+    std::vector<Object> objects = fitter.fit(clusters);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const ExtentVerdict verdict = objects[i].verdict;
+      if (verdict == ExtentVerdict::small) counts.small += clusters.point_count(i);
+      if (verdict == ExtentVerdict::large) counts.large += clusters.point_count(i);
+      if (verdict == ExtentVerdict::keep) objects_.push_back(std::move(objects[i]));
+    }
+    fit_seconds_ += seconds_since(begin);
+    return clusters.counts().nonfinite;
+  }
+
+  // Sorts the objects of several classes: the largest first, then by their first point.
+  void sort() {
+    std::sort(objects_.begin(), objects_.end(), [](const Object& a, const Object& b) {
+      return a.entry.points != b.entry.points ? a.entry.points > b.entry.points
+                                              : a.first_number < b.first_number;
+    });
+  }
+
   const Options& options_;
-  std::vector<const Method*> methods_;
-  MethodOptions method_options_;
-  Execution execution_;
-  std::mutex mutex_;
-  std::unordered_map<std::size_t, std::vector<Object>> visited_;  // by brick
+  Report& report_;
+  ClassTable table_;
+  StoredClusterOptions store_;
+  std::vector<Object> objects_;
+  double fit_seconds_ = 0;
 };
 
-void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Report& report) {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    Object& object = objects[i];
-    if (object.verdict == ExtentVerdict::small) report.counts.small += clusters.point_count(i);
-    if (object.verdict == ExtentVerdict::large) report.counts.large += clusters.point_count(i);
-    if (object.verdict != ExtentVerdict::keep) continue;
-    object.entry.id = report.clusters.size();
-    report.clusters.push_back(std::move(object.entry));
-  }
-}
-
 // Finds the clusters of a cloud, whose points may be in files, and fits the volumes.
-void add_objects_of(const PointView& cloud, const Options& options, Report& report) {
+void add_objects_of(const PointView& cloud, const Tiles& tiles, const Options& options, Report& report) {
   const Clock::time_point begin = Clock::now();
   const PipelineConfig& config = options.pipeline;
-  const Execution execution = config.execution();
-  const FilteredView filtered = filter_points(cloud, config.filter, execution);
-  ObjectFitter fitter(options);
-  StoredClusterOptions store;
-  store.points_in_memory = std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1);
-  store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& part) {
-    fitter.visit(brick, found, part);
-  };
-  store.keep_visited = false;
-  const StoredClusters clusters(filtered.points, ClassTable(config).default_options(), store, execution);
   report.points = cloud.count;
-  report.counts = clusters.counts();
-  if (filtered.owner != nullptr) {  // dropped points count as not finite then
-    report.counts.nonfinite = filtered.counts.nonfinite;
-    report.counts.range = filtered.counts.range;
-    report.counts.inside = filtered.counts.inside;
+  report.counts = Counts();
+  const RemainingPoints remaining = remaining_points(cloud, config);
+  TiledObjects objects(options, cloud.scalar, report);
+  if (const auto& field = config.cluster.class_field) {
+    objects.add_classes({remaining.points, tiles, field->name}, remaining);
+  } else {
+    objects.add_all(remaining);
   }
-  const double segment = seconds_since(begin);
-  report.clusters.clear();
-  add_objects(clusters, fitter.fit(clusters), report);
-  if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
+  objects.write_report();
+  const double all = seconds_since(begin);
+  if (options.timings) report.seconds = {0, all - objects.fit_seconds(), objects.fit_seconds()};
 }
 
 }  // namespace
@@ -156,7 +171,7 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   report.parts = job.tiles->included_count();
   report.origin = loaded.origin();
   try {
-    add_objects_of(loaded.xyz(), options, report);
+    add_objects_of(loaded.xyz(), *job.tiles, options, report);
   } catch (const TileError&) {
     throw;
   } catch (...) {
@@ -169,6 +184,8 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   counted.counts = report.counts;
   const std::string range = range_warning(counted, options.range_from);
   if (!range.empty()) report_problem(job.input + ": " + range);
+  const std::string ground = ground_warning(counted, option_names(false));
+  if (!ground.empty()) report_problem(job.input + ": " + ground);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info =

@@ -15,7 +15,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::size_t kReadBytes = 1U << 20U;  // of a run at a time
+constexpr std::size_t kRunBytes = 1U << 20U;  // of a run at a time
 constexpr std::uint32_t kNoComponent = ActiveBrick::kMixed;
 
 // A record near other shares: a record as in bricks, and the component of the point in its share.
@@ -207,7 +207,7 @@ void MergedShares::add_points_of_run(const Place& place, bool active, const Bric
   const std::uint32_t component =
       run.component == ShareRun::kNoise ? kNoComponent : component_number(place.share, run.component);
   PieceReader reader(file_, {place.offset, run.points, {&share, place.share, run.check_sum}}, scalar_,
-                     kReadBytes);
+                     kRunBytes);
   std::byte record[record_bytes(ScalarType::float64) + sizeof component];
   const std::size_t size = point_bytes(scalar_);
   PointView view = view_of_records({}, record_bytes(scalar_), scalar_);

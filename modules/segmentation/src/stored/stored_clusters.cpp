@@ -177,6 +177,10 @@ std::size_t StoredClusters::point_count(std::size_t cluster) const {
   return state_->clusters[cluster].points;
 }
 
+std::size_t StoredClusters::first_number(std::size_t cluster) const {
+  return state_->clusters[cluster].first_number;
+}
+
 std::optional<StoredVisit> StoredClusters::visit(std::size_t cluster) const {
   return state_->clusters[cluster].visit;
 }

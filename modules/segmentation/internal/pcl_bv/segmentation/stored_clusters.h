@@ -99,6 +99,9 @@ class StoredClusters {
   /// Number of points of a cluster.
   std::size_t point_count(std::size_t cluster) const;
 
+  /// Number of the first point of a cluster in the cloud.
+  std::size_t first_number(std::size_t cluster) const;
+
   /// The visit of a cluster, or nothing if it was not visited.
   std::optional<StoredVisit> visit(std::size_t cluster) const;
 
