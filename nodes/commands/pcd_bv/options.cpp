@@ -66,7 +66,8 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
               "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
   if (command == PcdBvCommand::serial) {
-    line.option("--memory", texts.memory, "MB", "With --together --cluster: memory for points (600)");
+    line.option("--memory", texts.memory, "MB",
+                "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
     line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
@@ -176,14 +177,17 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
-  const bool clusters_tiles = command == PcdBvCommand::serial && !options.merge && !options.partial;
+  const bool clusters_tiles = command == PcdBvCommand::serial, shares = options.merge || options.partial;
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
   const bool ground = config.ground.method != GroundMethod::none;
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   if (options.clusters() && clusters_tiles) {
-    reject_combinations(line, "--together --cluster", {"--image", "--view-html", "--gpu"});
+    reject_combinations(line, (std::string(option) + " --cluster").c_str(),
+                        {"--image", "--view-html", "--gpu"});
+    reject(ground && shares, "--ground (ground.method)");
+    reject(config.cluster.class_field && shares, "--class (cluster.class_field)");
     reject(ground && config.ground.method != GroundMethod::slope,
            "--ground plane or zones (ground.method), only with --ground slope");
     reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
@@ -196,8 +200,9 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
            "cluster.min_size or max_size");
   }
-  if (!options.merge && !options.partial) return;
-  reject_combinations(line, option, {"--image", "--view-html", "--check", "--info"});
+  if (!shares) return;
+  reject_combinations(line, option, {"--image", "--view-html", "--info"});
+  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
   if (options.merge)
     reject_combinations(line, option,
                         {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
@@ -206,7 +211,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
-  for (const Method* method : config.methods()) {
+  for (const Method* method : options.clusters() ? std::vector<const Method*>() : config.methods()) {
     if (!Partial::can_fit(*method, config.method_options()))
       throw UsageError(std::string("--volume: ")
                            .append(method->name)
@@ -217,8 +222,8 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
 
 void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   if (line.given("--memory")) {
-    if (!texts.together || !options.clusters())
-      throw UsageError("--memory: only useful with --together and --cluster");
+    if (!(texts.together || texts.merge || line.given("--partial")) || !options.clusters())
+      throw UsageError("--memory: only useful with --cluster and --together, --partial or --merge");
     options.memory_bytes = parse_whole_number("--memory", texts.memory, 1, 1'000'000) * 1'000'000;
   }
   options.merge = texts.merge;

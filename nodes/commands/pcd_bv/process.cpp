@@ -17,6 +17,7 @@
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
+#include "object_shares.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
@@ -201,6 +202,10 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
 
 /// Makes volumes from partial results.
 Status process_partials(const Job& job, const Options& options, Report& report) {
+  if (options.clusters()) {
+    report.file = kTiledName;
+    return merge_object_files(job, options, report);
+  }
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
   if (!all) {  // each file that cannot be merged has been reported
