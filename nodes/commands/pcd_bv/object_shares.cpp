@@ -75,29 +75,6 @@ std::vector<std::string> fit_share(const MadeClusterShare& share, const ClusterO
   return texts;
 }
 
-void write_share(const Job& job, const Options& options) {
-  const PipelineConfig& config = options.pipeline;
-  const PointRange range = job.tiles->share(options.share.number, options.share.count);
-  const SharePoints points(*job.tiles, range, options.origin.at, options);
-  const ClassTable table(config);
-  ObjectFitter fitter(options, table, std::nullopt);
-  StoredClusterOptions store = store_options(options, points.view().scalar);
-  store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
-    fitter.visit(brick, found, execution);
-  };
-  const MadeClusterShare share(points.view(), table.default_options(), store, config.execution());
-  const std::vector<std::string> texts = fit_share(share, table.default_options(), options, fitter);
-  job.tiles->require_unchanged();
-  ObjectFileHeader header{describe_cloud(*job.tiles, options.origin.at, options), clusters_text(config),
-                          volumes_text(config), share.invalid_points()};
-  if (range.first < range.second) header.cloud.shares = {range};
-  header.cloud.counts.range = points.counts().range;
-  header.cloud.counts.inside = points.counts().inside;
-  header.nonfinite -= points.counts().range + points.counts().inside;
-  write_object_file(*options.partial, header, share,
-                    [&](std::uint32_t component) { return texts[component]; });
-}
-
 using Shares = std::vector<std::unique_ptr<ObjectFile>>;
 
 // Clouds of files that were made independently. They are parts of one cloud in the order of the files.
@@ -135,10 +112,10 @@ class MergedClouds {
 };
 
 // Opens the files. Reports each that cannot be opened or does not belong to the others; then returns false.
-bool open_files(const Job& job, const Options& options, Shares& shares, std::vector<std::string>& names,
-                MergedClouds& clouds) {
+bool open_files(const std::vector<std::string>& files, const Options& options, Shares& shares,
+                std::vector<std::string>& names, MergedClouds& clouds) {
   bool good = true;
-  for (const std::string& name : job.partials) {
+  for (const std::string& name : files) {
     try {
       for (auto& share : open_object_file(name)) {
         const ObjectFileHeader& header = share->header();
@@ -198,6 +175,29 @@ void add_objects(const StoredClusters& clusters, const Shares& shares, const Opt
 
 }  // namespace
 
+void write_object_share(const Tiles& tiles, const ShareOption& number, const Options& options,
+                        const std::filesystem::path& path) {
+  const PipelineConfig& config = options.pipeline;
+  const PointRange range = tiles.share(number.number, number.count);
+  const SharePoints points(tiles, range, options.origin.at, options);
+  const ClassTable table(config);
+  ObjectFitter fitter(options, table, std::nullopt);
+  StoredClusterOptions store = store_options(options, points.view().scalar);
+  store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
+    fitter.visit(brick, found, execution);
+  };
+  const MadeClusterShare share(points.view(), table.default_options(), store, config.execution());
+  const std::vector<std::string> texts = fit_share(share, table.default_options(), options, fitter);
+  tiles.require_unchanged();
+  ObjectFileHeader header{describe_cloud(tiles, options.origin.at, options), clusters_text(config),
+                          volumes_text(config), share.invalid_points()};
+  if (range.first < range.second) header.cloud.shares = {range};
+  header.cloud.counts.range = points.counts().range;
+  header.cloud.counts.inside = points.counts().inside;
+  header.nonfinite -= points.counts().range + points.counts().inside;
+  write_object_file(path, header, share, [&](std::uint32_t component) { return texts[component]; });
+}
+
 Status make_object_file(const Job& job, const Options& options) {
   const Interruption interruption([] {});
   try {
@@ -205,12 +205,12 @@ Status make_object_file(const Job& job, const Options& options) {
       Shares shares;
       std::vector<std::string> names;
       MergedClouds clouds;
-      if (!open_files(job, options, shares, names, clouds)) return Status::failed;
+      if (!open_files(job.partials, options, shares, names, clouds)) return Status::failed;
       join_object_files(*options.partial, shares);
       return Status::done;
     }
     if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
-    write_share(job, options);
+    write_object_share(*job.tiles, options.share, options, *options.partial);
     report_notes(*job.tiles);
     return Status::done;
   } catch (const TileError& error) {
@@ -223,12 +223,12 @@ Status make_object_file(const Job& job, const Options& options) {
   return Status::failed;
 }
 
-Status merge_object_files(const Job& job, const Options& options, Report& report) {
+Status merge_object_files(const std::vector<std::string>& files, const Options& options, Report& report) {
   const auto begin = std::chrono::steady_clock::now();
   Shares shares;
   std::vector<std::string> names;
   MergedClouds clouds;
-  if (!open_files(job, options, shares, names, clouds)) {
+  if (!open_files(files, options, shares, names, clouds)) {
     report.error = "some partial results cannot be merged";
     return Status::failed;
   }
@@ -257,7 +257,7 @@ Status merge_object_files(const Job& job, const Options& options, Report& report
   } catch (const ShareError& error) {
     throw IoError(names[error.share()] + ": " + error.what());
   }
-  return worse(report_failures(report), write_mesh(job, report.clusters));
+  return report_failures(report);
 }
 
 }  // namespace pcl_bv::detail

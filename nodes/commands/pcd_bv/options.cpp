@@ -65,9 +65,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--origin", texts.origin, "X,Y,Z",
               "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
+  line.option("--memory", texts.memory, "MB",
+              "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
   if (command == PcdBvCommand::serial) {
-    line.option("--memory", texts.memory, "MB",
-                "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
     line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
@@ -177,15 +177,17 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
-  const bool clusters_tiles = command == PcdBvCommand::serial, shares = options.merge || options.partial;
+  const bool over_ranks = command == PcdBvCommand::mpi;
+  const bool shares = options.merge || options.partial || over_ranks;
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
   const bool ground = config.ground.method != GroundMethod::none;
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  if (options.clusters() && clusters_tiles) {
-    reject_combinations(line, (std::string(option) + " --cluster").c_str(),
-                        {"--image", "--view-html", "--gpu"});
+  if (options.clusters()) {
+    const std::string with_clusters = std::string(option) + " --cluster";
+    reject_combinations(line, with_clusters.c_str(), {"--image", "--view-html"});
+    if (!over_ranks) reject_combinations(line, with_clusters.c_str(), {"--gpu"});
     reject(ground && shares, "--ground (ground.method)");
     reject(config.cluster.class_field && shares, "--class (cluster.class_field)");
     reject(ground && config.ground.method != GroundMethod::slope,
@@ -196,11 +198,12 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject(config.effective_refine() != Refine::off, "cluster.refine");
   } else {
     reject(ground, "--ground (ground.method)");
-    reject(options.clusters(), "--cluster (cluster.tolerance)");
     reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
            "cluster.min_size or max_size");
   }
-  if (!shares) return;
+  reject(over_ranks && options.clusters() && options.origin.requested && !options.origin.at,
+         "--origin auto and --cluster over ranks");
+  if (!options.merge && !options.partial) return;
   reject_combinations(line, option, {"--image", "--view-html", "--info"});
   if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
   if (options.merge)
@@ -220,12 +223,15 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   }
 }
 
-void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
+void read_memory(const CommandLine& line, const Texts& texts, Options& options) {
   if (line.given("--memory")) {
-    if (!(texts.together || texts.merge || line.given("--partial")) || !options.clusters())
+    if (!(texts.together || texts.merge || !texts.partial.empty()) || !options.clusters())
       throw UsageError("--memory: only useful with --cluster and --together, --partial or --merge");
     options.memory_bytes = parse_whole_number("--memory", texts.memory, 1, 1'000'000) * 1'000'000;
   }
+}
+
+void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   options.merge = texts.merge;
   options.partial = path_or_none(texts.partial);
   options.tiled = texts.together || (options.partial && !options.merge);
@@ -246,6 +252,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   read_outputs(line, texts, options);
   options.tiled = texts.together;
   options.threads_given = line.given("--threads");
+  read_memory(line, texts, options);
   if (command == PcdBvCommand::serial) read_parts(line, texts, options);
   options.gpu = texts.gpu;
   if (!options.gpu.empty()) reject_combinations(line, "--gpu", {"--partial", "--merge"});

@@ -204,7 +204,8 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
 Status process_partials(const Job& job, const Options& options, Report& report) {
   if (options.clusters()) {
     report.file = kTiledName;
-    return merge_object_files(job, options, report);
+    const Status status = merge_object_files(job.partials, options, report);
+    return report.error ? status : worse(status, write_mesh(job, report.clusters));
   }
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
