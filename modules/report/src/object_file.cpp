@@ -76,22 +76,24 @@ void copy(const Read& read, std::uint64_t bytes, std::ofstream& out) {
 }
 
 // Writes a file with a stream, and creates missing folders.
-void write_stream(const std::filesystem::path& path, const std::function<void(std::ofstream&)>& work) {
-  create_parent_folders(path);
-  replace_file_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+void write_stream(const std::filesystem::path& path, FileLife life,
+                  const std::function<void(std::ofstream&)>& work) {
+  const auto write_to = [&](const std::filesystem::path& file) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
     if (!out) throw IoError("cannot be opened for writing");
     work(out);
     out.flush();
     if (!out) throw IoError("cannot be written: is the disk full?");
-  });
+  };
+  create_parent_folders(path);
+  life == FileLife::temporary ? write_to(path) : replace_file_atomically(path, write_to);
 }
 
 }  // namespace
 
 void write_object_file(const std::filesystem::path& path, const ObjectFileHeader& header,
                        const ClusterShare& share,
-                       const std::function<std::string(std::uint32_t component)>& text) {
+                       const std::function<std::string(std::uint32_t component)>& text, FileLife life) {
   std::vector<std::string> texts(share.components().size());
   std::vector<std::uint64_t> ends{0};
   for (std::uint32_t c = 0; c < texts.size(); ++c) {
@@ -104,7 +106,7 @@ void write_object_file(const std::filesystem::path& path, const ObjectFileHeader
   const std::string_view start(reinterpret_cast<const char*>(&preamble), sizeof preamble);
   const std::uint32_t sum =
       check_sum({start, own, cloud, bytes_of(share.runs()), bytes_of(share.components()), bytes_of(ends)});
-  write_stream(path, [&](std::ofstream& out) {
+  write_stream(path, life, [&](std::ofstream& out) {
     for (const std::string_view part : {start, std::string_view(own), std::string_view(cloud),
                                         bytes_of(share.runs()), bytes_of(share.components()), bytes_of(ends),
                                         std::string_view(reinterpret_cast<const char*>(&sum), sizeof sum)})
@@ -194,7 +196,7 @@ std::optional<std::string> ObjectFile::text(std::uint32_t component) const {
 
 void join_object_files(const std::filesystem::path& path,
                        const std::vector<std::unique_ptr<ObjectFile>>& shares) {
-  write_stream(path, [&](std::ofstream& out) {
+  write_stream(path, FileLife::lasting, [&](std::ofstream& out) {
     for (const auto& share : shares)
       copy([&](std::uint64_t at, std::byte* to, std::size_t count) { share->read_bytes(at, to, count); },
            share->end() - share->begin(), out);

@@ -176,7 +176,7 @@ void add_objects(const StoredClusters& clusters, const Shares& shares, const Opt
 }  // namespace
 
 void write_object_share(const Tiles& tiles, const ShareOption& number, const Options& options,
-                        const std::filesystem::path& path) {
+                        const std::filesystem::path& path, FileLife life) {
   const PipelineConfig& config = options.pipeline;
   const PointRange range = tiles.share(number.number, number.count);
   const SharePoints points(tiles, range, options.origin.at, options);
@@ -195,7 +195,8 @@ void write_object_share(const Tiles& tiles, const ShareOption& number, const Opt
   header.cloud.counts.range = points.counts().range;
   header.cloud.counts.inside = points.counts().inside;
   header.nonfinite -= points.counts().range + points.counts().inside;
-  write_object_file(path, header, share, [&](std::uint32_t component) { return texts[component]; });
+  write_object_file(
+      path, header, share, [&](std::uint32_t component) { return texts[component]; }, life);
 }
 
 Status make_object_file(const Job& job, const Options& options) {
@@ -210,7 +211,7 @@ Status make_object_file(const Job& job, const Options& options) {
       return Status::done;
     }
     if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
-    write_object_share(*job.tiles, options.share, options, *options.partial);
+    write_object_share(*job.tiles, options.share, options, *options.partial, FileLife::lasting);
     report_notes(*job.tiles);
     return Status::done;
   } catch (const TileError& error) {

@@ -10,6 +10,7 @@
 
 #include "inputs.h"
 #include "options.h"
+#include "pcl_bv/report/object_file.h"
 #include "pcl_bv/report/report.h"
 #include "status.h"
 #include "tiles.h"
@@ -19,7 +20,7 @@ namespace pcl_bv::detail {
 /// Finds the clusters of a share, fits their volumes and writes them to a file. Throws TileError for an input
 /// that fails, and std::runtime_error if a file cannot be written.
 void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                        const std::filesystem::path& path);
+                        const std::filesystem::path& path, FileLife life);
 
 /// Finds the clusters of the share that the options name, fits their volumes and writes the file of
 /// --partial. Or, with --merge, writes all files to one. Reports problems on standard error.

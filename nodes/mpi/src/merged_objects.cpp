@@ -53,7 +53,8 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
   std::string problem;
   const auto failure = run_and_catch([&] {
     try {
-      write_object_share(tiles, {ranks.rank(), ranks.size()}, options, folder.file(ranks.rank()));
+      write_object_share(tiles, {ranks.rank(), ranks.size()}, options, folder.file(ranks.rank()),
+                         FileLife::temporary);
     } catch (const TileError&) {
       throw;
     } catch (const std::bad_alloc&) {

@@ -64,11 +64,17 @@ class ObjectFile final : public ClusterShare {
   std::vector<std::uint64_t> texts_;  // where the text of each component begins, and where the last one ends
 };
 
-/// Writes a share atomically, and creates missing folders. `text` returns the text of each component, at most
+enum class FileLife : std::uint8_t {
+  lasting,   ///< Written atomically, and on the disk at the end (fsync).
+  temporary  ///< For another process that reads it now. Waiting for the disk would take seconds.
+};
+
+/// Writes a share, and creates missing folders. `text` returns the text of each component, at most
 /// 1 GiB; an empty text is none. Throws IoError, and what reading the share throws.
 void write_object_file(const std::filesystem::path& path, const ObjectFileHeader& header,
                        const ClusterShare& share,
-                       const std::function<std::string(std::uint32_t component)>& text);
+                       const std::function<std::string(std::uint32_t component)>& text,
+                       FileLife life = FileLife::lasting);
 
 /// Writes several shares to one file, atomically.
 void join_object_files(const std::filesystem::path& path,
