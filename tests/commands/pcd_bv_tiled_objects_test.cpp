@@ -116,7 +116,6 @@ TEST_F(PcdBvTiledObjects, RefuseWhatTheyDoNotHave) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{"--cluster", "1:0.1"},
                                              {"--cluster", "1", "--oversized", "split", "--max-size", "50"},
-                                             {"--cluster", "1", "--class", "class"},
                                              {"--cluster", "1", "--ground", "plane"},
                                              {"--cluster", "1", "--labels", at("l.pcd")},
                                              {"--cluster", "1", "--image", at("i.png")},

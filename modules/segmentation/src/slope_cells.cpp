@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kCellsAtATime = 4096;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Cells at most this far from each other can be linked.
-constexpr int kRadius = 5;
+// Cells at most this far from each other can be linked, and a cell at most kFar from an outlier is above it.
+constexpr int kNear = 3, kFar = 10;
 // Smallest number of linked cells that are certainly no reflection. The reflections of a road that were seen
 // in recorded sweeps have up to 8 cells of 1 m.
 constexpr std::size_t kPatch = 20;
@@ -27,13 +27,13 @@ struct Offset {
   double distance;
 };
 
-// Returns the offsets to the cells within kRadius, the nearest first.
-std::vector<Offset> offsets_nearby() {
+// Returns the offsets to the cells within `radius`, the nearest first.
+std::vector<Offset> offsets_within(int radius) {
   std::vector<Offset> offsets;
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
       const int square = dx * dx + dy * dy;
-      if (square > 0 && square <= kRadius * kRadius) offsets.push_back({dx, dy, std::sqrt(square)});
+      if (square > 0 && square <= radius * radius) offsets.push_back({dx, dy, std::sqrt(square)});
     }
   }
   std::stable_sort(offsets.begin(), offsets.end(),
@@ -45,13 +45,13 @@ std::vector<Offset> offsets_nearby() {
 class LowOutliers {
  public:
   LowOutliers(const SlopeCells& cells, double rise, double margin)
-      : cells_(cells), rise_(rise), margin_(margin), offsets_(offsets_nearby()) {}
+      : cells_(cells), rise_(rise), margin_(margin) {}
 
   bool contains(std::uint32_t cell) const {
     std::vector<std::uint32_t> patch, other_patch;
     if (is_large(cell, patch)) return false;
     for (const std::uint32_t member : patch) {
-      const bool below = any_neighbour(member, [&](std::uint32_t other, double distance) {
+      const bool below = any_of(far_, member, [&](std::uint32_t other, double distance) {
         return is_above(other, member, distance) && is_large(other, other_patch);
       });
       if (below) return true;
@@ -65,10 +65,11 @@ class LowOutliers {
     return cells_[cell].height > cells_[base].height + rise_ * distance + margin_;
   }
 
-  // Returns whether match(neighbour, distance) is true for any cell with points nearby.
+  // Returns whether match(neighbour, distance) is true for any cell with points at
+  // these offsets.
   template <typename Match>
-  bool any_neighbour(std::uint32_t cell, const Match& match) const {
-    for (const Offset& offset : offsets_) {
+  bool any_of(const std::vector<Offset>& offsets, std::uint32_t cell, const Match& match) const {
+    for (const Offset& offset : offsets) {
       const std::optional<std::uint32_t> other = cells_.neighbour(cells_[cell].at, offset.dx, offset.dy);
       if (other && match(*other, offset.distance)) return true;
     }
@@ -80,8 +81,8 @@ class LowOutliers {
     patch.assign(1, cell);
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::uint32_t from = patch[i];
-      const bool large = any_neighbour(from, [&](std::uint32_t other, double distance) {
-        if (is_above(other, from, distance) || is_above(from, other, distance)) return false;
+      const bool large = any_of(near_, from, [&](std::uint32_t other, double) {
+        if (std::abs(cells_[other].height - cells_[from].height) > rise_ + margin_) return false;
         if (std::find(patch.begin(), patch.end(), other) == patch.end()) patch.push_back(other);
         return patch.size() == kPatch;
       });
@@ -92,7 +93,7 @@ class LowOutliers {
 
   const SlopeCells& cells_;
   double rise_, margin_;
-  std::vector<Offset> offsets_;
+  std::vector<Offset> near_ = offsets_within(kNear), far_ = offsets_within(kFar);
 };
 
 // Inserts a 0 before each bit.
