@@ -85,8 +85,9 @@ class PcdBvTiledMaps : public Tiled {
     LasFile las;
     las.points = finite.size();
     std::string bytes = las.bytes();
+    const std::size_t first = las.first_record();
     for (std::size_t i = 0; i < finite.size(); ++i) {
-      const std::size_t at = las.first_record() + i * las.record;
+      const std::size_t at = first + i * las.record;
       for (std::size_t axis = 0; axis < 3; ++axis)
         LasFile::put(bytes, at + 4 * axis, static_cast<std::int32_t>(std::lround(1000 * finite[i].at[axis])));
       LasFile::put(bytes, at + 15, static_cast<std::uint8_t>(finite[i].value));

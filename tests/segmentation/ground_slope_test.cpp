@@ -98,11 +98,8 @@ class Definition {
   }
   void find_outliers() {
     number_patches();
-    std::vector<bool> below(patch_size_.size());
     for (const auto& [c, low] : low_)
-      if (is_below_large_patch(c)) below[patch_[c]] = true;
-    for (const auto& [c, low] : low_)
-      if (patch_size_[patch_[c]] >= 20 || !below[patch_[c]]) sources_.emplace(c, low);
+      if (patch_size_[patch_[c]] >= 20 || !is_below_large_patch(c)) sources_.emplace(c, low);
   }
   double slope(const Cell& c, const Cell& step) const {
     const auto before = height_.find({c[0] - step[0], c[1] - step[1]}),
