@@ -60,7 +60,8 @@ GroundConfig ground_of(const std::string& text) {
   std::string part;
   std::getline(parts, part, ':');
   read_text(part, ground.method);
-  for (std::optional<double>* const value : {&ground.cell_size, &ground.max_slope_degrees, &ground.distance}) {
+  for (std::optional<double>* const value :
+       {&ground.cell_size, &ground.max_slope_degrees, &ground.distance}) {
     if (std::getline(parts, part, ':') && !part.empty()) *value = std::stod(part);
   }
   return ground;

@@ -193,8 +193,8 @@ struct GroundSlopeOptions {
 ///
 /// A grid of square cells is laid perpendicular to `up`. The steps are:
 /// - Each cell stores the height of its lowest point.
-/// - Low outliers, e.g. reflections, are found. Cells within 3 cells of each other are linked if their heights
-///   differ by at most distance + max_slope * cell_size, where max_slope is the tangent of max_slope_degrees.
+/// - Low outliers, e.g. reflections, are found. Cells within 3 cells of each other are linked if their
+///   heights differ by at most distance + max_slope * cell_size, where max_slope is the tangent of max_slope_degrees.
 ///   Linked cells are a patch. A cell is above another one if its height exceeds that of the other by more
 ///   than distance + max_slope * (distance of both centres). A cell of a patch of less than 20 cells is a low
 ///   outlier if a cell of a larger patch within 10 cells is above it.
