@@ -82,7 +82,8 @@ class Definition {
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const Cell from = cells[i];
         for (const auto& [to, to_low] : low_) {
-          if (distance(from, to) > 5 || is_above(from, to) || is_above(to, from)) continue;
+          if (distance(from, to) > 3 || std::abs(to_low - low_.at(from)) > rise() + options_.distance)
+            continue;
           if (patch_.emplace(to, number).second) cells.push_back(to);
         }
       }
@@ -91,17 +92,14 @@ class Definition {
   }
   bool is_below_large_patch(const Cell& c) const {
     return std::any_of(low_.begin(), low_.end(), [&](const auto& other) {
-      return distance(c, other.first) <= 5 && is_above(other.first, c) &&
+      return distance(c, other.first) <= 10 && is_above(other.first, c) &&
              patch_size_[patch_.at(other.first)] >= 20;
     });
   }
   void find_outliers() {
     number_patches();
-    std::vector<bool> below(patch_size_.size());
     for (const auto& [c, low] : low_)
-      if (is_below_large_patch(c)) below[patch_[c]] = true;
-    for (const auto& [c, low] : low_)
-      if (patch_size_[patch_[c]] >= 20 || !below[patch_[c]]) sources_.emplace(c, low);
+      if (patch_size_[patch_[c]] >= 20 || !is_below_large_patch(c)) sources_.emplace(c, low);
   }
   double slope(const Cell& c, const Cell& step) const {
     const auto before = height_.find({c[0] - step[0], c[1] - step[1]}),
@@ -291,8 +289,8 @@ TEST(GroundBySlope, IsFoundUnderTreesBySinglePoints) {
   std::mt19937 random(5);
   Cloud<double> forest = surface_of(40, [&](double, double) { return number_in(random, 8, 15); });
   const std::size_t trees = forest.size();
-  for (double x = -38.5; x < 40; x += 4)
-    for (double y = -38.5; y < 40; y += 4)
+  for (double x = -38.5; x < 40; x += 3)
+    for (double y = -38.5; y < 40; y += 3)
       forest.push_back({x, y, number_in(random, 0, 0.1)});
   const GroundSplit found = split(forest, {});
   EXPECT_EQ(found.ground, numbers(trees, forest.size()));

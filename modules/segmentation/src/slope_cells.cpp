@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "union_find.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -16,24 +17,24 @@ namespace {
 constexpr std::size_t kCellsAtATime = 4096;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Cells at most this far from each other can be linked.
-constexpr int kRadius = 5;
+// Cells at most this far from each other can be linked, and a cell at most kFar from an outlier is above it.
+constexpr int kNear = 3, kFar = 10;
 // Smallest number of linked cells that are certainly no reflection. The reflections of a road that were seen
 // in recorded sweeps have up to 8 cells of 1 m.
-constexpr std::size_t kPatch = 20;
+constexpr std::uint32_t kPatch = 20;
 
 struct Offset {
   int dx, dy;
   double distance;
 };
 
-// Returns the offsets to the cells within kRadius, the nearest first.
-std::vector<Offset> offsets_nearby() {
+// Returns the offsets to the cells within `radius`, the nearest first.
+std::vector<Offset> offsets_within(int radius) {
   std::vector<Offset> offsets;
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
       const int square = dx * dx + dy * dy;
-      if (square > 0 && square <= kRadius * kRadius) offsets.push_back({dx, dy, std::sqrt(square)});
+      if (square > 0 && square <= radius * radius) offsets.push_back({dx, dy, std::sqrt(square)});
     }
   }
   std::stable_sort(offsets.begin(), offsets.end(),
@@ -41,58 +42,55 @@ std::vector<Offset> offsets_nearby() {
   return offsets;
 }
 
-// Finds low outliers in the graph whose nodes are the cells.
 class LowOutliers {
  public:
-  LowOutliers(const SlopeCells& cells, double rise, double margin)
-      : cells_(cells), rise_(rise), margin_(margin), offsets_(offsets_nearby()) {}
+  LowOutliers(const SlopeCells& cells, double rise, double margin, const ParallelPolicy& policy)
+      : cells_(cells), rise_(rise), margin_(margin), size_(cells.size()) {
+    UnionFind patches;
+    patches.reset(cells.size());
+    for_each_range(policy, cells.size(), kCellsAtATime, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        link(static_cast<std::uint32_t>(i), patches);
+    });
+    root_ = patches.roots();
+    for (const std::uint32_t root : root_)
+      ++size_[root];
+  }
 
+  // A cell that is above a cell of a larger patch does not change the envelope, so it need not be dropped.
   bool contains(std::uint32_t cell) const {
-    std::vector<std::uint32_t> patch, other_patch;
-    if (is_large(cell, patch)) return false;
-    for (const std::uint32_t member : patch) {
-      const bool below = any_neighbour(member, [&](std::uint32_t other, double distance) {
-        return is_above(other, member, distance) && is_large(other, other_patch);
-      });
-      if (below) return true;
+    if (is_large(cell)) return false;
+    for (const Offset& offset : far_) {
+      const std::optional<std::uint32_t> other = cells_.neighbour(cells_[cell].at, offset.dx, offset.dy);
+      if (!other || !is_large(*other)) continue;
+      if (is_above(*other, cell, offset.distance)) return true;
+      if (is_above(cell, *other, offset.distance)) return false;
     }
     return false;
   }
 
  private:
+  // Each pair of cells is visited from one of them.
+  void link(std::uint32_t cell, UnionFind& patches) const {
+    for (const Offset& offset : near_) {
+      if (offset.dy < 0 || (offset.dy == 0 && offset.dx < 0)) continue;
+      const std::optional<std::uint32_t> other = cells_.neighbour(cells_[cell].at, offset.dx, offset.dy);
+      if (other && std::abs(cells_[*other].height - cells_[cell].height) <= rise_ + margin_)
+        patches.unite(cell, *other);
+    }
+  }
+
   // Returns whether `cell` is higher than a cone on `base` by more than the margin.
   bool is_above(std::uint32_t cell, std::uint32_t base, double distance) const {
     return cells_[cell].height > cells_[base].height + rise_ * distance + margin_;
   }
 
-  // Returns whether match(neighbour, distance) is true for any cell with points nearby.
-  template <typename Match>
-  bool any_neighbour(std::uint32_t cell, const Match& match) const {
-    for (const Offset& offset : offsets_) {
-      const std::optional<std::uint32_t> other = cells_.neighbour(cells_[cell].at, offset.dx, offset.dy);
-      if (other && match(*other, offset.distance)) return true;
-    }
-    return false;
-  }
-
-  // Returns whether at least kPatch cells are connected to the cell, with itself. If not, `patch` has them.
-  bool is_large(std::uint32_t cell, std::vector<std::uint32_t>& patch) const {
-    patch.assign(1, cell);
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const std::uint32_t from = patch[i];
-      const bool large = any_neighbour(from, [&](std::uint32_t other, double distance) {
-        if (is_above(other, from, distance) || is_above(from, other, distance)) return false;
-        if (std::find(patch.begin(), patch.end(), other) == patch.end()) patch.push_back(other);
-        return patch.size() == kPatch;
-      });
-      if (large) return true;
-    }
-    return false;
-  }
+  bool is_large(std::uint32_t cell) const { return size_[root_[cell]] >= kPatch; }
 
   const SlopeCells& cells_;
   double rise_, margin_;
-  std::vector<Offset> offsets_;
+  std::vector<std::uint32_t> root_, size_;  // of the patch of each cell; sizes are stored at the root
+  std::vector<Offset> near_ = offsets_within(kNear), far_ = offsets_within(kFar);
 };
 
 // Inserts a 0 before each bit.
@@ -239,7 +237,7 @@ std::optional<std::uint32_t> SlopeCells::neighbour(CellPosition at, int dx, int 
 std::vector<std::uint8_t> low_outliers(const SlopeCells& cells, double rise, double margin,
                                        const ParallelPolicy& policy) {
   std::vector<std::uint8_t> outlier(cells.size());
-  const LowOutliers outliers(cells, rise, margin);
+  const LowOutliers outliers(cells, rise, margin, policy);
   for_each_range(policy, cells.size(), kCellsAtATime, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       outlier[i] = outliers.contains(static_cast<std::uint32_t>(i)) ? 1 : 0;

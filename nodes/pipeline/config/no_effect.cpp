@@ -55,7 +55,7 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
   check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones, method + " zones");
   check("ground.sensor_height", ground.sensor_height.has_value(),
         ground.method == GroundMethod::zones || ground.method == GroundMethod::plane,
-        method + " zones or plane");
+        grounded ? method + " zones or plane" : method);
   check("ground.cell_size", ground.cell_size.has_value(), ground.method == GroundMethod::slope,
         method + " slope");
   check("ground.distance", ground.distance.has_value(), grounded, method);

@@ -193,12 +193,11 @@ struct GroundSlopeOptions {
 ///
 /// A grid of square cells is laid perpendicular to `up`. The steps are:
 /// - Each cell stores the height of its lowest point.
-/// - Low outliers, e.g. reflections, are found. A cell is above another one if its height exceeds that of the
-///   other by more than distance + max_slope * (distance of both centres), where max_slope is the tangent of
-///   max_slope_degrees. Cells within 5 cells of each other are linked if neither is above the other. A cell
-///   is a low outlier if the patch of cells that are linked with it, directly or through others, has less
-///   than 20 cells, and a cell within 5 cells of the patch is above the patch and has a patch of 20 cells or
-///   more.
+/// - Low outliers, e.g. reflections, are found. Cells within 3 cells of each other are linked if their
+///   heights differ by at most distance + max_slope * cell_size, where max_slope is the tangent of max_slope_degrees.
+///   Linked cells are a patch. A cell is above another one if its height exceeds that of the other by more
+///   than distance + max_slope * (distance of both centres). A cell of a patch of less than 20 cells is a low
+///   outlier if a cell of a larger patch within 10 cells is above it.
 /// - The surface in the centre of a cell c is the minimum of low(c') + max_slope * |c - c'| over all cells c'
 ///   that are no low outliers. This is the lower envelope of cones.
 /// - Within a cell the surface is a plane. Along each axis of the grid, its slope is that to the next cell or
@@ -215,7 +214,7 @@ struct GroundSlopeOptions {
 /// Points that are not valid (is_valid()) are in neither list. With at least one valid point, ground is
 /// found; GroundSplit::normal, offset and sensor have no meaning. The order of the points and the number of
 /// threads do not change the result. Cells 2^31 or more cells away from the origin are merged with the cells
-/// at the border. O(n) and O(m log m) for m cells with points. Takes 1 byte for each point and about 130
+/// at the border. O(n) and O(m log m) for m cells with points. Takes 1 byte for each point and up to 150
 /// bytes for each cell. Throws std::invalid_argument for an option outside its range and std::length_error if
 /// a point index exceeds 2^31 - 1.
 ///
