@@ -9,6 +9,7 @@
 
 #include "commands/shared/messages.h"
 #include "loaded_cloud.h"
+#include "object_files.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
@@ -89,7 +90,10 @@ class ObjectFitter {
   MethodOptions method_options_;
 };
 
-void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Report& report) {
+// Returns the number of the cluster of each reported object.
+std::vector<std::size_t> add_objects(const StoredClusters& clusters, std::vector<Object> objects,
+                                     Report& report) {
+  std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     Object& object = objects[i];
     if (object.verdict == ExtentVerdict::small) report.counts.small += clusters.point_count(i);
@@ -97,11 +101,14 @@ void add_objects(const StoredClusters& clusters, std::vector<Object> objects, Re
     if (object.verdict != ExtentVerdict::keep) continue;
     object.entry.id = report.clusters.size();
     report.clusters.push_back(std::move(object.entry));
+    numbers.push_back(i);
   }
+  return numbers;
 }
 
-// Finds the clusters of a cloud, whose points may be in files, and fits the volumes.
-void add_objects_of(const PointView& cloud, const Options& options, Report& report) {
+// Finds the clusters of a cloud, whose points may be in files, fits the volumes and writes the points of
+// objects.
+Status add_objects_of(const PointView& cloud, const Job& job, const Options& options, Report& report) {
   const Clock::time_point begin = Clock::now();
   const PipelineConfig& config = options.pipeline;
   const Execution execution = config.execution();
@@ -118,8 +125,13 @@ void add_objects_of(const PointView& cloud, const Options& options, Report& repo
   }
   const double segment = seconds_since(begin);
   report.clusters.clear();
-  add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
+  const std::vector<std::size_t> numbers =
+      add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
   if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
+  if (!job.objects) return Status::done;
+  return write_objects(*job.objects, numbers.size(), execution.parallel, [&](std::size_t id) {
+    write_object(*job.objects, id, clusters.points(numbers[id]).view());
+  });
 }
 
 }  // namespace
@@ -129,8 +141,9 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   LoadedCloud loaded(job, false, execution, options.origin);
   report.parts = job.tiles->included_count();
   report.origin = loaded.origin();
+  Status written = Status::done;
   try {
-    add_objects_of(loaded.xyz(), options, report);
+    written = add_objects_of(loaded.xyz(), job, options, report);
   } catch (const TileError&) {
     throw;
   } catch (...) {
@@ -154,7 +167,7 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   const std::string coarse = coarse_warning(box, loaded.xyz().scalar);
   if (!coarse.empty()) report_problem(job.input + ": " + coarse);
   loaded.require_unchanged();
-  return worse(report_failures(report), write_mesh(job, report.clusters));
+  return worse(written, worse(report_failures(report), write_mesh(job, report.clusters)));
 }
 
 }  // namespace pcl_bv::detail
