@@ -14,6 +14,7 @@
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/shapes.h"
 #include "pcl_bv/synth/street.h"
+#include "pcl_bv/synth/town.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -192,6 +193,27 @@ detail::RigSequence detail::parse_rig_sequence(const std::string& text) {
   RigSequence spec;
   spec.seed = seed_of(parts);
   if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);
+  return spec;
+}
+
+bool detail::is_town(const std::string& text) {
+  const std::string name = text.substr(0, text.find(':'));
+  return name == "town" || name == "town-objects";
+}
+
+detail::TownSequence detail::parse_town(const std::string& text) {
+  const auto parts = split(text);
+  if (!is_town(text))
+    throw std::invalid_argument("unknown scene '" + std::string(parts[0]) +
+                                "', expected town or town-objects");
+  if (parts.size() > 4)
+    throw std::invalid_argument("'" + text + "' has too many parts, expected " + std::string(parts[0]) +
+                                "[:TILES[:SEED[:POINTS]]]");
+  TownSequence spec;
+  spec.options.ground = parts[0] == "town";
+  spec.options.seed = seed_of(parts);
+  if (parts.size() > 1) spec.tiles = whole_number("TILES", parts[1], 1, 100'000);
+  if (parts.size() > 3) spec.options.points_per_tile = whole_number("POINTS", parts[3], 1000, 100'000'000);
   return spec;
 }
 

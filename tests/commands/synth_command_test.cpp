@@ -22,6 +22,7 @@
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
+#include "pcl_bv/synth/town.h"
 #include "temporary_folder.h"
 
 namespace pcl_bv::detail {
@@ -140,11 +141,32 @@ TEST_F(SynthCommand, WritesTheRuralRoadWithPosesAndTruth) {
   EXPECT_FALSE(std::getline(truths, more));
 }
 
+TEST_F(SynthCommand, WritesTheSameTilesOfATownForAnyNumberOfThreadsAndOfTiles) {
+  const auto tiles = [&](const std::string& arguments, const std::string& folder) {
+    const Outcome outcome = run(arguments + " " + path(folder).string());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out + outcome.err, "");
+    return std::distance(fs::directory_iterator(path(folder)), fs::directory_iterator{});
+  };
+  EXPECT_EQ(tiles("town:9:3:5000", "all"), 9);
+  EXPECT_EQ(tiles("town:4:3:5000", "some"), 4);
+  const Town town({3, 5000, true});
+  for (std::size_t number = 0; number < 9; ++number) {
+    const TownTile tile = town_tile(number);
+    const fs::path all = path("all") / town_file_name(tile), some = path("some") / town_file_name(tile);
+    EXPECT_EQ(read_pcd(all).data, to_raw_cloud(town.tile(tile)).data);
+    EXPECT_EQ(fs::exists(some), number < 4);
+    if (number < 4) {
+      EXPECT_EQ(content_of(some), content_of(all));
+    }
+  }
+}
+
 TEST_F(SynthCommand, SaysInOneLineWhyAnOutputWasNotWritten) {
   std::ofstream(path("file")) << "not a folder";
   const std::string below_a_file = (path("file") / "a.pcd").string();
-  for (const std::string& arguments :
-       {"box:10 " + below_a_file, "street-sequence:1 " + path("file").string()}) {
+  for (const std::string& arguments : {"box:10 " + below_a_file, "street-sequence:1 " + path("file").string(),
+                                       "town:4 " + path("file").string()}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 1);
@@ -164,7 +186,8 @@ TEST_F(SynthCommand, WrongUseIsStatusTwoAndWritesNothing) {
   for (const std::string& arguments :
        {std::string(), std::string("box"), "cube " + file, "box:0 " + file, "paper-4010:5 " + file,
         "street-sequence:0 " + file, "rural-road-sequence-17 " + file, "rural-road-sequence:0 " + file,
-        "rural-road:7 " + file, "box " + file + " more", "--unknown box " + file}) {
+        "rural-road:7 " + file, "town:0 " + file, "town:4:1:10 " + file, "box " + file + " more",
+        "--unknown box " + file}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2);
@@ -181,6 +204,7 @@ TEST_F(SynthCommand, HelpNamesTheScenesAndShowsExamples) {
   EXPECT_THAT(outcome.out, HasSubstr("paper-327323"));
   EXPECT_THAT(outcome.out, HasSubstr("synth street-sequence"));
   EXPECT_THAT(outcome.out, HasSubstr("synth rural-road-sequence-16"));
+  EXPECT_THAT(outcome.out, HasSubstr("synth town:64"));
 }
 
 }  // namespace

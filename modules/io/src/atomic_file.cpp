@@ -31,14 +31,12 @@ void require(bool success) {
   if (!success) throw IoError(cannot_write + system_reason(errno));
 }
 
-void write_all(const FileDescriptor& file, const Pieces& pieces) {
-  for (std::string_view rest : pieces) {
-    while (!rest.empty()) {
-      const ssize_t written = ::write(file.get(), rest.data(), rest.size());
-      if (written < 0 && errno == EINTR) continue;
-      require(written >= 0);
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    }
+void write_all(const FileDescriptor& file, std::string_view rest) {
+  while (!rest.empty()) {
+    const ssize_t written = ::write(file.get(), rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    require(written >= 0);
+    rest.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
@@ -152,10 +150,20 @@ void write_file_atomically(const fs::path& path, std::initializer_list<std::stri
 }
 
 void write_file_atomically(const fs::path& path, const Pieces& pieces) {
+  write_file_atomically(path, [&](const FileSink& sink) {
+    for (const std::string_view piece : pieces)
+      sink(piece);
+  });
+}
+
+void write_file_atomically(const fs::path& path, const std::function<void(const FileSink& sink)>& write) {
+  const auto write_to = [&](const FileDescriptor& file) {
+    write([&file](std::string_view piece) { write_all(file, piece); });
+  };
   if (!is_written_directly(path))
-    return replace(path, [&](const FileDescriptor& file, const fs::path&) { write_all(file, pieces); });
+    return replace(path, [&](const FileDescriptor& file, const fs::path&) { write_to(file); });
   FileDescriptor direct(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
-  write_all(direct, pieces);
+  write_to(direct);
   require(direct.close());
 }
 

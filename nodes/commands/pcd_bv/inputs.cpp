@@ -185,6 +185,9 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
       claims.claim(job.image.emplace(target("--image", *options.image, job, image_extension)));
     if (options.view_html)
       claims.claim(job.view_html.emplace(target("--view-html", *options.view_html, job, ".html")));
+    if (options.objects)
+      claims.claim_folder(
+          job.objects.emplace(several ? *options.objects / stem(job.input) : *options.objects));
   }
   return jobs;
 }

@@ -24,8 +24,9 @@ struct Job {
   std::string input;                   ///< A file, synth:NAME[:POINTS[:SEED]], or RECORDING#NUMBER.
   std::optional<std::string> error{};  ///< Why nothing can be loaded, such as "no cloud in this recording".
   std::optional<std::filesystem::path> labels{}, mesh{}, image{}, view_html{};
-  std::size_t bin_fields = 0;                   ///< Floats per point of .bin files, as in read_cloud().
-  std::shared_ptr<RecordedClouds> recording{};  ///< Recording of cloud `number`; `input` is FILE#number.
+  std::optional<std::filesystem::path> objects{};  ///< Folder for the points of each object.
+  std::size_t bin_fields = 0;                      ///< Floats per point of .bin files, as in read_cloud().
+  std::shared_ptr<RecordedClouds> recording{};     ///< Recording of cloud `number`; `input` is FILE#number.
   std::size_t number = 0;
   std::shared_ptr<Tiles> tiles{};       ///< Set for a tiled cloud (--together); `input` is kTiledName.
   std::vector<std::string> partials{};  ///< Files of partial results (--merge).

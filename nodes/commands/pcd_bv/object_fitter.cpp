@@ -36,7 +36,7 @@ std::vector<const Method*> methods_of(const PipelineConfig& config, const ClassT
 StoredClusterOptions store_options(const Options& options, ScalarType scalar) {
   StoredClusterOptions store;
   store.points_in_memory = std::max<std::size_t>(options.memory_bytes / bytes_per_point(scalar), 1);
-  store.keep_visited = false;
+  store.keep_visited = options.objects.has_value();
   return store;
 }
 
@@ -66,6 +66,8 @@ std::vector<Object> ObjectFitter::fit(const StoredClusters& clusters) {
     const auto visited = clusters.visit(i);
     objects[i] = visited ? take(*visited) : fit(clusters.points(i).view(), execution);
     objects[i].first_number = clusters.first_number(i);
+    objects[i].clusters = &clusters;
+    objects[i].cluster = i;
   });
   return objects;
 }

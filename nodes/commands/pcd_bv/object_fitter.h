@@ -27,6 +27,9 @@ struct Object {
   ExtentVerdict verdict = ExtentVerdict::keep;
   ClusterEntry entry;
   std::size_t first_number = 0;  ///< Number of its first point in the cloud.
+  /// The cluster, as long as the StoredClusters live.
+  const StoredClusters* clusters = nullptr;
+  std::size_t cluster = 0;
 };
 
 class ObjectFitter {

@@ -51,7 +51,7 @@ const char* name_of(PcdBvCommand command) {
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
-      gpu, memory;
+      gpu, memory, objects;
   bool together = false, merge = false, check = false, info = false, timings = false, progress = false;
 };
 
@@ -68,6 +68,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--memory", texts.memory, "MB",
               "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
   if (command == PcdBvCommand::serial) {
+    line.option(
+        "--objects", texts.objects, "DIR",
+        "With --cluster: write the points of each object as DIR/ID.pcd;\nseveral inputs: DIR/NAME/ID.pcd");
     line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
@@ -141,6 +144,8 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   options.mesh = path_or_none(texts.mesh);
   options.image = path_or_none(texts.image);
   options.view_html = path_or_none(texts.view_html);
+  options.objects = path_or_none(texts.objects);
+  if (options.objects && !options.clusters()) throw UsageError("--objects: only useful with --cluster");
   require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--view-html", texts.view_html, {".html"});
@@ -204,7 +209,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   reject(over_ranks && options.clusters() && options.origin.requested && !options.origin.at,
          "--origin auto and --cluster over ranks");
   if (!options.merge && !options.partial) return;
-  reject_combinations(line, option, {"--image", "--view-html", "--info"});
+  reject_combinations(line, option, {"--image", "--view-html", "--info", "--objects"});
   if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
   if (options.merge)
     reject_combinations(line, option,

@@ -39,7 +39,7 @@ struct Options {
   std::string range_from;   ///< Where the range was set, see SettingOptions::config().
   std::string config_file;  ///< File of --config; empty without it.
   OutputFormat format = OutputFormat::text;
-  std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
+  std::optional<std::filesystem::path> output, labels, mesh, image, view_html, objects;
   ViewFrom view = ViewFrom::iso;
   bool tiled = false;  ///< Whether all inputs are one cloud (--together, --partial).
   bool merge = false;  ///< Whether inputs are files of partial results.
@@ -58,7 +58,7 @@ struct Options {
 
 /// Returns whether files other than the report are requested.
 inline bool writes_files(const Options& options) {
-  return options.labels || options.mesh || options.image || options.view_html;
+  return options.labels || options.mesh || options.image || options.view_html || options.objects;
 }
 
 /// The commands that use parse_options().

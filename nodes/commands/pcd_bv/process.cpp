@@ -17,6 +17,7 @@
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
+#include "object_files.h"
 #include "object_shares.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -86,6 +87,12 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
                    LoadedCloud& loaded) {
   const FrameResult& result = *outcome.result;
   Status status = job.mesh ? write_mesh(job, outcome.entries()) : Status::done;
+  if (job.objects) {
+    status = worse(status, write_objects(*job.objects, result.clusters.size(), execution_of(options).parallel,
+                                         [&](std::size_t id) {
+                                           write_object(*job.objects, id, result.points_of(id, loaded.xyz()));
+                                         }));
+  }
   if (!job.labels && !job.image && !job.view_html) return status;
   std::vector<std::uint32_t> label;
   const bool shows_ground = job.view_html && result.ground.found;

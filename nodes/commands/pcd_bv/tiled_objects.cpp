@@ -13,6 +13,7 @@
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
+#include "object_files.h"
 #include "object_fitter.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
@@ -103,6 +104,14 @@ class TiledObjects {
     }
   }
 
+  // Writes the points of each object to a file.
+  Status write_points(const std::filesystem::path& folder) const {
+    return write_objects(
+        folder, objects_.size(), options_.pipeline.execution().parallel, [&](std::size_t id) {
+          write_object(folder, id, objects_[id].clusters->points(objects_[id].cluster).view());
+        });
+  }
+
  private:
   // Returns the number of points that are not valid.
   std::size_t add_clusters(const PointView& points, const ClusterOptions& options,
@@ -112,7 +121,8 @@ class TiledObjects {
     store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
       fitter.visit(brick, found, execution);
     };
-    const StoredClusters clusters(points, options, store, options_.pipeline.execution());
+    found_.push_back(std::make_unique<StoredClusters>(points, options, store, options_.pipeline.execution()));
+    const StoredClusters& clusters = *found_.back();
     Counts& counts = report_.counts;
     counts.small += clusters.counts().small;
     counts.large += clusters.counts().large;
@@ -126,7 +136,9 @@ class TiledObjects {
       if (verdict == ExtentVerdict::keep) objects_.push_back(std::move(objects[i]));
     }
     fit_seconds_ += seconds_since(begin);
-    return clusters.counts().nonfinite;
+    const std::size_t invalid = clusters.counts().nonfinite;
+    if (!options_.objects) found_.pop_back();
+    return invalid;
   }
 
   // Sorts the objects of several classes: the largest first, then by their first point.
@@ -141,12 +153,14 @@ class TiledObjects {
   Report& report_;
   ClassTable table_;
   StoredClusterOptions store_;
+  std::vector<std::unique_ptr<StoredClusters>> found_;  // of each class, if points are to be written
   std::vector<Object> objects_;
   double fit_seconds_ = 0;
 };
 
-// Finds the clusters of a cloud, whose points may be in files, and fits the volumes.
-void add_objects_of(const PointView& cloud, const Tiles& tiles, const Options& options, Report& report) {
+// Finds the clusters of a cloud, whose points may be in files, fits the volumes and writes the points of
+// objects.
+Status add_objects_of(const PointView& cloud, const Job& job, const Options& options, Report& report) {
   const Clock::time_point begin = Clock::now();
   const PipelineConfig& config = options.pipeline;
   report.points = cloud.count;
@@ -154,13 +168,14 @@ void add_objects_of(const PointView& cloud, const Tiles& tiles, const Options& o
   const RemainingPoints remaining = remaining_points(cloud, config);
   TiledObjects objects(options, cloud.scalar, report);
   if (const auto& field = config.cluster.class_field) {
-    objects.add_classes({remaining.points, tiles, field->name}, remaining);
+    objects.add_classes({remaining.points, *job.tiles, field->name}, remaining);
   } else {
     objects.add_all(remaining);
   }
   objects.write_report();
   const double all = seconds_since(begin);
   if (options.timings) report.seconds = {0, all - objects.fit_seconds(), objects.fit_seconds()};
+  return job.objects ? objects.write_points(*job.objects) : Status::done;
 }
 
 }  // namespace
@@ -170,8 +185,9 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   LoadedCloud loaded(job, false, execution, options.origin);
   report.parts = job.tiles->included_count();
   report.origin = loaded.origin();
+  Status written = Status::done;
   try {
-    add_objects_of(loaded.xyz(), *job.tiles, options, report);
+    written = add_objects_of(loaded.xyz(), job, options, report);
   } catch (const TileError&) {
     throw;
   } catch (...) {
@@ -197,7 +213,7 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   const std::string coarse = coarse_warning(box, loaded.xyz().scalar);
   if (!coarse.empty()) report_problem(job.input + ": " + coarse);
   loaded.require_unchanged();
-  return worse(report_failures(report), write_mesh(job, report.clusters));
+  return worse(written, worse(report_failures(report), write_mesh(job, report.clusters)));
 }
 
 }  // namespace pcl_bv::detail

@@ -43,4 +43,14 @@ void OutputClaims::claim(const fs::path& output) {
   }
 }
 
+void OutputClaims::claim_folder(const fs::path& folder) {
+  claim(folder);
+  const fs::path parent = identity(folder);
+  for (const fs::path& input : inputs_) {
+    if (input.parent_path() == parent)
+      throw UsageError(folder.string() + ": has the input " + input.string() +
+                       ", which could be overwritten");
+  }
+}
+
 }  // namespace pcl_bv::detail

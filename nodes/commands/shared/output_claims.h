@@ -25,6 +25,9 @@ class OutputClaims {
   /// device.
   void claim(const std::filesystem::path& output);
 
+  /// Registers a folder for several outputs. Also throws UsageError if an input is in the folder.
+  void claim_folder(const std::filesystem::path& folder);
+
  private:
   std::set<std::filesystem::path> inputs_, taken_;
 };

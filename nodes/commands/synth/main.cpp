@@ -19,7 +19,9 @@
 #include "pcl_bv/synth/rural_road_truth.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
+#include "pcl_bv/synth/town.h"
 #include "rig_recording.h"
+#include "town_files.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -44,6 +46,13 @@ std::string footer() {
          "clouds\n"
          "/front/points and /rear/points with the time of each point, and the transforms /tf and\n"
          "/tf_static.\n\n"
+         "town is the map of a town without a sensor: terrain, roads, houses, plants, poles, fences and "
+         "cars,\n"
+         "in square tiles of 100 m, OUT/COLUMN_ROW.pcd. Objects lie across borders of tiles. POINTS (200000) "
+         "is\n"
+         "the mean number of points of a tile. The field object is 0 for the ground. town-objects has no "
+         "points\n"
+         "of the ground, so its objects are clusters. Tiles are written by all threads.\n\n"
          "Examples:\n"
          "  synth street street.pcd                  128000 rays, seed 1\n"
          "  synth street:256000:7 street.pcd         4000 azimuths, seed 7\n"
@@ -52,7 +61,9 @@ std::string footer() {
          "  synth street-sequence:100:7 sweeps       100 sweeps, seed 7\n"
          "  synth rural-road-sequence-16:300:2 road  300 sweeps with 16 beams, seed 2, with poses and "
          "truth\n"
-         "  synth rig:100 rig.mcap                   10 s of two LiDARs\n\n"
+         "  synth rig:100 rig.mcap                   10 s of two LiDARs\n"
+         "  synth town:64 tiles                      8 x 8 tiles, 13 million points\n"
+         "  synth town-objects:100:7:500000 tiles    10 x 10 tiles, seed 7, denser\n\n"
          "Exit status: 0 done, 1 output not written, 2 wrong use.\n";
 }
 
@@ -112,6 +123,10 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
       create_parent_folders(output);
       write_rig_recording(spec, output);
     });
+  } else if (is_town(scene)) {
+    const TownSequence spec = parse_town(scene);
+    naming(output, [&] { std::filesystem::create_directories(output); });
+    write_town(spec, output);
   } else {
     const SynthOptions spec = parse_synth(scene);
     naming(output, [&] {
@@ -126,8 +141,9 @@ int run(int argc, char** argv) {
   std::string scene, output;
   line.option("SCENE", scene, "",
               "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]],\n"
-              "rural-road-sequence[-BEAMS][:FRAMES[:SEED]] or rig[:FRAMES[:SEED]]");
-  line.option("OUT", output, "", "The .pcd file; the folder of a sequence; the .mcap file of rig");
+              "rural-road-sequence[-BEAMS][:FRAMES[:SEED]], rig[:FRAMES[:SEED]]\n"
+              "or town[-objects][:TILES[:SEED[:POINTS]]]");
+  line.option("OUT", output, "", "The .pcd file; the folder of a sequence or town; the .mcap file of rig");
   if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
   const Interruption interruption([] {});

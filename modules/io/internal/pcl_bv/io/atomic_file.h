@@ -35,6 +35,13 @@ void write_file_atomically(const std::filesystem::path& path, std::initializer_l
 /// Like the overload for an initializer list.
 void write_file_atomically(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 
+/// Takes the next piece of a file.
+using FileSink = std::function<void(std::string_view piece)>;
+/// Calls `write` with a sink, which gets the content piece by piece and writes each piece at once. Otherwise
+/// like the overload for one text. An exception of `write` is rethrown after the temporary file is removed.
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(const FileSink& sink)>& write);
+
 /// Calls `write` with the path of an empty temporary file, to which it writes the new content. Otherwise like
 /// write_file_atomically(). If `path` is written directly, `write` gets `path` itself. It opens the file that
 /// exists and does not replace it. An exception of `write` is rethrown after the temporary file is removed.
@@ -49,5 +56,5 @@ void create_parent_folders(const std::filesystem::path& file);
 /// regular file throws IoError and leaves the existing file unchanged.
 void remove_temporary_files() noexcept;
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv
