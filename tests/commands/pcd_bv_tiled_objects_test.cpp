@@ -74,6 +74,31 @@ TEST_F(PcdBvTiledObjects, GoToTextCsvAndMesh) {
   EXPECT_EQ(nothing.json()["counts"]["nonfinite"], 100);
 }
 
+TEST_F(PcdBvTiledObjects, LabelThePointsOfEachTileAsInOneFile) {
+  const Points points = yard(1);
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--cluster", "0.4", "--min-points", "3", "--max-extent", "20,5,9"},
+           {"--cluster", "0.4", "--ground", "slope", "--range", "3:25"}}) {
+    const Result whole = objects(options, {"--labels", at("whole_labels.pcd")}, binary("whole.pcd", points));
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    const std::vector<std::uint32_t> expected = labels_in(at("whole_labels.pcd"));
+    const std::string folder = tiles("tiles", points, 7);
+    const Result result = objects(options, {"--together", "--memory", "1", "--labels", at("labels")}, folder);
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(at("labels")))
+      files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<std::uint32_t> found;
+    for (const auto& file : files) {
+      const std::vector<std::uint32_t> part = labels_in(file.string());
+      found.insert(found.end(), part.begin(), part.end());
+    }
+    EXPECT_EQ(found, expected);
+    std::filesystem::remove_all(at("labels"));
+  }
+}
+
 TEST_F(PcdBvTiledObjects, RefuseWhatTheyDoNotHave) {
   const std::string folder = tiles("tiles", gaussian(100, 8), 2);
   for (const std::vector<std::string>& options :
@@ -81,6 +106,7 @@ TEST_F(PcdBvTiledObjects, RefuseWhatTheyDoNotHave) {
                                              {"--cluster", "1", "--oversized", "split", "--max-size", "50"},
                                              {"--cluster", "1", "--ground", "plane"},
                                              {"--cluster", "1", "--labels", at("l.pcd")},
+                                             {"--labels", at("labels")},
                                              {"--cluster", "1", "--image", at("i.png")},
                                              {"--cluster", "1", "--memory", "0"},
                                              {"--memory", "5"},

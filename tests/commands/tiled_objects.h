@@ -4,11 +4,14 @@
 // Tests of objects of tiled clouds.
 #pragma once
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "pcl_bv/io/read_cloud.h"
 #include "tiles.h"
 
 namespace pcl_bv::test {
@@ -40,6 +43,17 @@ class TiledObjects : public Tiled {
     for (std::size_t i = 70; i < points.size(); i += 200)
       points[i][i % 3] = std::numeric_limits<float>::quiet_NaN();
     return points;
+  }
+
+  // The field `label` of a file.
+  static std::vector<std::uint32_t> labels_in(const std::string& path) {
+    const RawCloud cloud = read_cloud(path);
+    const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                                    [](const PointField& f) { return f.name == "label"; });
+    std::vector<std::uint32_t> labels(field == cloud.fields.end() ? 0 : cloud.size());
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      std::memcpy(&labels[i], cloud.data.data() + i * cloud.point_step + field->offset, sizeof labels[i]);
+    return labels;
   }
 
   Result objects(const std::vector<std::string>& options, const std::vector<std::string>& more,

@@ -21,7 +21,14 @@ void expect_same_as_in_memory(const PointView& points, const ClusterOptions& opt
   SCOPED_TRACE(testing::Message() << points_in_memory << " points in memory, min_points "
                                   << options.min_points << ", tolerance " << options.tolerance);
   const Clusters expected = cluster(points, options);
-  const StoredClusters stored(points, options, {points_in_memory, {}}, execution);
+  StoredClusterOptions store{points_in_memory, {}};
+  store.has_labels = true;
+  const StoredClusters stored(points, options, store, execution);
+  std::vector<std::uint32_t> labels(points.count, StoredClusters::kNoCluster);
+  for (std::size_t c = 0; c < expected.size(); ++c)
+    for (std::size_t i = 0; i < expected.list_size(c); ++i)
+      labels[static_cast<std::size_t>(expected.list(c)[i])] = static_cast<std::uint32_t>(c);
+  EXPECT_EQ(stored.labels(0, points.count), labels);
   EXPECT_EQ(bytes_of(stored), bytes_of(points, expected));
   EXPECT_EQ(stored.counts().small, expected.small_points);
   EXPECT_EQ(stored.counts().large, expected.large_points);

@@ -149,6 +149,20 @@ std::vector<Job> list_inputs(const Options& options) {
   return jobs;
 }
 
+namespace {
+
+// Plans a file in the folder for each input of a tiled cloud.
+void claim_tile_labels(const fs::path& folder, Job& job, OutputClaims& claims) {
+  if (folder.has_extension() && !is_folder(folder.string()))
+    reject_value("--labels", folder.string(), "is no folder, which --together needs");
+  for (const Job& tile : job.tiles->jobs()) {
+    job.tile_labels.push_back(folder / (stem(tile.input) + ".pcd"));
+    if (!tile.error) claims.claim(job.tile_labels.back());
+  }
+}
+
+}  // namespace
+
 std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   const bool one = options.tiled || options.merge;
   const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
@@ -179,7 +193,10 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;
-    if (options.labels) claims.claim(job.labels.emplace(target("--labels", *options.labels, job, ".pcd")));
+    if (options.labels && job.tiles) {
+      claim_tile_labels(*options.labels, job, claims);
+    } else if (options.labels)
+      claims.claim(job.labels.emplace(target("--labels", *options.labels, job, ".pcd")));
     if (options.mesh) claims.claim(job.mesh.emplace(target("--mesh", *options.mesh, job, mesh_extension)));
     if (options.image)
       claims.claim(job.image.emplace(target("--image", *options.image, job, image_extension)));

@@ -28,8 +28,9 @@ struct Job {
   std::size_t bin_fields = 0;                      ///< Floats per point of .bin files, as in read_cloud().
   std::shared_ptr<RecordedClouds> recording{};     ///< Recording of cloud `number`; `input` is FILE#number.
   std::size_t number = 0;
-  std::shared_ptr<Tiles> tiles{};       ///< Set for a tiled cloud (--together); `input` is kTiledName.
-  std::vector<std::string> partials{};  ///< Files of partial results (--merge).
+  std::shared_ptr<Tiles> tiles{};  ///< Set for a tiled cloud (--together); `input` is kTiledName.
+  std::vector<std::filesystem::path> tile_labels{};  ///< Files with labels of the tiles, if requested.
+  std::vector<std::string> partials{};               ///< Files of partial results (--merge).
 };
 
 /// The name, in results, of a cloud that is tiled over several inputs or merged from partial results.

@@ -37,6 +37,7 @@ StoredClusterOptions store_options(const Options& options, ScalarType scalar) {
   StoredClusterOptions store;
   store.points_in_memory = std::max<std::size_t>(options.memory_bytes / bytes_per_point(scalar), 1);
   store.keep_visited = options.objects.has_value();
+  store.has_labels = options.labels.has_value();
   return store;
 }
 

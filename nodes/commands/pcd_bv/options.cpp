@@ -181,9 +181,9 @@ void reject_combinations(const CommandLine& line, const char* option,
 void reject_for_tiled_cloud(const CommandLine& line, const Options& options, PcdBvCommand command) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
-  reject_combinations(line, option, {"--labels"});
   const bool over_ranks = command == PcdBvCommand::mpi;
   const bool shares = options.merge || options.partial || over_ranks;
+  if (shares || !options.clusters()) reject_combinations(line, option, {"--labels"});
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };

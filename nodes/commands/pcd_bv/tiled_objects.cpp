@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "class_points.h"
@@ -22,6 +23,7 @@
 #include "pipeline/filtered_view.h"
 #include "pipeline/ground_view.h"
 #include "process.h"
+#include "tiled_labels.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
@@ -100,8 +102,33 @@ class TiledObjects {
     report_.clusters.clear();
     for (Object& object : objects_) {
       object.entry.id = report_.clusters.size();
+      if (options_.labels) {
+        std::vector<std::uint32_t>& id_of = ids_[object.clusters];
+        id_of.resize(object.clusters->size(), kLabelNone);
+        id_of[object.cluster] = static_cast<std::uint32_t>(object.entry.id);
+      }
       report_.clusters.push_back(std::move(object.entry));
     }
+  }
+
+  // Returns the labels of points as labels_of() does.
+  std::vector<std::uint32_t> labels(const RemainingPoints& remaining, std::size_t first,
+                                    std::size_t count) const {
+    std::vector<std::uint32_t> labels(count, kLabelNone);
+    for (const auto& clusters : found_) {
+      if (!ids_.contains(clusters.get())) continue;  // no object
+      const std::vector<std::uint32_t>& id_of = ids_.at(clusters.get());
+      const std::vector<std::uint32_t> found = clusters->labels(first, count);
+      for (std::size_t i = 0; i < count; ++i)
+        if (found[i] != StoredClusters::kNoCluster) labels[i] = id_of[found[i]];
+    }
+    if (remaining.ground.owner == nullptr) return labels;
+    const LoadedPoints before(remaining.filtered.points, first, count), after(remaining.points, first, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool ground = is_valid(load_point(before.view(), i)) && !is_valid(load_point(after.view(), i));
+      if (ground) labels[i] = kLabelGround;
+    }
+    return labels;
   }
 
   // Writes the points of each object to a file.
@@ -137,7 +164,7 @@ class TiledObjects {
     }
     fit_seconds_ += seconds_since(begin);
     const std::size_t invalid = clusters.counts().nonfinite;
-    if (!options_.objects) found_.pop_back();
+    if (!options_.objects && !options_.labels) found_.pop_back();
     return invalid;
   }
 
@@ -155,6 +182,8 @@ class TiledObjects {
   StoredClusterOptions store_;
   std::vector<std::unique_ptr<StoredClusters>> found_;  // of each class, if points are to be written
   std::vector<Object> objects_;
+  // For each cluster, the id of its object, or kLabelNone. If labels are to be written.
+  std::unordered_map<const StoredClusters*, std::vector<std::uint32_t>> ids_;
   double fit_seconds_ = 0;
 };
 
@@ -175,7 +204,10 @@ Status add_objects_of(const PointView& cloud, const Job& job, const Options& opt
   objects.write_report();
   const double all = seconds_since(begin);
   if (options.timings) report.seconds = {0, all - objects.fit_seconds(), objects.fit_seconds()};
-  return job.objects ? objects.write_points(*job.objects) : Status::done;
+  const Status written = job.objects ? objects.write_points(*job.objects) : Status::done;
+  return worse(written, write_tile_labels(job, [&](std::size_t first, std::size_t count) {
+                 return objects.labels(remaining, first, count);
+               }));
 }
 
 }  // namespace

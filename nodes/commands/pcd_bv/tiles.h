@@ -64,6 +64,9 @@ class Tiles final : public PointSource {
   const std::vector<Job>& jobs() const { return jobs_; }
   const TileHeader& header(std::size_t tile) const { return headers_[tile]; }
 
+  /// Returns the numbers of the points of an input.
+  PointRange points_of(std::size_t tile) const { return {offsets_[tile], offsets_[tile + 1]}; }
+
   /// Returns the number of inputs that are not excluded.
   std::size_t included_count() const;
 

@@ -10,11 +10,12 @@
 namespace pcl_bv::detail {
 
 // Gives each component its range in a buffer: pieces in one, complete clusters of allowed sizes in the other.
-void BrickClusters::make_room(std::vector<Piece>& pieces) {
+std::size_t BrickClusters::make_room(std::vector<Piece>& pieces) {
   const auto& all = components_.components();
   const std::size_t step = record_bytes(components_.scalar()), bytes = point_bytes(components_.scalar());
   next_.assign(all.size(), 0);
-  seen_.assign(all.size(), 0);
+  label_.assign(all.size(), 0);
+  std::size_t clusters = 0;
   std::uint64_t cluster_bytes = 0, piece_bytes = 0;
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (all[c].points == 0) continue;
@@ -23,12 +24,14 @@ void BrickClusters::make_room(std::vector<Piece>& pieces) {
       pieces.push_back({piece_bytes, all[c].points});
       piece_bytes += all[c].points * step;
     } else if (is_size_allowed(options_, all[c].points)) {
+      ++clusters;
       next_[c] = cluster_bytes;
       cluster_bytes += all[c].points * bytes;
     }
   }
   points_of_clusters_.resize(cluster_bytes);
   points_of_pieces_.resize(piece_bytes);
+  return clusters;
 }
 
 BrickResult BrickClusters::write(std::uint32_t brick, const std::vector<std::byte>& records,
@@ -39,7 +42,12 @@ BrickResult BrickClusters::write(std::uint32_t brick, const std::vector<std::byt
   const auto& all = components_.components();
   const ScalarType scalar = components_.scalar();
   const std::size_t record_size = record_bytes(scalar), point_size = point_bytes(scalar);
-  make_room(result.pieces);
+  const std::size_t clusters = make_room(result.pieces);
+  std::uint32_t next_label = 1;
+  if (labels_ != nullptr) next_label = labels_->take(result.pieces.size() + clusters);
+  result.first_label = next_label;
+  next_label += static_cast<std::uint32_t>(result.pieces.size());
+  LabelWriter labels(labels_);
   for (std::size_t i = 0; i * step < records.size(); ++i) {
     const std::byte* const record = records.data() + i * step;
     const std::uint64_t number = number_of_record(record, scalar);
@@ -48,15 +56,21 @@ BrickResult BrickClusters::write(std::uint32_t brick, const std::vector<std::byt
     if (all[c].piece != BrickComponents::kNoPiece) {
       std::memcpy(points_of_pieces_.data() + next_[c], record, record_size);
       next_[c] += record_size;
+      labels.add(number & kNumberMask, result.first_label + all[c].piece);
     } else if (is_size_allowed(options_, all[c].points)) {
-      if (seen_[c] == 0) result.clusters.push_back({next_[c], all[c].points, number & kNumberMask});
-      seen_[c] = 1;
+      if (label_[c] == 0) {
+        label_[c] = next_label++;
+        result.clusters.push_back({next_[c], all[c].points, number & kNumberMask});
+        result.clusters.back().label = label_[c];
+      }
       std::memcpy(points_of_clusters_.data() + next_[c], record, point_size);
       next_[c] += point_size;
+      labels.add(number & kNumberMask, label_[c]);
     } else {
       count_dropped(options_, 1, all[c].points, result.counts);
     }
   }
+  labels.finish();
   write_clusters(brick, result.clusters);
   const std::uint64_t at = file_.append(points_of_pieces_.data(), points_of_pieces_.size()).offset;
   for (Piece& piece : result.pieces)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "brick_components.h"
+#include "label_file.h"
 #include "pcl_bv/segmentation/cluster_share.h"
 #include "pcl_bv/segmentation/clusters.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
@@ -33,6 +34,8 @@ struct StoredCluster {
   std::uint64_t offset, points;
   std::uint64_t first_number;  ///< Smallest number of its points.
   std::optional<StoredVisit> visit{};
+  std::uint32_t label = 0;                      ///< Label of its points (LabelFile), if it is in one brick.
+  std::uint32_t number = 0;                     ///< Position before sorting.
   std::optional<ComponentOfShare> component{};  ///< If it is a component of a share.
 };
 
@@ -54,6 +57,7 @@ struct BrickResult {
   std::vector<StoredCluster> clusters;  ///< Clusters of allowed sizes with all their points in the brick.
   std::vector<Piece> pieces;
   SharedPoints shared;
+  std::uint32_t first_label = 0;  ///< Label of the points of the first piece; others follow.
   Counts counts;  ///< Points of noise, and of clusters in the brick that are dropped because of their size.
 };
 
@@ -62,14 +66,21 @@ class BrickClusters {
  public:
   /// `visit` and `keep_visited` are those of StoredClusterOptions.
   BrickClusters(const BrickComponents& components, const ClusterOptions& options,
-                const StoredClusterOptions& store, const Execution& execution, SpillFile& file)
-      : components_(components), options_(options), store_(store), execution_(execution), file_(file) {}
+                const StoredClusterOptions& store, const Execution& execution, SpillFile& file,
+                LabelFile* labels = nullptr)
+      : components_(components),
+        options_(options),
+        store_(store),
+        execution_(execution),
+        file_(file),
+        labels_(labels) {}
 
   /// Writes the brick whose components were found last.
   BrickResult write(std::uint32_t brick, const std::vector<std::byte>& records, std::size_t step);
 
  private:
-  void make_room(std::vector<Piece>& pieces);
+  /// Returns the number of complete clusters of allowed sizes.
+  std::size_t make_room(std::vector<Piece>& pieces);
   void write_clusters(std::uint32_t brick, std::vector<StoredCluster>& clusters);
 
   const BrickComponents& components_;
@@ -77,8 +88,9 @@ class BrickClusters {
   const StoredClusterOptions& store_;
   Execution execution_;
   SpillFile& file_;
-  std::vector<std::uint64_t> next_;  // for each component, the position of its next point in a buffer
-  std::vector<std::uint8_t> seen_;   // for each component, whether it is in the list of clusters
+  LabelFile* labels_;                 // or null
+  std::vector<std::uint64_t> next_;   // for each component, the position of its next point in a buffer
+  std::vector<std::uint32_t> label_;  // for each component; 0 before its first point is written
   std::vector<std::byte> points_of_clusters_, points_of_pieces_;  // buffers
 };
 

@@ -40,17 +40,24 @@ SpillFile::~SpillFile() {
 
 Extent SpillFile::append(const void* bytes, std::size_t count) {
   const Extent extent{end_.fetch_add(count), count};
-  std::uint64_t at = extent.offset;
+  write(extent.offset, bytes, count);
+  return extent;
+}
+
+void SpillFile::reserve(std::uint64_t bytes) {
+  if (::ftruncate(fd_, static_cast<off_t>(end_ += bytes)) != 0) fail("write", folder_, errno);
+}
+
+void SpillFile::write(std::uint64_t offset, const void* bytes, std::size_t count) {
   const char* from = static_cast<const char*>(bytes);
   while (count > 0) {
-    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(at));
+    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) fail("write", folder_, written < 0 ? errno : ENOSPC);
     from += written;
     count -= static_cast<std::size_t>(written);
-    at += static_cast<std::uint64_t>(written);
+    offset += static_cast<std::uint64_t>(written);
   }
-  return extent;
 }
 
 void SpillFile::read(std::uint64_t offset, void* to, std::size_t count) const {

@@ -31,6 +31,12 @@ class SpillFile {
   /// Appends bytes. Throws std::runtime_error if the disk is full or fails.
   Extent append(const void* bytes, std::size_t count);
 
+  /// Appends bytes that are 0 until they are written. They take no space of the disk until then.
+  void reserve(std::uint64_t bytes);
+
+  /// Replaces bytes that were appended or reserved. Throws as append().
+  void write(std::uint64_t offset, const void* bytes, std::size_t count);
+
   /// Reads bytes that were appended. Throws std::runtime_error if the disk fails.
   void read(std::uint64_t offset, void* to, std::size_t count) const;
 

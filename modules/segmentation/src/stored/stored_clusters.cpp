@@ -44,9 +44,9 @@ class BrickWorker {
  public:
   BrickWorker(const DistributedPoints& all, ScalarType scalar, const ClusterOptions& options,
               const StoredClusterOptions& store, const Execution& execution, SpillFile& file,
-              std::vector<BrickResult>& results)
+              LabelFile* labels, std::vector<BrickResult>& results)
       : components_(all.bricks, scalar, options, PieceRule::shared, execution, file),
-        clusters_(components_, options, store, execution, file),
+        clusters_(components_, options, store, execution, file, labels),
         results_(results) {}
   BrickWorker(const BrickWorker&) = delete;
   BrickWorker& operator=(const BrickWorker&) = delete;
@@ -69,6 +69,8 @@ struct StoredClusters::State {
   explicit State(const std::filesystem::path& folder) : file(folder) {}
 
   SpillFile file;
+  std::unique_ptr<LabelFile> labels;            // or null
+  std::vector<std::uint32_t> cluster_of_label;  // if there are labels
   ScalarType scalar = ScalarType::float32;
   std::vector<StoredCluster> clusters;
   Counts counts;
@@ -76,12 +78,18 @@ struct StoredClusters::State {
 
   void add(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
   void add_pieces(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
+  void label(const std::vector<std::uint32_t>& piece_labels, const std::vector<std::uint32_t>& order,
+             std::size_t first, std::size_t count);
   void sort();
 };
 
 void StoredClusters::State::add(const std::vector<BrickResult>& bricks, const ClusterOptions& options) {
+  if (labels) cluster_of_label.assign(labels->label_count(), kNoCluster);
   for (const BrickResult& brick : bricks) {
-    clusters.insert(clusters.end(), brick.clusters.begin(), brick.clusters.end());
+    for (const StoredCluster& cluster : brick.clusters) {
+      if (labels) cluster_of_label[cluster.label] = static_cast<std::uint32_t>(clusters.size());
+      clusters.push_back(cluster);
+    }
     counts.small += brick.counts.small;
     counts.large += brick.counts.large;
     counts.noise += brick.counts.noise;
@@ -90,10 +98,27 @@ void StoredClusters::State::add(const std::vector<BrickResult>& bricks, const Cl
   sort();
 }
 
+// Sorts the clusters, and changes cluster_of_label accordingly.
 void StoredClusters::State::sort() {
+  for (std::size_t i = 0; i < clusters.size(); ++i)
+    clusters[i].number = static_cast<std::uint32_t>(i);
   std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
     return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
   });
+  if (!labels) return;
+  std::vector<std::uint32_t> position(clusters.size());
+  for (std::size_t i = 0; i < clusters.size(); ++i)
+    position[clusters[i].number] = static_cast<std::uint32_t>(i);
+  for (std::uint32_t& cluster : cluster_of_label)
+    if (cluster != kNoCluster) cluster = position[cluster];
+}
+
+// Tells that the pieces order[first] to order[first + count - 1] are the last cluster.
+void StoredClusters::State::label(const std::vector<std::uint32_t>& piece_labels,
+                                  const std::vector<std::uint32_t>& order, std::size_t first,
+                                  std::size_t count) {
+  for (std::size_t i = first; i < first + count && labels; ++i)
+    cluster_of_label[piece_labels[order[i]]] = static_cast<std::uint32_t>(clusters.size() - 1);
 }
 
 // Adds the clusters that consist of pieces and have an allowed size. Counts the points of the others.
@@ -101,11 +126,13 @@ void StoredClusters::State::add_pieces(const std::vector<BrickResult>& bricks,
                                        const ClusterOptions& options) {
   std::vector<Piece> pieces;
   std::vector<SharedPoints> shared;
-  std::vector<std::uint32_t> first_set;
+  std::vector<std::uint32_t> first_set, piece_labels;
   for (const BrickResult& brick : bricks) {
     shared.push_back(brick.shared);
     first_set.push_back(static_cast<std::uint32_t>(pieces.size()));
     pieces.insert(pieces.end(), brick.pieces.begin(), brick.pieces.end());
+    for (std::uint32_t p = 0; p < brick.pieces.size() && labels; ++p)
+      piece_labels.push_back(brick.first_label + p);
     if (pieces.size() > std::numeric_limits<std::uint32_t>::max())
       throw std::length_error("too many parts of clusters: use more memory");
   }
@@ -123,6 +150,7 @@ void StoredClusters::State::add_pieces(const std::vector<BrickResult>& bricks,
       points += piece.points;
     if (is_size_allowed(options, points)) {
       clusters.push_back(merge_pieces(of_cluster, scalar, file));
+      label(piece_labels, order, i + 1 - of_cluster.size(), of_cluster.size());
     } else {
       count_dropped(options, points, points, counts);
     }
@@ -137,12 +165,13 @@ StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& op
   state_ = std::make_unique<State>(store.folder);
   State& state = *state_;
   state.scalar = points.scalar;
+  if (store.has_labels) state.labels = std::make_unique<LabelFile>(store.folder, points.first + points.count);
   const DistributedPoints all = distribute(points, options, store, execution, state.file);
   state.counts.nonfinite = all.invalid;
   state.brick_count = all.bricks.size();
   std::vector<BrickResult> bricks(all.lists.size());
   for_each_brick(all.lists, store, execution, state.file, [&](const Execution& part) {
-    return BrickWorker(all, points.scalar, options, store, part, state.file, bricks);
+    return BrickWorker(all, points.scalar, options, store, part, state.file, state.labels.get(), bricks);
   });
   state.add(bricks, options);
 }
@@ -183,6 +212,14 @@ std::size_t StoredClusters::first_number(std::size_t cluster) const {
 
 std::optional<StoredVisit> StoredClusters::visit(std::size_t cluster) const {
   return state_->clusters[cluster].visit;
+}
+
+std::vector<std::uint32_t> StoredClusters::labels(std::size_t first, std::size_t count) const {
+  if (!state_->labels) throw std::logic_error("labels were not asked for");
+  std::vector<std::uint32_t> labels = state_->labels->read(first, count);
+  for (std::uint32_t& label : labels)
+    label = label == 0 ? kNoCluster : state_->cluster_of_label[label];
+  return labels;
 }
 
 std::optional<ComponentOfShare> StoredClusters::component(std::size_t cluster) const {

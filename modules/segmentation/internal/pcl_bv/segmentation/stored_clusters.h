@@ -47,6 +47,8 @@ struct StoredClusterOptions {
       visit{};
   /// Whether visited clusters have points(), too.
   bool keep_visited = true;
+  /// Whether points have labels(). Takes a temporary file of 4 bytes for each point.
+  bool has_labels = false;
   /// If set, tells which components of shares need no points(). See StoredClusters::component().
   std::function<bool(const ComponentOfShare& component)> is_known{};
 };
@@ -121,6 +123,12 @@ class StoredClusters {
     PointView view_;
   };
   Points points(std::size_t cluster) const;
+
+  static constexpr std::uint32_t kNoCluster = ~std::uint32_t{0};
+
+  /// Returns the numbers of the clusters of points first to first + count - 1 of the cloud; kNoCluster for
+  /// points without a cluster. Only with StoredClusterOptions::has_labels, and not for shares.
+  std::vector<std::uint32_t> labels(std::size_t first, std::size_t count) const;
 
   /// Numbers of points without a cluster, by reason (as Counts): nonfinite, small, large and noise.
   const Counts& counts() const;
