@@ -31,6 +31,13 @@ class PcdBvObjectShares : public TiledObjects {
     return at(name);
   }
 
+  // Changes a byte in each 10 000 from the middle of a file on, which are points.
+  void damage_all_points(const std::string& path) const {
+    const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path));
+    for (std::streamoff at = size / 2; at > size / 3; at -= 10'000)
+      damage(path, at);
+  }
+
   // Changes the byte at a position from the end of a file.
   void damage(const std::string& path, std::streamoff from_end) const {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -136,7 +143,15 @@ TEST_F(PcdBvObjectShares, NameFilesThatCannotBeMerged) {
   const std::string damaged = shares("damaged", 2, options, {folder});
   damage(damaged + "/0", static_cast<std::streamoff>(std::filesystem::file_size(damaged + "/0")) - 200);
   expect_error(damaged, "damaged/0: is damaged");
-  for (const std::string& parts : {truncated, twice, damaged})
+  const std::string volume = shares("volume", 2, options, {folder});
+  damage(volume + "/1", 40);  // texts are last
+  expect_error(volume, "volume/1: is damaged: a volume has changed");
+  const std::string points = shares("points", 1, options, {folder});
+  damage_all_points(points + "/0");
+  const Result checked = objects(options, {"--merge", "--check"}, points);
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_THAT(checked.err, HasSubstr("points/0: its points are damaged"));
+  for (const std::string& parts : {truncated, twice, damaged, volume})
     EXPECT_EQ(objects(options, {"--merge"}, parts).error_lines(), 1U);
 }
 

@@ -7,7 +7,7 @@
 #include <boost/crc.hpp>
 #include <cstring>
 #include <fstream>
-#include <limits>
+#include <new>
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
@@ -16,8 +16,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A file is a preamble, the header as JSON, the index (runs, components, ends of texts), a CRC-32 of all
-// these, the records of the points, and the texts.
+// A file is a preamble, the header as JSON, the index (runs, components, texts), a CRC-32 of all these, the
+// records of the points, and the texts.
 constexpr char kObjectFormat[24] = "pcl_bv objects 1\n";
 struct Preamble {
   char format[sizeof kObjectFormat];
@@ -48,6 +48,17 @@ std::uint64_t points_in(const std::vector<ShareRun>& runs) {
   return points;
 }
 
+// Returns the bytes of all records. Throws IoError if they are more than `left`, or a run is empty.
+std::uint64_t record_bytes_of(const std::vector<ShareRun>& runs, ScalarType scalar, std::uint64_t left) {
+  const std::uint64_t step = share_record_bytes(scalar), before = left;
+  for (const ShareRun& run : runs) {
+    if (run.points == 0) throw IoError("its index is wrong");
+    if (run.points > left / step) throw IoError("is truncated");
+    left -= run.points * step;
+  }
+  return before - left;
+}
+
 void require_good(bool good, const char* what) {
   if (!good) throw IoError(what);
 }
@@ -75,18 +86,19 @@ void copy(const Read& read, std::uint64_t bytes, std::ofstream& out) {
   }
 }
 
-// Writes a file with a stream, and creates missing folders.
+// Writes a file with a stream. Creates missing folders of a lasting file.
 void write_stream(const std::filesystem::path& path, FileLife life,
                   const std::function<void(std::ofstream&)>& work) {
   const auto write_to = [&](const std::filesystem::path& file) {
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     if (!out) throw IoError("cannot be opened for writing");
     work(out);
-    out.flush();
+    out.close();
     if (!out) throw IoError("cannot be written: is the disk full?");
   };
+  if (life == FileLife::temporary) return write_to(path);
   create_parent_folders(path);
-  life == FileLife::temporary ? write_to(path) : replace_file_atomically(path, write_to);
+  replace_file_atomically(path, write_to);
 }
 
 }  // namespace
@@ -95,20 +107,21 @@ void write_object_file(const std::filesystem::path& path, const ObjectFileHeader
                        const ClusterShare& share,
                        const std::function<std::string(std::uint32_t component)>& text, FileLife life) {
   std::vector<std::string> texts(share.components().size());
-  std::vector<std::uint64_t> ends{0};
+  std::vector<ObjectText> index(1);
   for (std::uint32_t c = 0; c < texts.size(); ++c) {
     texts[c] = text(c);
-    ends.push_back(ends.back() + texts[c].size());
+    index.back().check_sum = check_sum({texts[c]});
+    index.push_back({index.back().begin + texts[c].size(), 0});
   }
   const std::string cloud = partial_file_content(header.cloud), own = header_text(header, share.scalar());
-  Preamble preamble{{}, own.size(), cloud.size(), share.runs().size(), texts.size(), ends.back()};
+  Preamble preamble{{}, own.size(), cloud.size(), share.runs().size(), texts.size(), index.back().begin};
   std::memcpy(preamble.format, kObjectFormat, sizeof kObjectFormat);
   const std::string_view start(reinterpret_cast<const char*>(&preamble), sizeof preamble);
   const std::uint32_t sum =
-      check_sum({start, own, cloud, bytes_of(share.runs()), bytes_of(share.components()), bytes_of(ends)});
+      check_sum({start, own, cloud, bytes_of(share.runs()), bytes_of(share.components()), bytes_of(index)});
   write_stream(path, life, [&](std::ofstream& out) {
     for (const std::string_view part : {start, std::string_view(own), std::string_view(cloud),
-                                        bytes_of(share.runs()), bytes_of(share.components()), bytes_of(ends),
+                                        bytes_of(share.runs()), bytes_of(share.components()), bytes_of(index),
                                         std::string_view(reinterpret_cast<const char*>(&sum), sizeof sum)})
       write(out, part);
     copy([&](std::uint64_t at, std::byte* to, std::size_t count) { share.read(at, to, count); },
@@ -131,14 +144,19 @@ ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begi
                    preamble.runs <= kMaxItems && preamble.components <= kMaxItems,
                "is damaged: its index is too large");
   const std::uint64_t index = preamble.runs * sizeof(ShareRun) +
-                              preamble.components * sizeof(ShareComponent) + (preamble.components + 1) * 8;
+                              preamble.components * sizeof(ShareComponent) +
+                              (preamble.components + 1) * sizeof(ObjectText);
   const std::uint64_t at = begin + sizeof preamble, left = file_->size() - at;
   require_good(preamble.header_bytes + preamble.cloud_bytes + index + 4 <= left, "is truncated");
   std::string header(preamble.header_bytes + preamble.cloud_bytes, '\0');
   file_->read(at, header.data(), header.size());
-  runs_.resize(preamble.runs);
-  components_.resize(preamble.components);
-  texts_.resize(preamble.components + 1);
+  try {
+    runs_.resize(preamble.runs);
+    components_.resize(preamble.components);
+    texts_.resize(preamble.components + 1);
+  } catch (const std::bad_alloc&) {
+    throw IoError("its index does not fit in memory");
+  }
   std::uint64_t offset = at + header.size();
   const auto read_list = [&](auto& list) {
     const std::size_t bytes = bytes_of(list).size();
@@ -156,14 +174,16 @@ ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begi
   records_ = offset + sizeof sum;
   read_header(std::string_view(header).substr(0, preamble.header_bytes));
   header_.cloud = parse_partial_file(std::string_view(header).substr(preamble.header_bytes), false);
-  first_text_ = records_ + points_in(runs_) * share_record_bytes(scalar_);
+  const std::uint64_t left_for_points = file_->size() - records_;
+  first_text_ = records_ + record_bytes_of(runs_, scalar_, left_for_points);
+  require_good(preamble.text_bytes <= file_->size() - first_text_, "is truncated");
   end_ = first_text_ + preamble.text_bytes;
-  require_good(end_ <= file_->size(), "is truncated");
   for (const ShareRun& run : runs_)
     require_good(run.component == ShareRun::kNoise || run.component < components_.size(),
                  "its index is wrong");
-  require_good(std::is_sorted(texts_.begin(), texts_.end()) && texts_.front() == 0 &&
-                   texts_.back() == preamble.text_bytes,
+  const bool sorted = std::is_sorted(texts_.begin(), texts_.end(),
+                                     [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  require_good(sorted && texts_.front().begin == 0 && texts_.back().begin == preamble.text_bytes,
                "its index is wrong");
 }
 
@@ -189,8 +209,9 @@ void ObjectFile::read_bytes(std::uint64_t first_byte, std::byte* to, std::size_t
 
 std::optional<std::string> ObjectFile::text(std::uint32_t component) const {
   if (!has_text(component)) return std::nullopt;
-  std::string text(texts_[component + 1] - texts_[component], '\0');
-  file_->read(first_text_ + texts_[component], text.data(), text.size());
+  std::string text(texts_[component + 1].begin - texts_[component].begin, '\0');
+  file_->read(first_text_ + texts_[component].begin, text.data(), text.size());
+  require_good(check_sum({text}) == texts_[component].check_sum, "is damaged: a volume has changed");
   return text;
 }
 
@@ -201,13 +222,6 @@ void join_object_files(const std::filesystem::path& path,
       copy([&](std::uint64_t at, std::byte* to, std::size_t count) { share->read_bytes(at, to, count); },
            share->end() - share->begin(), out);
   });
-}
-
-bool is_object_file(const std::filesystem::path& path) {
-  const InputFile file(path);
-  char start[15] = {};
-  if (file.size() >= sizeof start) file.read(0, start, sizeof start);
-  return std::memcmp(start, kObjectFormat, sizeof start) == 0;
 }
 
 std::vector<std::unique_ptr<ObjectFile>> open_object_file(const std::filesystem::path& path) {

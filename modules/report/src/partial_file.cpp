@@ -160,6 +160,7 @@ std::string partial_file_content(const PartialFile& file) {
 }
 
 PartialFile parse_partial_file(std::string_view content, bool has_partial) {
+  require(!content.starts_with("pcl_bv objects "), "has objects: give --cluster as for --partial");
   require(content.starts_with(kFormat), "is no file of partial results, as --partial writes them");
   std::string_view rest = content.substr(kFormat.size());
   require(rest.size() > 6, "is truncated");
@@ -190,7 +191,7 @@ void write_partial_file(const std::filesystem::path& path, const PartialFile& fi
 
 PartialFile read_partial_file(const std::filesystem::path& path) {
   const InputFile file(path);
-  require(file.size() <= kMaxFileBytes, "is too large for partial results");
+  require(file.size() <= kMaxFileBytes, "is too large for partial results (files of objects need --cluster)");
   std::string content(file.size(), '\0');
   file.read(0, content.data(), content.size());
   return parse_partial_file(content);

@@ -85,6 +85,8 @@ class MergedClouds {
     const PartialFile& cloud = header.cloud;
     if (!clouds_.empty() && cloud.origin != clouds_.front().origin)
       throw std::invalid_argument("is a share with another --origin");
+    if (!clouds_.empty() && cloud.filter != clouds_.front().filter)
+      throw std::invalid_argument("is a share with another --range or other regions");
     const auto same = std::find_if(clouds_.begin(), clouds_.end(), [&](const PartialFile& other) {
       return other.inputs_hash == cloud.inputs_hash && other.cloud_points == cloud.cloud_points;
     });
@@ -151,18 +153,31 @@ void describe(const MergedClouds& clouds, const Shares& shares, Report& report) 
     report.counts.nonfinite += share->header().nonfinite;
 }
 
+// Returns whether the volumes of a component are in its file.
+bool is_known(const Shares& shares, const Options& options, const ComponentOfShare& component) {
+  const ObjectFile& share = *shares[component.share];
+  return !options.check && share.header().volumes == volumes_text(options.pipeline) &&
+         share.has_text(component.number);
+}
+
+Object read_object(const Shares& shares, const ComponentOfShare& component) {
+  try {
+    return object_of(shares[component.share]->text(component.number).value());
+  } catch (const IoError& error) {
+    throw ShareError(component.share, error.what());
+  }
+}
+
 void add_objects(const StoredClusters& clusters, const Shares& shares, const Options& options,
                  Report& report) {
   const ClassTable table(options.pipeline);
   const ObjectFitter fitter(options, table, std::nullopt);
-  const std::string volumes = volumes_text(options.pipeline);
   std::vector<Object> objects(clusters.size());
   for_each_cluster(clusters, options.pipeline.execution(), [&](std::size_t i, const Execution& execution) {
     const auto component = clusters.component(i);
-    const ObjectFile* const share = component ? shares[component->share].get() : nullptr;
-    const bool known = share != nullptr && !options.check && share->header().volumes == volumes;
-    const auto text = known ? share->text(component->number) : std::nullopt;
-    objects[i] = text ? object_of(*text) : fitter.fit(clusters.points(i).view(), execution);
+    objects[i] = component && is_known(shares, options, *component)
+                     ? read_object(shares, *component)
+                     : fitter.fit(clusters.points(i).view(), execution);
   });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].verdict == ExtentVerdict::small) report.counts.small += clusters.point_count(i);
@@ -240,11 +255,7 @@ Status merge_object_files(const std::vector<std::string>& files, const Options& 
     pointers.push_back(share.get());
   }
   StoredClusterOptions store = store_options(options, shares.front()->scalar());
-  const std::string volumes = volumes_text(options.pipeline);
-  store.is_known = [&](const ComponentOfShare& component) {
-    const ObjectFile& share = *shares[component.share];
-    return !options.check && share.header().volumes == volumes && share.has_text(component.number);
-  };
+  store.is_known = [&](const ComponentOfShare& component) { return is_known(shares, options, component); };
   try {
     const StoredClusters clusters(pointers, ClassTable(options.pipeline).default_options(), store,
                                   options.pipeline.execution());

@@ -31,6 +31,10 @@ class CommonFolder {
     }
     path_ = ranks.broadcast(name);
     if (path_.empty()) throw IoError("cannot make a folder for temporary files in $TMPDIR");
+    std::error_code unknown;
+    const bool seen = std::filesystem::is_directory(path_, unknown);
+    for (const std::string& each : ranks.all_gather(seen ? "yes" : "no"))
+      if (each == "no") throw_for_folder();
   }
   ~CommonFolder() {
     std::error_code unknown;
@@ -38,6 +42,12 @@ class CommonFolder {
   }
   CommonFolder(const CommonFolder&) = delete;
   CommonFolder& operator=(const CommonFolder&) = delete;
+
+  [[noreturn]] void throw_for_folder() {
+    std::error_code unknown;
+    if (ranks_.first()) std::filesystem::remove_all(path_, unknown);
+    throw IoError("$TMPDIR must be a folder that all ranks can access: " + path_.parent_path().string());
+  }
 
   std::string file(std::size_t rank) const { return (path_ / std::to_string(rank)).string(); }
 

@@ -88,7 +88,11 @@ void BrickClusters::write_clusters(std::uint32_t brick, std::vector<StoredCluste
       clusters[c].visit = StoredVisit{brick, c};
     }
     store_.visit(brick, views, execution_);
-    if (!store_.keep_visited) return;
+    if (!store_.keep_visited) {
+      for (StoredCluster& cluster : clusters)
+        cluster.offset = StoredCluster::kNoPoints;
+      return;
+    }
   }
   const std::uint64_t at = file_.append(points_of_clusters_.data(), points_of_clusters_.size()).offset;
   for (StoredCluster& cluster : clusters)

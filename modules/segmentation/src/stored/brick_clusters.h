@@ -31,6 +31,8 @@ inline void count_dropped(const ClusterOptions& options, std::uint64_t added, st
 
 /// A cluster whose points are in the temporary file, coordinates only, or were visited.
 struct StoredCluster {
+  static constexpr std::uint64_t kNoPoints = ~std::uint64_t{0};  ///< As offset: the points were not written.
+
   std::uint64_t offset, points;
   std::uint64_t first_number;  ///< Smallest number of its points.
   std::optional<StoredVisit> visit{};

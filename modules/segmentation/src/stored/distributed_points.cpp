@@ -158,8 +158,9 @@ std::size_t bricks_at_a_time(const StoredClusterOptions& store, const ParallelPo
 void divide(std::size_t points, const StoredClusterOptions& store, const ParallelPolicy& policy,
             Bricks& bricks) {
   // More bricks would need more memory for their lists than for their points.
-  constexpr std::size_t max_bricks = 16'384;
-  bricks.divide(std::max(store.points_in_memory / bricks_at_a_time(store, policy), points / max_bricks));
+  constexpr std::size_t max_bricks = 16'384;  // bricks have half to all of their points
+  bricks.divide(
+      std::max(store.points_in_memory / bricks_at_a_time(store, policy), points / (max_bricks / 2)));
 }
 
 std::size_t block_bytes(std::size_t bricks) {

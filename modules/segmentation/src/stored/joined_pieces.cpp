@@ -70,7 +70,7 @@ StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, 
   using Next = std::pair<std::uint64_t, std::size_t>;  // number of a point, and its reader
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
   for (std::size_t r = 0; r < readers.size(); ++r)
-    next.emplace(readers[r].number(), r);
+    if (!readers[r].done()) next.emplace(readers[r].number(), r);
   StoredCluster cluster{std::numeric_limits<std::uint64_t>::max(), 0, next.top().first};
   std::vector<std::byte> points;
   const auto write = [&] {

@@ -81,7 +81,7 @@ class ActiveWorker {
         all = all == unset || all == component ? component : ActiveBrick::kMixed;
       }
       const std::pair<std::uint32_t, std::uint32_t> link{component, piece};
-      const bool linked = (number & kCore) != 0 && components_.is_core(i);
+      const bool linked = component != kNoComponent && (number & kCore) != 0 && components_.is_core(i);
       if (linked && (brick.links.empty() || brick.links.back() != link)) brick.links.push_back(link);
     }
     std::sort(brick.links.begin(), brick.links.end());
@@ -110,7 +110,7 @@ MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const
   passive_points_.assign(components, 0);
   Bricks bricks(grid_of_runs(options, scalar_));
   find_active_cells();
-  count_runs(bricks);
+  count_runs(execution.parallel, bricks);
   std::vector<SpillList> lists(bricks.size());
   distribute(bricks, lists);
   cluster_active(bricks, lists, execution);
@@ -142,13 +142,15 @@ void MergedShares::find_active_cells() {
     if (others) active.push_back(cell);
   }
   for (const std::uint64_t cell : active)
-    for_each_around(cell, [&](std::uint64_t around) { cells_.emplace(around, CellKind::near_active); });
+    for_each_around(cell, [&](std::uint64_t around) {
+      if (share_of_cell.contains(around)) cells_.emplace(around, CellKind::near_active);
+    });
   for (const std::uint64_t cell : active)
     cells_[cell] = CellKind::active;
 }
 
 // Counts the points of active cells in bricks, and those of passive cells in components.
-void MergedShares::count_runs(Bricks& bricks) {
+void MergedShares::count_runs(const ParallelPolicy& policy, Bricks& bricks) {
   std::uint64_t active_points = 0;
   first_run_.assign(passive_points_.size() + 1, 0);
   const auto kind_of = [&](const ShareRun& run) {
@@ -168,7 +170,7 @@ void MergedShares::count_runs(Bricks& bricks) {
       }
     }
   }
-  divide(active_points, store_, ParallelPolicy{Serial{}}, bricks);
+  divide(active_points, store_, policy, bricks);
   for (std::size_t c = 1; c < first_run_.size(); ++c)
     first_run_[c] += first_run_[c - 1];
   passive_runs_.resize(first_run_.back());
@@ -215,7 +217,9 @@ void MergedShares::add_points_of_run(const Place& place, bool active, const Bric
   Bricks::Cursor cursor;
   for (; !reader.done(); reader.next()) {
     view.data = reader.record();
-    const Bricks::Place at = bricks.place(load_point(view, 0), cursor);
+    const Coordinates point = load_point(view, 0);
+    if (!is_valid(point)) throw ShareError(place.share, "has points that are not finite");
+    const Bricks::Place at = bricks.place(point, cursor);
     const std::uint64_t number = reader.number() | (number_of_record(reader.record(), scalar_) & kCore);
     const auto add = [&](std::uint32_t brick, std::uint64_t mark) {
       const std::uint64_t marked = number | mark;
@@ -302,7 +306,8 @@ void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
     if (component.points == points) {
       const ComponentOfShare of_share{share, number};
       const bool known = store_.is_known && store_.is_known(of_share);
-      StoredCluster cluster{0, points, component.first_number + shares_[share]->first_number};
+      StoredCluster cluster{StoredCluster::kNoPoints, points,
+                            component.first_number + shares_[share]->first_number};
       if (!known) cluster = gather(group);
       cluster.component = of_share;
       clusters_.push_back(cluster);

@@ -50,7 +50,7 @@ class MergedShares {
   enum class CellKind : std::uint8_t { passive, near_active, active };
 
   void find_active_cells();
-  void count_runs(Bricks& bricks);
+  void count_runs(const ParallelPolicy& policy, Bricks& bricks);
   void distribute(const Bricks& bricks, std::vector<SpillList>& lists);
   void add_points_of_run(const Place& place, bool active, const Bricks& bricks, std::size_t block,
                          std::vector<SpillList>& lists);

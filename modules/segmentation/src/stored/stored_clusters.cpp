@@ -233,6 +233,8 @@ const Counts& StoredClusters::counts() const {
 StoredClusters::Points StoredClusters::points(std::size_t cluster) const {
   const State& state = *state_;
   const StoredCluster& stored = state.clusters[cluster];
+  if (stored.offset == StoredCluster::kNoPoints)
+    throw std::logic_error("the points of this cluster were not kept");
   Points points;
   if (stored.points <= kChunkPoints) {
     points.bytes_.resize(point_bytes(state.scalar) * stored.points);

@@ -28,7 +28,12 @@ struct ObjectFileHeader {
   std::size_t nonfinite = 0;  ///< Number of points of the share that are not valid.
 };
 
-/// The clusters of a share in a file. The index (32 bytes for each run and 24 for each component) is in
+/// Where the text of a component begins among all texts, and its CRC-32.
+struct ObjectText {
+  std::uint64_t begin = 0, check_sum = 0;
+};
+
+/// The clusters of a share in a file. The index (24 bytes for each run and 32 for each component) is in
 /// memory.
 class ObjectFile final : public ClusterShare {
  public:
@@ -48,9 +53,12 @@ class ObjectFile final : public ClusterShare {
   /// Reads bytes of the whole share, from its begin on. Throws IoError.
   void read_bytes(std::uint64_t first_byte, std::byte* to, std::size_t count) const;
 
-  /// Returns the text that was written for a component, or nothing if there is none.
+  /// Returns the text that was written for a component, or nothing if there is none. Throws IoError if it is
+  /// damaged.
   std::optional<std::string> text(std::uint32_t component) const;
-  bool has_text(std::uint32_t component) const { return texts_[component + 1] > texts_[component]; }
+  bool has_text(std::uint32_t component) const {
+    return texts_[component + 1].begin > texts_[component].begin;
+  }
 
  private:
   void read_header(std::string_view content);
@@ -61,7 +69,7 @@ class ObjectFile final : public ClusterShare {
   ScalarType scalar_ = ScalarType::float32;
   std::vector<ShareRun> runs_;
   std::vector<ShareComponent> components_;
-  std::vector<std::uint64_t> texts_;  // where the text of each component begins, and where the last one ends
+  std::vector<ObjectText> texts_;  // of each component; then where the last one ends
 };
 
 enum class FileLife : std::uint8_t {
@@ -69,8 +77,8 @@ enum class FileLife : std::uint8_t {
   temporary  ///< For another process that reads it now. Waiting for the disk would take seconds.
 };
 
-/// Writes a share, and creates missing folders. `text` returns the text of each component, at most
-/// 1 GiB; an empty text is none. Throws IoError, and what reading the share throws.
+/// Writes a share, and creates missing folders. `text` returns the text of each component; an empty
+/// text is none. Throws IoError, and what reading the share throws.
 void write_object_file(const std::filesystem::path& path, const ObjectFileHeader& header,
                        const ClusterShare& share,
                        const std::function<std::string(std::uint32_t component)>& text,
@@ -79,9 +87,6 @@ void write_object_file(const std::filesystem::path& path, const ObjectFileHeader
 /// Writes several shares to one file, atomically.
 void join_object_files(const std::filesystem::path& path,
                        const std::vector<std::unique_ptr<ObjectFile>>& shares);
-
-/// Returns whether a file begins as object files do. Throws IoError if it cannot be read.
-bool is_object_file(const std::filesystem::path& path);
 
 /// Opens all shares of a file. Throws IoError with the reason.
 std::vector<std::unique_ptr<ObjectFile>> open_object_file(const std::filesystem::path& path);
