@@ -250,7 +250,10 @@ void stored() {
     const PointView points = PointView::of(xyz.data(), 12, xyz.size() / 3);
     const ClusterOptions options{0.5F, 30};
     const auto in_memory = [&] { return cluster(points, options, {policy_of(2)}).size(); };
-    const auto from_bricks = [&] { return StoredClusters(points, options, {}, {policy_of(2)}).size(); };
+    StoredClusterOptions store;  // as pcd_bv uses it
+    store.visit = [](std::size_t, const std::vector<PointView>&, const Execution&) {};
+    store.keep_visited = false;
+    const auto from_bricks = [&] { return StoredClusters(points, options, store, {policy_of(2)}).size(); };
     if (in_memory() != from_bricks()) throw std::runtime_error("other clusters from bricks");
     compare(state, in_memory, from_bricks);
     state.counters["points"] = static_cast<double>(points.count);

@@ -1,18 +1,23 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ground_scores [SEEDS [FRAMES [BEAMS...]]]: scores of the ground that the pipeline's zones find on
+// ground_scores [SETTINGS] [SEEDS [FRAMES [BEAMS...]]]: scores of the ground that the pipeline finds on
 // synth:rural-road-sequence: every tenth frame of FRAMES (300), seeds 1 to SEEDS (3), for 16, 32, 64 and 128
-// beams or the given ones.
+// beams or the given ones. SETTINGS is METHOD[:CELL_SIZE[:MAX_SLOPE_DEGREES[:DISTANCE]]], such as slope:0.5
+// (zones).
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "ground_score.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/rural_road.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv::bench {
 using namespace detail;
@@ -48,7 +53,26 @@ void print(std::size_t beams, const char* vegetation, const GroundScore& score) 
   }
 }
 
+/// Reads METHOD[:CELL_SIZE[:MAX_SLOPE_DEGREES[:DISTANCE]]].
+GroundConfig ground_of(const std::string& text) {
+  std::istringstream parts(text);
+  GroundConfig ground;
+  std::string part;
+  std::getline(parts, part, ':');
+  read_text(part, ground.method);
+  for (std::optional<double>* const value :
+       {&ground.cell_size, &ground.max_slope_degrees, &ground.distance}) {
+    if (std::getline(parts, part, ':') && !part.empty()) *value = std::stod(part);
+  }
+  return ground;
+}
+
 int run(int argc, char** argv) {
+  GroundConfig ground;
+  if (argc > 1 && std::isalpha(static_cast<unsigned char>(argv[1][0])) != 0) {
+    ground = ground_of(argv[1]);
+    --argc, ++argv;
+  }
   const auto argument = [&](int i, std::size_t otherwise) {
     return argc > i ? static_cast<std::size_t>(std::stoull(argv[i])) : otherwise;
   };
@@ -63,6 +87,7 @@ int run(int argc, char** argv) {
     for (std::size_t seed = 1; seed <= argument(1, 3); ++seed) {
       PipelineConfig config;
       config.volumes = {"aabb"};
+      config.ground = ground;
       FramePipeline pipeline(config);
       for (std::size_t number = 0; number < argument(2, 300); number += 10)
         add_frame(pipeline, {seed, beams}, number, scores);

@@ -4,11 +4,11 @@
 #include "filter.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 #include "filtered_view.h"
+#include "kept_points.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/read_volumes.h"
 
@@ -26,17 +26,6 @@ std::optional<RegionMask> mask_of(const std::vector<RegionConfig>& regions, bool
   }
   if (!any) return std::nullopt;
   return RegionMask(inflated);
-}
-
-template <typename T>
-void copy_kept(const PointView& points, const std::vector<Verdict>& verdicts, std::byte* to) {
-  constexpr T nan = std::numeric_limits<T>::quiet_NaN();
-  constexpr T dropped[3] = {nan, nan, nan};
-  for (std::size_t i = 0; i < points.count; ++i, to += sizeof dropped) {
-    T p[3];
-    load_point(points, i, p);
-    std::memcpy(to, verdicts[i] == Verdict::kept ? p : dropped, sizeof p);
-  }
 }
 
 void add(const Counts& part, Counts& all) {
@@ -195,16 +184,10 @@ Counts FilteredPoints::count(const ParallelPolicy& policy) const {
 
 PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
   const LoadedPoints part(points_, first - points_.first, count);
-  const std::size_t step = 3 * size_of(points_.scalar);
-  if (buffer.size() < count * step) buffer.resize(count * step);
   FilterScratch scratch;
   filter_->classify(part.view(), sensors_, scratch);
-  if (points_.scalar == ScalarType::float64) {
-    copy_kept<double>(part.view(), scratch.verdicts, buffer.data());
-  } else {
-    copy_kept<float>(part.view(), scratch.verdicts, buffer.data());
-  }
-  return packed_points(buffer.data(), points_.scalar, count, first);
+  return kept_points(
+      part.view(), first, [&](std::size_t i) { return scratch.verdicts[i] == Verdict::kept; }, buffer);
 }
 
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution) {

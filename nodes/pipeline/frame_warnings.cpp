@@ -39,6 +39,7 @@ struct Found {
     return kept < kFewPoints ? 1 : static_cast<double>(c.ground) / static_cast<double>(kept);
   }
   std::optional<OtherUp> other_up() const {
+    if (config().ground.method == GroundMethod::slope) return {};  // maps have no sensor above the ground
     const double share = result.counts.ground > 0 ? ground_share() : 0;
     return find_other_up(result.cloud_of(frame), plane_settings(config().ground), result.sensor.position,
                          share);

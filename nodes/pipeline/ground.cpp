@@ -13,7 +13,7 @@ template <typename Settings>
 Settings settings_of(const GroundConfig& config) {
   Settings settings;
   settings.up = config.up;
-  settings.sensor_height = config.sensor_height;
+  if constexpr (requires { settings.sensor_height; }) settings.sensor_height = config.sensor_height;
   settings.distance = config.distance.value_or(settings.distance);
   settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
   return settings;
@@ -23,6 +23,12 @@ Settings settings_of(const GroundConfig& config) {
 
 GroundPlaneOptions detail::plane_settings(const GroundConfig& config) {
   return settings_of<GroundPlaneOptions>(config);
+}
+
+GroundSlopeOptions detail::slope_settings(const GroundConfig& config) {
+  auto settings = settings_of<GroundSlopeOptions>(config);
+  settings.cell_size = config.cell_size.value_or(settings.cell_size);
+  return settings;
 }
 
 void detail::split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
@@ -37,6 +43,8 @@ void detail::split_ground(const PointView& points, const GroundConfig& config, c
     settings.sensor = sensor.position;
     if (!sensor.confirmed && !config.sensor) settings.sensor_height.reset();
     zones.split(points, settings, split, execution);
+  } else if (config.method == GroundMethod::slope) {
+    split_ground_by_slope(points, slope_settings(config), split, execution);
   }
 }
 

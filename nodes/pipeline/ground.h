@@ -15,6 +15,9 @@ inline constexpr std::size_t kFewPoints = 100;
 /// Returns the settings of split_ground() for one plane.
 GroundPlaneOptions plane_settings(const GroundConfig& config);
 
+/// Returns the settings of split_ground_by_slope().
+GroundSlopeOptions slope_settings(const GroundConfig& config);
+
 /// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists of
 /// `split` are empty. Zones are centred at `sensor`. If `sensor` is estimated, the configured sensor height
 /// is ignored. Reuses the memory of `zones`.

@@ -236,13 +236,14 @@ class Ground:
 
 def ground(
     points: ArrayLike,
-    method: Literal["zones", "plane"] = "zones",
+    method: Literal["zones", "plane", "slope"] = "zones",
     *,
     up: Up = "z",
     sensor: Optional[Sequence[float]] = None,
     sensor_height: Optional[float] = None,
     distance: Optional[float] = None,
     max_slope_degrees: Optional[float] = None,
+    cell_size: Optional[float] = None,
     threads: int = 1,
 ) -> Ground: ...
 def statistics(points: ArrayLike, *, threads: int = 1) -> Dict[str, Any]: ...

@@ -111,41 +111,62 @@ void warn_of_ground(const PointView& points, const GroundConfig& config, const G
     warn(text);
 }
 
-GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
-                         py::handle sensor_height, py::handle distance, py::handle max_slope_degrees,
-                         py::handle threads) {
-  const PointArray array = points_of(points);
+template <typename Options>
+Options ground_options(const GroundConfig& config) {
+  Options options;
+  options.up = config.up;
+  if constexpr (requires { options.sensor_height; }) options.sensor_height = config.sensor_height;
+  if constexpr (requires { options.cell_size; })
+    options.cell_size = config.cell_size.value_or(options.cell_size);
+  options.distance = config.distance.value_or(options.distance);
+  options.max_slope_degrees = config.max_slope_degrees.value_or(options.max_slope_degrees);
+  return options;
+}
+
+GroundConfig ground_config(py::handle method, py::handle up, py::handle sensor, py::handle sensor_height,
+                           py::handle distance, py::handle max_slope_degrees, py::handle cell_size) {
   GroundConfig config;
   config.method = parse_text<GroundMethod>(method, "method");
-  if (config.method == GroundMethod::none) raise_value_error("method", "'none' is not one of plane, zones");
+  if (config.method == GroundMethod::none)
+    raise_value_error("method", "'none' is not one of plane, zones, slope");
   config.up = up_argument(up);
-  if (!sensor_height.is_none())
-    config.sensor_height = number(sensor_height, "sensor_height", range_of("ground.sensor_height"));
-  if (!distance.is_none()) config.distance = number(distance, "distance", range_of("ground.distance"));
-  if (!max_slope_degrees.is_none())
-    config.max_slope_degrees =
-        number(max_slope_degrees, "max_slope_degrees", range_of("ground.max_slope_degrees"));
-  const auto set = [&](auto settings) {
-    settings.up = config.up;
-    settings.sensor_height = config.sensor_height;
-    settings.distance = config.distance.value_or(settings.distance);
-    settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
-    return settings;
+  const auto set = [](py::handle value, const char* name, std::optional<double>& setting) {
+    if (!value.is_none()) setting = number(value, name, range_of("ground." + std::string(name)));
   };
+  set(sensor_height, "sensor_height", config.sensor_height);
+  set(distance, "distance", config.distance);
+  set(max_slope_degrees, "max_slope_degrees", config.max_slope_degrees);
+  set(cell_size, "cell_size", config.cell_size);
+  if (!sensor.is_none() && config.method != GroundMethod::zones)
+    raise_value_error("sensor", "is only allowed with method 'zones'");
+  if (config.sensor_height && config.method == GroundMethod::slope)
+    raise_value_error("sensor_height", "is not allowed with method 'slope'");
+  if (config.cell_size && config.method != GroundMethod::slope)
+    raise_value_error("cell_size", "is only allowed with method 'slope'");
+  if (!sensor.is_none()) config.sensor = vector3(sensor, "sensor");
+  return config;
+}
+
+GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
+                         py::handle sensor_height, py::handle distance, py::handle max_slope_degrees,
+                         py::handle cell_size, py::handle threads) {
+  const PointArray array = points_of(points);
+  const GroundConfig config =
+      ground_config(method, up, sensor, sensor_height, distance, max_slope_degrees, cell_size);
   const Execution execution(policy_of(threads), Isa::scalar);  // no kernel is used
   GroundObject found;
   found.points = array.view.count;
-  if (config.method == GroundMethod::plane) {
-    if (!sensor.is_none()) raise_value_error("sensor", "is only allowed with method 'zones'");
-    const auto settings = set(GroundPlaneOptions());
+  {
     const py::gil_scoped_release unlocked;
-    split_ground(array.view, settings, found.split);
-  } else {
-    if (!sensor.is_none()) config.sensor = vector3(sensor, "sensor");
-    auto settings = set(GroundZonesOptions());
-    settings.sensor = config.sensor;
-    const py::gil_scoped_release unlocked;
-    GroundZones().split(array.view, settings, found.split, execution);
+    if (config.method == GroundMethod::plane) {
+      split_ground(array.view, ground_options<GroundPlaneOptions>(config), found.split);
+    } else if (config.method == GroundMethod::slope) {
+      split_ground_by_slope(array.view, ground_options<GroundSlopeOptions>(config), found.split, execution);
+    } else {
+      auto options = ground_options<GroundZonesOptions>(config);
+      options.sensor = config.sensor;
+      GroundZones().split(array.view, options, found.split, execution);
+    }
     if (config.sensor) {
       found.split.sensor = find_sensor(array.view, config.up, *config.sensor, found.split.scratch);
       found.split.sensor.position = *config.sensor;
@@ -340,7 +361,7 @@ void bind_ground(py::module_& module) {
       });
   module.def("ground", find_ground, "points"_a, "method"_a = "zones", py::kw_only(), "up"_a = "z",
              "sensor"_a = py::none(), "sensor_height"_a = py::none(), "distance"_a = py::none(),
-             "max_slope_degrees"_a = py::none(), "threads"_a = 1, ground_doc);
+             "max_slope_degrees"_a = py::none(), "cell_size"_a = py::none(), "threads"_a = 1, ground_doc);
 }
 
 }  // namespace

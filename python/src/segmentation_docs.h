@@ -65,19 +65,21 @@ sensor, and the indices of ground points and of other points.
 )";
 
 inline constexpr const char* ground_doc =
-    R"(ground(points, method='zones', *, up='z', sensor=None, sensor_height=None, distance=None, max_slope_degrees=None, threads=1)
+    R"(ground(points, method='zones', *, up='z', sensor=None, sensor_height=None, distance=None, max_slope_degrees=None, cell_size=None, threads=1)
 --
 
 Detects the ground and splits the points into ground and other points. Lengths are in metres.
 
 points: as for fit(), with x, y, z in the sensor's frame.
-method: 'zones' for uneven ground outdoors, 'plane' for floors and tables.
+method: 'zones' for uneven ground outdoors, 'plane' for floors and tables, 'slope' for maps.
 up: the direction opposite to gravity: 'x', '-z', ... or three numbers.
-sensor: the centre of the zones; None: the origin or, if the points do not lie around it, the position where
+sensor: only with 'zones', their centre; None: the origin or, if the points do not lie around it, the position where
     they are densest.
 sensor_height: height of the sensor (with 'plane': of the origin) above the ground; None: estimated.
-distance: largest height of ground points above the ground; None: 0.15 for 'zones', 0.2 for 'plane'.
-max_slope_degrees: 0 to 89; None: 20 for 'zones', 15 for 'plane'.
+    Not allowed with 'slope'.
+distance: largest height of ground points above the ground; None: 0.2, with 'zones' 0.15.
+max_slope_degrees: 0 to 89; None: 20, with 'plane' 15.
+cell_size: only with 'slope', the side of the cells, 0.01 to 1000; None: 1.
 
 Returns a Ground. If no ground is found, found is False. Raises errors as cluster() does. Warns
 (UserWarning) if no ground is found, if everything is ground, if the points do not lie around the sensor, and

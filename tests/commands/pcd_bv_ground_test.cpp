@@ -87,7 +87,7 @@ TEST_F(PcdBv, UpSaysWhereTheGroundIs) {
   for (const auto& [up, points] : cases) {
     SCOPED_TRACE(up);
     const std::string cloud = ascii("turned.pcd", points);
-    for (const std::string kind : {"plane", "zones"}) {
+    for (const std::string kind : {"plane", "zones", "slope"}) {
       const Json report =
           run({"--ground", kind, "--up", up, "--cluster", "0.6", "--format", "jsonl", cloud}).json();
       EXPECT_EQ(report["counts"]["ground"], 41 * 41);
@@ -134,7 +134,7 @@ TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
       {{"--sensor-height", "1.7"}, "--sensor-height: only useful with --ground"},
       {{"--ground", "plane", "--sensor-height", "-1"}, "--sensor-height: -1 is not at least 0 and finite"},
       {{"--ground", "plane", "--sensor-height", "nan"}, "--sensor-height: nan is not at least 0"},
-      {{"--ground", "magic"}, "--ground: 'magic' is not one of none, plane, zones"},
+      {{"--ground", "magic"}, "--ground: 'magic' is not one of none, plane, zones, slope"},
   };
   for (auto [arguments, reason] : cases) {
     SCOPED_TRACE(reason);

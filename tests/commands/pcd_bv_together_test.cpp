@@ -170,10 +170,9 @@ TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {
 TEST_F(PcdBvTogether, RefusesWhatNeedsOneCloudInMemory) {
   const std::string folder = tiles("tiles", gaussian(100, 8), 2);
   for (const std::vector<std::string>& options :
-       {std::vector<std::string>{"--cluster", "0.5"}, {"--ground", "plane"}, {"--labels", "l.pcd"}}) {
+       {std::vector<std::string>{"--ground", "plane"}, {"--labels", "l.pcd"}}) {
     for (const std::vector<std::string>& kind :
          {std::vector<std::string>{"--together"}, {"--partial", "p"}, {"--merge"}}) {
-      if (kind.front() == "--together" && options.front() == "--cluster") continue;
       std::vector<std::string> arguments = kind;
       arguments.insert(arguments.end(), options.begin(), options.end());
       arguments.push_back(folder);

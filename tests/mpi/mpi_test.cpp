@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tiles.h"
+#include "tiled_objects.h"
 
 namespace pcl_bv::test {
 namespace {
@@ -37,7 +37,7 @@ std::optional<int> process_of_rank(int launcher, int rank) {
   return std::nullopt;
 }
 
-class Mpi : public Tiled {
+class Mpi : public TiledObjects {
  protected:
   Mpi() {
     for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
@@ -160,12 +160,13 @@ TEST_F(Mpi, DealsOutInputsAndWritesResultsInTheirOrder) {
 }
 
 TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--volume", "cube", "x.pcd"},
-                                                {"--partial", "p", "x.pcd"},
-                                                {},
-                                                {"--together", "--info", "x.pcd"},
-                                                {"--together", "--cluster", "1", "x.pcd"},
-                                                {"--output", at("x.pcd"), at("x.pcd")}}) {
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--volume", "cube", "x.pcd"},
+        {"--partial", "p", "x.pcd"},
+        {},
+        {"--together", "--info", "x.pcd"},
+        {"--together", "--cluster", "1", "--ground", "slope", "x.pcd"},
+        {"--output", at("x.pcd"), at("x.pcd")}}) {
     const Result result = ranks(3, wrong);
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: "));
@@ -199,6 +200,37 @@ TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
   if (std::filesystem::exists(at("o.json"))) {
     EXPECT_GE(Json::parse(read_file(at("o.json"))).size(), 1U);
   }
+}
+
+TEST_F(Mpi, ObjectsHaveTheBytesOfOneProcess) {
+  const std::string folder = tiles("tiles", yard(1), 9);
+  const std::vector<std::string> options = {"--together", "--format", "jsonl",      "--cluster", "0.4",
+                                            "--volume",   "all",      "--min-size", "20",        folder};
+  const Result expected = run(options);
+  ASSERT_EQ(expected.status, 0) << expected.err;
+  for (const int count : {1, 2, 5}) {
+    const Result result = ranks(count, options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(result.out == expected.out) << count << " ranks";
+  }
+}
+
+TEST_F(Mpi, ObjectsOfAnInputThatFailsAreLeftOut) {
+  const std::string folder = tiles("tiles", yard(1), 8);
+  add_bad_tiles("tiles");
+  const Result expected = run({"--together", "--format", "jsonl", "--cluster", "0.4", folder});
+  const Result result = ranks(3, {"--together", "--format", "jsonl", "--cluster", "0.4", folder});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(expected.status, 1);
+  for (std::size_t at = 0; at < expected.err.size();) {  // each input that failed is named once
+    const std::size_t end = expected.err.find('\n', at);
+    const std::string problem = expected.err.substr(at + 7, end - at - 7);  // without "pcd_bv:"
+    const std::size_t found = result.err.find(problem);
+    EXPECT_NE(found, std::string::npos) << problem;
+    EXPECT_EQ(result.err.find(problem, found + 1), std::string::npos) << problem;
+    at = end + 1;
+  }
+  EXPECT_TRUE(result.out == expected.out);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   StreamConfig config;
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
   config.pipeline.ground = {
-      GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12};
+      GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12, 0.25};
   config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4, 0, Oversized::split, Refine::neck};
   config.pipeline.cluster.min_extent = {0.2, 0.1, 1.0 / 3};
   config.pipeline.cluster.max_extent = {12, std::numeric_limits<double>::infinity(), 4};
@@ -257,7 +257,7 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"filter: {own_box_min: [0, 0, 2], own_box_max: [1, 1, 1]}", "filter.own_box_max: is below"},
       {"filter: {own_box_min: [0, 0]}", "filter.own_box_min: '0,0' is not three numbers"},
       {"filter: {range_min: far}", "filter.range_min: 'far' is not a number (m)"},
-      {"ground:\n  method: zone", "line 2: ground.method: 'zone' is not one of none, plane, zones"},
+      {"ground:\n  method: zone", "line 2: ground.method: 'zone' is not one of none, plane, zones, slope"},
       {"ground: {up: w}", "ground.up: "},
       {"ground: {max_slope_degrees: 90}", "is not at least 0 and at most 89"},
       {"ground: {distance: 0}", "ground.distance: 0 is not above 0"},

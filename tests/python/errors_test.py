@@ -71,6 +71,9 @@ class Errors(unittest.TestCase):
         self.refused(ValueError, ["max_slope_degrees", "90", "89"], pcl_bv.ground, POINTS,
                      max_slope_degrees=90)
         self.refused(ValueError, ["sensor"], pcl_bv.ground, POINTS, "plane", sensor=[0, 0, 0])
+        self.refused(ValueError, ["sensor_height"], pcl_bv.ground, POINTS, "slope", sensor_height=1)
+        self.refused(ValueError, ["cell_size", "0.001"], pcl_bv.ground, POINTS, "slope", cell_size=0.001)
+        self.refused(ValueError, ["cell_size", "'slope'"], pcl_bv.ground, POINTS, "zones", cell_size=1)
 
     def test_settings_of_a_pipeline_are_named(self):
         self.refused(ValueError, ["unknown key 'cluster.tolerence'"], pcl_bv.Pipeline,

@@ -11,47 +11,10 @@
 #include <cstring>
 #include <random>
 
-#include "clouds.h"
+#include "stored_scenes.h"
 
 namespace pcl_bv::detail {
 namespace {
-
-// The points of each cluster, as bytes.
-using ClusterBytes = std::vector<std::vector<std::byte>>;
-
-void append_bytes(const PointView& points, std::vector<std::byte>& to) {
-  const std::size_t size = size_of(points.scalar);
-  for (std::size_t i = 0; i < points.count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::byte* const at = points.address(i) + axis * points.step();
-      to.insert(to.end(), at, at + size);
-    }
-  }
-}
-
-ClusterBytes bytes_of(const StoredClusters& clusters) {
-  ClusterBytes all(clusters.size());
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    const StoredClusters::Points points = clusters.points(c);
-    EXPECT_EQ(points.view().count, clusters.point_count(c));
-    for (std::size_t first = 0; first < points.view().count; first += kChunkPoints) {
-      const LoadedPoints part(points.view(), first, std::min(kChunkPoints, points.view().count - first));
-      append_bytes(part.view(), all[c]);
-    }
-  }
-  return all;
-}
-
-ClusterBytes bytes_of(const PointView& points, const Clusters& clusters) {
-  ClusterBytes all(clusters.size());
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    PointView part = points;
-    part.indices = clusters.list(c);
-    part.count = clusters.list_size(c);
-    append_bytes(part, all[c]);
-  }
-  return all;
-}
 
 void expect_same_as_in_memory(const PointView& points, const ClusterOptions& options,
                               std::size_t points_in_memory, const Execution& execution = {}) {
@@ -67,42 +30,6 @@ void expect_same_as_in_memory(const PointView& points, const ClusterOptions& opt
   for (std::size_t i = 0; i < points.count; ++i)
     valid += is_valid(load_point(points, i)) ? 1 : 0;
   EXPECT_EQ(stored.counts().nonfinite, points.count - valid);
-}
-
-// Lines, sheets and clumps that cross many bricks, with noise between them.
-template <typename T>
-test::TestCloud<T> scene(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  test::TestCloud<T> cloud{"seed " + std::to_string(seed), {}};
-  const auto add = [&](double x, double y, double z) {
-    cloud.xyz.insert(cloud.xyz.end(), {static_cast<T>(x), static_cast<T>(y), static_cast<T>(z)});
-  };
-  const double extent = std::pow(10, uniform(1, 2.5));
-  for (int object = 0; object < 25; ++object) {
-    const double x = uniform(-extent, extent), y = uniform(-extent, extent), z = uniform(0, 3);
-    const double length = uniform(0, object % 3 == 0 ? extent : 3), angle = uniform(0, 6.28);
-    const int count = static_cast<int>(uniform(1, object % 3 == 0 ? 600 : 60));
-    for (int i = 0; i < count; ++i) {
-      const double along = uniform(0, length), spread = object % 5 == 0 ? 2 : 0.2;
-      add(x + along * std::cos(angle) + uniform(-spread, spread),
-          y + along * std::sin(angle) + uniform(-0.2, 0.2), z + uniform(-0.1, 0.1));
-    }
-  }
-  for (int i = 0; i < 300; ++i)
-    add(uniform(-extent, extent), uniform(-extent, extent), uniform(0, 5));
-  std::vector<std::size_t> order(cloud.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = i;
-  if (seed % 2 == 0) std::shuffle(order.begin(), order.end(), random);
-  test::TestCloud<T> mixed{cloud.name, {}};
-  for (const std::size_t i : order)
-    mixed.xyz.insert(mixed.xyz.end(), cloud.xyz.begin() + static_cast<std::ptrdiff_t>(3 * i),
-                     cloud.xyz.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
-  if (seed % 3 == 0) mixed.xyz[3 * (seed % mixed.size())] = std::numeric_limits<T>::quiet_NaN();
-  return mixed;
 }
 
 template <typename T>

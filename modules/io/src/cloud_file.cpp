@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "block_sums.h"
@@ -96,6 +97,14 @@ void CloudFile::require_unchanged() const {
 
 PointView CloudFile::xyz() const {
   return view_of(*this, header().size(), file_->fields.scalar);
+}
+
+void CloudFile::load_records(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
+  const std::size_t step = header().point_step;
+  if (first > header().size() || count > header().size() - first)
+    throw std::out_of_range("CloudFile: the requested records are outside the cloud");
+  grow(buffer, count * step);
+  file_->file.read(file_->header.data_offset + first * step, buffer.data(), count * step);
 }
 
 PointView CloudFile::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {

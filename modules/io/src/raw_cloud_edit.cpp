@@ -42,19 +42,17 @@ std::vector<PointField> fields_with(const RawCloud& cloud, std::string_view name
 }
 
 template <typename T>
-void copy_integers(const RawCloud& cloud, std::size_t offset, std::vector<std::int64_t>& values) {
-  const std::byte* from = reinterpret_cast<const std::byte*>(cloud.data.data()) + offset;
-  for (std::int64_t& value : values) {
+void copy_values(const std::byte* from, std::size_t count, std::size_t step, std::int64_t* to) {
+  for (std::size_t i = 0; i < count; ++i, from += step) {
     T stored;
     std::memcpy(&stored, from, sizeof stored);
-    value = std::int64_t{stored};  // NOLINT(bugprone-signed-char-misuse): a number of 8 bits, no character
-    from += cloud.point_step;
+    to[i] = std::int64_t{stored};  // NOLINT(bugprone-signed-char-misuse): a number of 8 bits, no character
   }
 }
 
 }  // namespace
 
-std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name) {
+const PointField& integer_field(const RawCloud& cloud, std::string_view name) {
   const auto refuse = [&](const std::string& why) {
     throw std::runtime_error("field '" + std::string(name) + "' " + why);
   };
@@ -71,22 +69,28 @@ std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view na
   if (std::find(invalid.begin(), invalid.end(), field->name) != invalid.end())
     refuse("has values that are no integers: " + cloud.note);
   if (field->count != 1) refuse("has " + std::to_string(field->count) + " elements a point, not one");
+  if (field->size == 8 && field->type != 'I') refuse("is unsigned with 8 bytes; at most 4 are supported");
+  return *field;
+}
+
+void copy_integers(const PointField& field, const std::byte* records, std::size_t count,
+                   std::size_t point_step, std::int64_t* to) {
+  const bool is_signed = field.type == 'I';
+  const std::byte* const from = records + field.offset;
+  const auto copy = [&](auto if_signed, auto if_unsigned) {
+    is_signed ? copy_values<decltype(if_signed)>(from, count, point_step, to)
+              : copy_values<decltype(if_unsigned)>(from, count, point_step, to);
+  };
+  if (field.size == 1) return copy(std::int8_t{}, std::uint8_t{});
+  if (field.size == 2) return copy(std::int16_t{}, std::uint16_t{});
+  if (field.size == 4) return copy(std::int32_t{}, std::uint32_t{});
+  copy_values<std::int64_t>(from, count, point_step, to);
+}
+
+std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name) {
   std::vector<std::int64_t> values(cloud.size());
-  const bool is_signed = field->type == 'I';
-  const std::size_t at = field->offset;
-  if (field->size == 1) {
-    is_signed ? copy_integers<std::int8_t>(cloud, at, values)
-              : copy_integers<std::uint8_t>(cloud, at, values);
-  } else if (field->size == 2) {
-    is_signed ? copy_integers<std::int16_t>(cloud, at, values)
-              : copy_integers<std::uint16_t>(cloud, at, values);
-  } else if (field->size == 4) {
-    is_signed ? copy_integers<std::int32_t>(cloud, at, values)
-              : copy_integers<std::uint32_t>(cloud, at, values);
-  } else {
-    if (!is_signed) refuse("is unsigned with 8 bytes; at most 4 are supported");
-    copy_integers<std::int64_t>(cloud, at, values);
-  }
+  copy_integers(integer_field(cloud, name), cloud.data.data(), values.size(), cloud.point_step,
+                values.data());
   return values;
 }
 

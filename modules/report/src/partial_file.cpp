@@ -159,7 +159,7 @@ std::string partial_file_content(const PartialFile& file) {
   return content + check_sum(content);
 }
 
-PartialFile parse_partial_file(std::string_view content) {
+PartialFile parse_partial_file(std::string_view content, bool has_partial) {
   require(content.starts_with(kFormat), "is no file of partial results, as --partial writes them");
   std::string_view rest = content.substr(kFormat.size());
   require(rest.size() > 6, "is truncated");
@@ -174,7 +174,7 @@ PartialFile parse_partial_file(std::string_view content) {
     PartialFile file = read_partial_header(rest.substr(0, end));
     const std::string_view bytes = rest.substr(end + 1);
     file.partial = Partial::from_bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
-    require(file.partial.size() == points_in(file.shares), "its numbers of points are inconsistent");
+    require(file.partial.size() == (has_partial ? points_in(file.shares) : 0), "its numbers of points are inconsistent");
     return file;
   } catch (const Json::exception&) {
     throw IoError("its header cannot be read");

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "pcl_bv/io/read_json.h"
+#include "pcl_bv/report/cluster_json.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -219,6 +220,43 @@ std::vector<AnyVolume> volumes_in(std::string_view text) {
 }
 
 }  // namespace
+
+namespace {
+
+VolumeEntry read_entry(const Json& json) {
+  VolumeEntry entry;
+  entry.method = member(json, "method").get<std::string>();
+  if (const auto outside = json.find("outside"); outside != json.end())
+    entry.outside = outside->get<std::size_t>();
+  if (const auto failed = json.find("failed"); failed != json.end()) {
+    entry.failed = failed->get<std::string>();
+    return entry;
+  }
+  std::vector<AnyVolume> volumes;
+  read_volume(json, volumes);
+  if (!volumes.empty()) entry.volume = std::move(volumes.front());
+  return entry;
+}
+
+}  // namespace
+
+ClusterEntry read_cluster_json(std::string_view text) {
+  try {
+    const Json json = read_json(text);
+    ClusterEntry cluster;
+    cluster.id = member(json, "id").get<std::size_t>();
+    cluster.points = member(json, "points").get<std::size_t>();
+    if (const auto value = json.find("class"); value != json.end())
+      cluster.class_value = value->get<std::int64_t>();
+    for (const Json& entry : list_of("volumes", member(json, "volumes")))
+      cluster.volumes.push_back(read_entry(entry));
+    return cluster;
+  } catch (const Json::exception&) {
+    throw IoError("is no cluster with volumes");
+  } catch (const std::invalid_argument& error) {
+    throw IoError(error.what());
+  }
+}
 
 std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
   try {

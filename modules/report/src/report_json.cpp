@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "json_text.h"
+#include "pcl_bv/report/cluster_json.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
 
@@ -176,6 +177,15 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
   }
   json.end('}');
   take(text);
+}
+
+std::string detail::cluster_json(const ClusterEntry& cluster) {
+  std::string text;
+  JsonText json(text);
+  json.begin('{').add("id", cluster.id);
+  if (cluster.class_value) json.add("class", *cluster.class_value);
+  add_volumes(cluster, json);
+  return text;
 }
 
 std::string report_json(const Report& report) {

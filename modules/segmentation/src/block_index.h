@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace pcl_bv::detail {
@@ -35,6 +36,12 @@ class BlockIndex {
     return slot->number;
   }
 
+  /// Returns the number of a key; nullopt if number() was not called for it.
+  std::optional<std::uint32_t> find_number(Key key) const {
+    const Slot& slot = slots_[position(key)];
+    return slot.number == none ? std::nullopt : std::optional(slot.number);
+  }
+
  private:
   struct Slot {
     Key key;
@@ -48,14 +55,16 @@ class BlockIndex {
     shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
   }
 
-  Slot* find(Key key) {
+  Slot* find(Key key) { return &slots_[position(key)]; }
+
+  std::size_t position(Key key) const {
     std::uint64_t folded = static_cast<std::uint64_t>(key);
     if constexpr (sizeof(Key) > sizeof folded)
       folded ^= static_cast<std::uint64_t>(key >> 64) * 0xff51afd7ed558ccdU;
     std::size_t i = folded * 0x9e3779b97f4a7c15U >> shift_;  // 2^64 / golden ratio
     while (slots_[i].number != none && slots_[i].key != key)
       i = (i + 1) & (slots_.size() - 1);
-    return &slots_[i];
+    return i;
   }
 
   Slot* grow(Key key) {

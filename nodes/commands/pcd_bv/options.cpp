@@ -65,8 +65,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--origin", texts.origin, "X,Y,Z",
               "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
+  line.option("--memory", texts.memory, "MB",
+              "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
   if (command == PcdBvCommand::serial) {
-    line.option("--memory", texts.memory, "MB", "With --together --cluster: memory for points (600)");
     line.option(
         "--objects", texts.objects, "DIR",
         "With --cluster: write the points of each object as DIR/ID.pcd;\nseveral inputs: DIR/NAME/ID.pcd");
@@ -181,26 +182,35 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
-  const bool clusters_tiles = command == PcdBvCommand::serial && !options.merge && !options.partial;
+  const bool over_ranks = command == PcdBvCommand::mpi;
+  const bool shares = options.merge || options.partial || over_ranks;
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
-  reject(config.ground.method != GroundMethod::none, "--ground (ground.method)");
+  const bool ground = config.ground.method != GroundMethod::none;
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  if (options.clusters() && clusters_tiles) {
-    reject_combinations(line, "--together --cluster", {"--image", "--view-html", "--gpu"});
+  if (options.clusters()) {
+    const std::string with_clusters = std::string(option) + " --cluster";
+    reject_combinations(line, with_clusters.c_str(), {"--image", "--view-html"});
+    if (!over_ranks) reject_combinations(line, with_clusters.c_str(), {"--gpu"});
+    reject(ground && shares, "--ground (ground.method)");
+    reject(config.cluster.class_field && shares, "--class (cluster.class_field)");
+    reject(ground && config.ground.method != GroundMethod::slope,
+           "--ground plane or zones (ground.method), only with --ground slope");
     reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
     reject(config.cluster.oversized == Oversized::split, "--oversized split");
-    reject(config.cluster.class_field.has_value(), "--class (cluster.class_field)");
     reject(config.track.enabled, "track.enabled");
     reject(config.effective_refine() != Refine::off, "cluster.refine");
   } else {
-    reject(options.clusters(), "--cluster (cluster.tolerance)");
+    reject(ground, "--ground (ground.method)");
     reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
            "cluster.min_size or max_size");
   }
+  reject(over_ranks && options.clusters() && options.origin.requested && !options.origin.at,
+         "--origin auto and --cluster over ranks");
   if (!options.merge && !options.partial) return;
-  reject_combinations(line, option, {"--image", "--view-html", "--check", "--info", "--objects"});
+  reject_combinations(line, option, {"--image", "--view-html", "--info", "--objects"});
+  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
   if (options.merge)
     reject_combinations(line, option,
                         {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
@@ -209,7 +219,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
-  for (const Method* method : config.methods()) {
+  for (const Method* method : options.clusters() ? std::vector<const Method*>() : config.methods()) {
     if (!Partial::can_fit(*method, config.method_options()))
       throw UsageError(std::string("--volume: ")
                            .append(method->name)
@@ -218,12 +228,15 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   }
 }
 
-void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
+void read_memory(const CommandLine& line, const Texts& texts, Options& options) {
   if (line.given("--memory")) {
-    if (!texts.together || !options.clusters())
-      throw UsageError("--memory: only useful with --together and --cluster");
+    if (!(texts.together || texts.merge || !texts.partial.empty()) || !options.clusters())
+      throw UsageError("--memory: only useful with --cluster and --together, --partial or --merge");
     options.memory_bytes = parse_whole_number("--memory", texts.memory, 1, 1'000'000) * 1'000'000;
   }
+}
+
+void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   options.merge = texts.merge;
   options.partial = path_or_none(texts.partial);
   options.tiled = texts.together || (options.partial && !options.merge);
@@ -244,6 +257,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   read_outputs(line, texts, options);
   options.tiled = texts.together;
   options.threads_given = line.given("--threads");
+  read_memory(line, texts, options);
   if (command == PcdBvCommand::serial) read_parts(line, texts, options);
   options.gpu = texts.gpu;
   if (!options.gpu.empty()) reject_combinations(line, "--gpu", {"--partial", "--merge"});

@@ -18,6 +18,7 @@
 #include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
 #include "object_files.h"
+#include "object_shares.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
@@ -208,6 +209,11 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
 
 /// Makes volumes from partial results.
 Status process_partials(const Job& job, const Options& options, Report& report) {
+  if (options.clusters()) {
+    report.file = kTiledName;
+    const Status status = merge_object_files(job.partials, options, report);
+    return report.error ? status : worse(status, write_mesh(job, report.clusters));
+  }
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
   if (!all) {  // each file that cannot be merged has been reported

@@ -11,6 +11,7 @@
 
 #include "commands/shared/interruption.h"
 #include "commands/shared/messages.h"
+#include "object_shares.h"
 #include "pipeline/config/settings.h"
 #include "shifted_points.h"
 
@@ -149,6 +150,7 @@ Status write_or_report(const std::filesystem::path& path, const PartialFile& fil
 }  // namespace
 
 Status detail::make_partial_file(const Job& job, const Options& options) {
+  if (options.clusters()) return make_object_file(job, options);
   const Interruption interruption([] {});
   if (!job.partials.empty()) {
     const std::optional<PartialFile> merged = merge_files(job.partials);

@@ -5,32 +5,28 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <utility>
 
+#include "class_points.h"
 #include "commands/shared/messages.h"
+#include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
 #include "object_files.h"
-#include "pcl_bv/fitting/fit.h"
+#include "object_fitter.h"
 #include "pcl_bv/nodes/frame_result.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
 #include "pipeline/class_table.h"
 #include "pipeline/extent_limits.h"
 #include "pipeline/filtered_view.h"
+#include "pipeline/ground_view.h"
 #include "process.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
 namespace {
-
-// Bytes that a point in memory takes while a brick is clustered.
-constexpr std::size_t bytes_per_point(ScalarType scalar) {
-  return scalar == ScalarType::float32 ? 150 : 250;
-}
-// Clusters with more points use all threads for each fit. Smaller ones are distributed over the threads.
-constexpr std::size_t kManyPoints = 200'000;
-// Clusters that a thread takes at a time.
-constexpr std::size_t kAtATime = 16;
 
 using Clock = std::chrono::steady_clock;
 
@@ -38,100 +34,155 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// A cluster with its volumes, or why it is dropped.
-struct Object {
-  ExtentVerdict verdict = ExtentVerdict::keep;
-  ClusterEntry entry;
+// The points to be clustered, and the stages that have dropped others.
+struct RemainingPoints {
+  FilteredView filtered;
+  GroundView ground;
+  PointView points;
 };
 
-class ObjectFitter {
- public:
-  ObjectFitter(const StoredClusters& clusters, const Options& options)
-      : clusters_(clusters),
-        options_(options),
-        methods_(options.pipeline.methods()),
-        method_options_(options.pipeline.method_options()) {}
+RemainingPoints remaining_points(const PointView& cloud, const PipelineConfig& config) {
+  RemainingPoints remaining;
+  remaining.filtered = filter_points(cloud, config.filter, config.execution());
+  remaining.points = remaining.filtered.points;
+  if (config.ground.method != GroundMethod::slope) return remaining;
+  remaining.ground = remove_slope_ground(remaining.points, config.ground, config.execution());
+  remaining.points = remaining.ground.points;
+  return remaining;
+}
 
-  std::vector<Object> fit() const {
-    std::vector<Object> objects(clusters_.size());
-    const Execution execution = options_.pipeline.execution();
-    std::size_t first_small = 0;  // clusters are sorted by size
-    for (; first_small < objects.size() && clusters_.point_count(first_small) > kManyPoints; ++first_small)
-      fit(first_small, execution, objects[first_small]);
-    const Execution serial{Serial{}, execution.isa};
-    for_each_range(execution.parallel, objects.size() - first_small, kAtATime,
-                   [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t i = first_small + begin; i < first_small + end; ++i)
-                       fit(i, serial, objects[i]);
-                   });
-    return objects;
+// Sets the numbers of points that are dropped before the clustering, to which `valid` points are left.
+void count_dropped(const RemainingPoints& remaining, std::size_t valid, Report& report) {
+  const bool filtered = remaining.filtered.owner != nullptr, ground = remaining.ground.owner != nullptr;
+  const std::size_t before = ground ? remaining.ground.valid : valid;
+  report.counts.nonfinite = filtered ? remaining.filtered.counts.nonfinite : remaining.points.count - before;
+  report.counts.range = remaining.filtered.counts.range;
+  report.counts.inside = remaining.filtered.counts.inside;
+  report.counts.ground = before - valid;
+}
+
+class TiledObjects {
+ public:
+  TiledObjects(const Options& options, ScalarType scalar, Report& report)
+      : options_(options), report_(report), table_(options.pipeline), store_(store_options(options, scalar)) {
+    store_.keep_visited = options.objects.has_value();
   }
 
- private:
-  void fit(std::size_t cluster, const Execution& execution, Object& object) const {
-    const StoredClusters::Points points = clusters_.points(cluster);
-    object.verdict = extent_verdict(points.view(), options_.pipeline.cluster, method_options_.up, execution);
-    if (object.verdict != ExtentVerdict::keep) return;
-    object.entry.points = points.view().count;
-    std::vector<Fitted<AnyVolume>> fits = fit_methods(points.view(), methods_, method_options_, execution);
-    for (std::size_t m = 0; m < methods_.size(); ++m) {
-      VolumeEntry& entry = object.entry.volumes.emplace_back();
-      entry.method = methods_[m]->name;
-      entry.failed = fits[m].reason;
-      entry.volume = std::move(fits[m].volume);
-      if (options_.check && entry.failed.empty())
-        entry.outside = verify(entry.volume, points.view(), execution).outside;
+  // Adds the objects of all classes. They have the order of the objects of a cloud in memory.
+  void add_classes(const ClassifiedPoints& cloud, const RemainingPoints& remaining) {
+    const ParallelPolicy& policy = options_.pipeline.execution().parallel;
+    std::size_t valid = 0;
+    for (const auto& [value, count] : count_classes(cloud, policy)) {
+      valid += count;
+      const auto own = std::find_if(table_.class_options().begin(), table_.class_options().end(),
+                                    [value = value](const ClassOptions& one) { return one.value == value; });
+      const bool has_own = own != table_.class_options().end();
+      if (has_own && own->drop) {
+        report_.counts.dropped_class += count;
+      } else {
+        add_clusters(ClassPoints(cloud, value).view(), has_own ? own->clusters : table_.default_options(),
+                     value);
+      }
+    }
+    count_dropped(remaining, valid, report_);
+    sort();
+  }
+
+  // Adds the objects of points without classes.
+  void add_all(const RemainingPoints& remaining) {
+    const std::size_t invalid = add_clusters(remaining.points, table_.default_options(), std::nullopt);
+    count_dropped(remaining, remaining.points.count - invalid, report_);
+  }
+
+  double fit_seconds() const { return fit_seconds_; }
+
+  void write_report() {
+    report_.clusters.clear();
+    for (FoundObject& found : objects_) {
+      found.object.entry.id = report_.clusters.size();
+      report_.clusters.push_back(std::move(found.object.entry));
     }
   }
 
-  const StoredClusters& clusters_;
-  const Options& options_;
-  std::vector<const Method*> methods_;
-  MethodOptions method_options_;
-};
-
-// Returns the number of the cluster of each reported object.
-std::vector<std::size_t> add_objects(const StoredClusters& clusters, std::vector<Object> objects,
-                                     Report& report) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    Object& object = objects[i];
-    if (object.verdict == ExtentVerdict::small) report.counts.small += clusters.point_count(i);
-    if (object.verdict == ExtentVerdict::large) report.counts.large += clusters.point_count(i);
-    if (object.verdict != ExtentVerdict::keep) continue;
-    object.entry.id = report.clusters.size();
-    report.clusters.push_back(std::move(object.entry));
-    numbers.push_back(i);
+  // Writes the points of each object of the report.
+  Status write_files(const std::filesystem::path& folder) const {
+    const ParallelPolicy& policy = options_.pipeline.execution().parallel;
+    return write_objects(folder, objects_.size(), policy, [&](std::size_t id) {
+      const FoundObject& found = objects_[id];
+      write_object(folder, id, stored_[found.store].points(found.number).view());
+    });
   }
-  return numbers;
-}
+
+ private:
+  // An object, and the cluster with its points.
+  struct FoundObject {
+    Object object;
+    std::size_t store = 0, number = 0;
+  };
+
+  // Returns the number of points that are not valid.
+  std::size_t add_clusters(const PointView& points, const ClusterOptions& options,
+                           std::optional<std::int64_t> value) {
+    ObjectFitter fitter(options_, table_, value);
+    StoredClusterOptions store = store_;
+    store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
+      fitter.visit(brick, found, execution);
+    };
+    StoredClusters clusters(points, options, store, options_.pipeline.execution());
+    Counts& counts = report_.counts;
+    counts.small += clusters.counts().small;
+    counts.large += clusters.counts().large;
+    counts.noise += clusters.counts().noise;
+    const Clock::time_point begin = Clock::now();
+    std::vector<Object> objects = fitter.fit(clusters);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const ExtentVerdict verdict = objects[i].verdict;
+      if (verdict == ExtentVerdict::small) counts.small += clusters.point_count(i);
+      if (verdict == ExtentVerdict::large) counts.large += clusters.point_count(i);
+      if (verdict == ExtentVerdict::keep) objects_.push_back({std::move(objects[i]), stored_.size(), i});
+    }
+    fit_seconds_ += seconds_since(begin);
+    const std::size_t invalid = clusters.counts().nonfinite;
+    if (options_.objects) stored_.push_back(std::move(clusters));
+    return invalid;
+  }
+
+  // Sorts the objects of several classes: the largest first, then by their first point.
+  void sort() {
+    std::sort(objects_.begin(), objects_.end(), [](const FoundObject& left, const FoundObject& right) {
+      const Object &a = left.object, &b = right.object;
+      return a.entry.points != b.entry.points ? a.entry.points > b.entry.points
+                                              : a.first_number < b.first_number;
+    });
+  }
+
+  const Options& options_;
+  Report& report_;
+  ClassTable table_;
+  StoredClusterOptions store_;
+  std::vector<FoundObject> objects_;
+  std::vector<StoredClusters> stored_;  // one for each class, if the points of objects are written
+  double fit_seconds_ = 0;
+};
 
 // Finds the clusters of a cloud, whose points may be in files, fits the volumes and writes the points of
 // objects.
 Status add_objects_of(const PointView& cloud, const Job& job, const Options& options, Report& report) {
   const Clock::time_point begin = Clock::now();
   const PipelineConfig& config = options.pipeline;
-  const Execution execution = config.execution();
-  const FilteredView filtered = filter_points(cloud, config.filter, execution);
-  const StoredClusters clusters(
-      filtered.points, ClassTable(config).default_options(),
-      {std::max<std::size_t>(options.memory_bytes / bytes_per_point(cloud.scalar), 1), {}}, execution);
   report.points = cloud.count;
-  report.counts = clusters.counts();
-  if (filtered.owner != nullptr) {  // dropped points count as not finite then
-    report.counts.nonfinite = filtered.counts.nonfinite;
-    report.counts.range = filtered.counts.range;
-    report.counts.inside = filtered.counts.inside;
+  report.counts = Counts();
+  const RemainingPoints remaining = remaining_points(cloud, config);
+  TiledObjects objects(options, cloud.scalar, report);
+  if (const auto& field = config.cluster.class_field) {
+    objects.add_classes({remaining.points, *job.tiles, field->name}, remaining);
+  } else {
+    objects.add_all(remaining);
   }
-  const double segment = seconds_since(begin);
-  report.clusters.clear();
-  const std::vector<std::size_t> numbers =
-      add_objects(clusters, ObjectFitter(clusters, options).fit(), report);
-  if (options.timings) report.seconds = {0, segment, seconds_since(begin) - segment};
-  if (!job.objects) return Status::done;
-  return write_objects(*job.objects, numbers.size(), execution.parallel, [&](std::size_t id) {
-    write_object(*job.objects, id, clusters.points(numbers[id]).view());
-  });
+  objects.write_report();
+  const double all = seconds_since(begin);
+  if (options.timings) report.seconds = {0, all - objects.fit_seconds(), objects.fit_seconds()};
+  return job.objects ? objects.write_files(*job.objects) : Status::done;
 }
 
 }  // namespace
@@ -156,6 +207,8 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   counted.counts = report.counts;
   const std::string range = range_warning(counted, options.range_from);
   if (!range.empty()) report_problem(job.input + ": " + range);
+  const std::string ground = ground_warning(counted, option_names(false));
+  if (!ground.empty()) report_problem(job.input + ": " + ground);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info =

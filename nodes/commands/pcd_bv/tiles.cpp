@@ -11,6 +11,7 @@
 #include "copy_points.h"
 #include "pcl_bv/io/cloud_file.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::detail {
@@ -167,6 +168,23 @@ std::shared_ptr<const Tiles::OpenTile> Tiles::open(std::size_t tile) const {
   return slot->opened;
 }
 
+// Calls copy(tile, first point in the tile, number of points, points in the tiles before) for each tile that
+// has some of the points.
+template <typename Copy>
+void Tiles::for_each_tile(std::size_t first, std::size_t count, const Copy& copy) const {
+  std::size_t done = 0;
+  for (std::size_t tile = tile_of(first); done < count; ++tile) {
+    const std::size_t from = first + done - offsets_[tile];
+    const std::size_t n = std::min(count - done, headers_[tile].points - from);
+    if (n == 0) continue;  // an empty or excluded tile
+    of_tile(tile, [&] {
+      copy(tile, from, n, done);
+      return 0;
+    });
+    done += n;
+  }
+}
+
 void Tiles::copy(std::size_t tile, std::size_t first, std::size_t count, std::byte* to) const {
   const std::shared_ptr<const OpenTile> opened = open(tile);
   const LoadedPoints part(opened->xyz, first, count);
@@ -176,7 +194,7 @@ void Tiles::copy(std::size_t tile, std::size_t first, std::size_t count, std::by
 PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
   if (count == 0) return packed_points(buffer.data(), scalar_, 0, first);
   count_loaded(count);
-  std::size_t tile = tile_of(first);
+  const std::size_t tile = tile_of(first);
   const bool whole = first + count <= offsets_[tile + 1];
   if (whole && headers_[tile].random_access && headers_[tile].scalar == scalar_) {
     return of_tile(tile, [&] {
@@ -187,17 +205,25 @@ PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byt
   }
   const std::size_t step = 3 * size_of(scalar_);
   if (buffer.size() < count * step) buffer.resize(count * step);
-  for (std::size_t done = 0; done < count; ++tile) {
-    const std::size_t from = first + done - offsets_[tile];
-    const std::size_t n = std::min(count - done, headers_[tile].points - from);
-    if (n == 0) continue;  // an empty or excluded tile
-    of_tile(tile, [&] {
-      copy(tile, from, n, buffer.data() + done * step);
-      return 0;
-    });
-    done += n;
-  }
+  for_each_tile(first, count, [&](std::size_t part, std::size_t from, std::size_t n, std::size_t done) {
+    copy(part, from, n, buffer.data() + done * step);
+  });
   return packed_points(buffer.data(), scalar_, count, first);
+}
+
+void Tiles::load_integers(const std::string& field, std::size_t first, std::size_t count,
+                          std::vector<std::int64_t>& values) const {
+  values.resize(count);
+  std::vector<std::byte> buffer;
+  for_each_tile(first, count, [&](std::size_t tile, std::size_t from, std::size_t n, std::size_t done) {
+    const std::shared_ptr<const OpenTile> opened = open(tile);
+    const RawCloud& cloud = opened->file ? opened->file->header() : opened->cloud;
+    const PointField& found = integer_field(cloud, field);
+    if (opened->file) opened->file->load_records(from, n, buffer);
+    const std::byte* const records =
+        opened->file ? buffer.data() : cloud.data.data() + from * cloud.point_step;
+    copy_integers(found, records, n, cloud.point_step, values.data() + done);
+  });
 }
 
 void Tiles::count_loaded(std::size_t points) const {

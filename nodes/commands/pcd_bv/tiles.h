@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <list>
 #include <memory>
@@ -80,6 +81,11 @@ class Tiles final : public PointSource {
   /// Loads points. Throws TileError if an input cannot be read or has changed since it was first opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
+  /// Replaces `values` by the values of an integer field of points [first, first + count). Throws TileError
+  /// as load() does, and for an input with points whose field cannot be used (integer_field()).
+  void load_integers(const std::string& field, std::size_t first, std::size_t count,
+                     std::vector<std::int64_t>& values) const;
+
   /// Throws TileError if a file has changed since it was first opened.
   void require_unchanged() const;
 
@@ -100,6 +106,8 @@ class Tiles final : public PointSource {
   std::shared_ptr<const OpenTile> open(std::size_t tile) const;
   OpenTile open_now(std::size_t tile) const;
   Identity identity_of(std::size_t tile) const;
+  template <typename Copy>
+  void for_each_tile(std::size_t first, std::size_t count, const Copy& copy) const;
   void copy(std::size_t tile, std::size_t first, std::size_t count, std::byte* to) const;
   void count_loaded(std::size_t points) const;
 

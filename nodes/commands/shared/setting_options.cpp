@@ -149,7 +149,10 @@ void SettingOptions::reject_useless(const PipelineConfig& config) const {
                              "--min-extent", "--max-extent"})
     reject(option, clusters, "--cluster");
   reject("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
-  for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
+  reject("--ground-cell", config.ground.method == GroundMethod::slope, "--ground slope");
+  reject("--sensor-height", ground && config.ground.method != GroundMethod::slope,
+         ground ? "--ground zones or plane" : "--ground");
+  for (const char* option : {"--ground-distance", "--ground-slope"})
     reject(option, ground, "--ground");
 }
 

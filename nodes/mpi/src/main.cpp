@@ -15,6 +15,7 @@
 #include "distributed_jobs.h"
 #include "failures.h"
 #include "merged_cloud.h"
+#include "merged_objects.h"
 #include "ranks.h"
 
 namespace pcl_bv::detail {
@@ -60,7 +61,8 @@ Status process_merged(Ranks& ranks, const Job& job, const Options& options, Inte
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = fit_merged(ranks, *job.tiles, options, outcome.report);
+    outcome.status = options.clusters() ? find_merged_objects(ranks, *job.tiles, options, outcome.report)
+                                        : fit_merged(ranks, *job.tiles, options, outcome.report);
   } catch (const IoError& error) {  // thrown on all ranks
     outcome.report.error = error.what();
     outcome.status = Status::failed;

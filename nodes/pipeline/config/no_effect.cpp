@@ -53,7 +53,11 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
   const bool grounded = ground.method != GroundMethod::none;
   const std::string method = name("ground.method");
   check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones, method + " zones");
-  check("ground.sensor_height", ground.sensor_height.has_value(), grounded, method);
+  check("ground.sensor_height", ground.sensor_height.has_value(),
+        ground.method == GroundMethod::zones || ground.method == GroundMethod::plane,
+        grounded ? method + " zones or plane" : method);
+  check("ground.cell_size", ground.cell_size.has_value(), ground.method == GroundMethod::slope,
+        method + " slope");
   check("ground.distance", ground.distance.has_value(), grounded, method);
   check("ground.max_slope_degrees", ground.max_slope_degrees.has_value(), grounded, method);
   return lines;

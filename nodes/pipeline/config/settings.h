@@ -69,7 +69,8 @@ void visit_filter(Filter& c, Visit&& visit) {
 template <typename Ground, typename Visit>
 void visit_ground(Ground& c, Visit&& visit) {
   using S = Setting;
-  visit(S{"ground.method", "none, plane, zones", "Remove the ground first; zones is for outdoors",
+  visit(S{"ground.method", "none, plane, zones, slope",
+          "Remove the ground first; zones: outdoors, slope: maps",
           {}, {}, "--ground", "KIND"}, c.method);
   visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z", "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
           {}, {}, "--up", "AXIS"}, c.up);
@@ -78,10 +79,12 @@ void visit_ground(Ground& c, Visit&& visit) {
   visit(S{"ground.sensor_height", "m", "Height of the sensor (the origin with plane) above the ground",
           {}, "estimated", "--sensor-height", "M"}, c.sensor_height);
   visit(S{"ground.distance", "m", "Height up to which points are ground",
-          {0, kFinite, false}, "0.2 with plane, 0.15 with zones", "--ground-distance", "M"},
+          {0, kFinite, false}, "0.2; 0.15 with zones", "--ground-distance", "M"},
         c.distance);
   visit(S{"ground.max_slope_degrees", "degrees", "Maximum slope of the ground",
-          {0, 89}, "15 with plane, 20 with zones", "--ground-slope", "DEG"}, c.max_slope_degrees);
+          {0, 89}, "20; 15 with plane", "--ground-slope", "DEG"}, c.max_slope_degrees);
+  visit(S{"ground.cell_size", "m", "Side of the cells of slope",
+          {0.01, 1000}, "1", "--ground-cell", "M"}, c.cell_size);
 }
 
 template <typename Cluster, typename Visit>

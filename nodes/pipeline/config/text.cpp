@@ -12,8 +12,10 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr Names<GroundMethod, 3> kGroundMethods{
-    {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
+constexpr Names<GroundMethod, 4> kGroundMethods{{{"none", GroundMethod::none},
+                                                 {"plane", GroundMethod::plane},
+                                                 {"zones", GroundMethod::zones},
+                                                 {"slope", GroundMethod::slope}}};
 constexpr Names<Oversized, 3> kOversized{
     {{"drop", Oversized::drop}, {"keep", Oversized::keep}, {"split", Oversized::split}}};
 constexpr Names<Deskew, 3> kDeskew{{{"off", Deskew::off}, {"on", Deskew::on}, {"auto", Deskew::automatic}}};

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "brick_grid.h"
 #include "pcl_bv/numeric/coordinates.h"
 
 namespace pcl_bv::detail {
@@ -24,12 +25,12 @@ class Bricks {
   };
 
  public:
-  /// `anchor` is any point of the cloud. A point can affect the result for points up to `halo` away. Cells
-  /// are 16 times as long. There are 2^21 along each axis; the outermost cells have no end.
-  Bricks(const Coordinates& anchor, double halo);
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  /// Returns the key of the cell of a point.
-  std::uint64_t cell_key(const Coordinates& point) const { return key(position(point)); }
+  explicit Bricks(const BrickGrid& grid) : grid_(grid) {}
+
+  const BrickGrid& grid() const { return grid_; }
+
   /// Counts points of a cell. To be called for all points before divide().
   void count(std::uint64_t cell_key, std::uint64_t points) { cells_[cell_key].points += points; }
 
@@ -40,29 +41,22 @@ class Bricks {
 
   /// The brick to which a point belongs, and the bricks whose points it can affect.
   struct Place {
-    std::uint32_t own = 0;
+    std::uint32_t own = kNone;            ///< kNone if no point was counted in the cell of the point.
     std::uint32_t others = 0;             ///< How many.
     std::array<std::uint32_t, 26> other;  ///< Their numbers.
   };
   /// The cell of the last point. Points that follow one another are mostly in the same cell.
   struct Cursor {
-    std::uint64_t key = ~std::uint64_t{0};
+    GridCell at;
     const Cell* cell = nullptr;
   };
   Place place(const Coordinates& point, Cursor& cursor) const;
 
  private:
-  using Position = std::array<std::uint32_t, 3>;
+  const Cell* find(std::uint64_t key) const;
+  bool is_inner(std::uint64_t key, const Cell& cell) const;
 
-  Coordinates relative(const Coordinates& point) const;
-  Position position(const Coordinates& point) const;
-  static std::uint64_t key(const Position& position);
-  static Position position_of(std::uint64_t key);
-  const Cell& cell_of(std::uint64_t key) const;
-  const Cell* neighbour(const Position& position, int dx, int dy, int dz) const;
-
-  Coordinates anchor_;
-  double side_, per_side_, margin_;  // margin_: the halo in units of the side
+  BrickGrid grid_;
   std::unordered_map<std::uint64_t, Cell> cells_;
   std::size_t size_ = 0;
 };

@@ -4,12 +4,11 @@
 #include "joined_pieces.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <queue>
 
-#include "union_find.h"
+#include "piece_reader.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -18,52 +17,56 @@ constexpr std::size_t kReadBytes = 64U << 10U;     // of a piece at a time
 constexpr std::size_t kAllReadBytes = 64U << 20U;  // of all pieces of a cluster
 constexpr std::size_t kWriteBytes = 1U << 20U;
 
-// Reads the records of a piece one after another.
-class PieceReader {
- public:
-  PieceReader(const SpillFile& file, const Piece& piece, std::size_t step, std::size_t buffer_bytes)
-      : file_(&file),
-        at_(piece.offset),
-        left_(piece.points),
-        step_(step),
-        max_records_(std::max<std::size_t>(buffer_bytes / step, 1)) {
-    fill();
-  }
+std::vector<SharedPoint> read(const SpillFile& file, const Extent& extent) {
+  std::vector<SharedPoint> points(extent.bytes / sizeof(SharedPoint));
+  file.read(extent.offset, points.data(), extent.bytes);
+  return points;
+}
 
-  bool done() const { return position_ == buffer_.size(); }
-  const std::byte* record() const { return buffer_.data() + position_; }
-  std::uint64_t number() const {
-    std::uint64_t number;
-    std::memcpy(&number, record() + step_ - sizeof number, sizeof number);
-    return number & kNumberMask;
+// Calls visit(piece, other piece) for points that are in both lists, which are sorted by number.
+template <typename Visit>
+void for_each_pair(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
+                   std::vector<SharedPoint>::const_iterator end, const Visit& visit) {
+  auto it = own.begin();
+  for (; begin != end; ++begin) {
+    while (it != own.end() && it->number < begin->number)
+      ++it;
+    if (it == own.end()) return;
+    if (it->number == begin->number) visit(it->piece, begin->piece);
   }
-  void next() {
-    position_ += step_;
-    if (done()) fill();
+}
+
+}  // namespace
+
+void join_pieces(const std::vector<SharedPoints>& bricks, const std::vector<std::uint32_t>& first_set,
+                 const SpillFile& file, UnionFind& sets) {
+  for (std::size_t brick = 0; brick < bricks.size(); ++brick) {
+    const std::vector<SharedPoint> others = read(file, bricks[brick].others);
+    for (auto begin = others.begin(); begin != others.end();) {
+      const std::uint32_t owner = begin->owner;
+      const auto end =
+          std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
+      for_each_pair(read(file, bricks[owner].own), begin, end, [&](std::uint32_t a, std::uint32_t b) {
+        sets.unite(first_set[owner] + a, first_set[brick] + b);
+      });
+      begin = end;
+    }
   }
+}
 
- private:
-  void fill() {
-    const std::size_t records = std::min<std::uint64_t>(left_, max_records_);
-    buffer_.resize(records * step_);
-    file_->read(at_, buffer_.data(), buffer_.size());
-    at_ += buffer_.size();
-    left_ -= records;
-    position_ = 0;
-  }
+std::vector<std::uint32_t> order_by_root(const std::vector<std::uint32_t>& roots) {
+  std::vector<std::uint32_t> order(roots.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return roots[a] < roots[b]; });
+  return order;
+}
 
-  const SpillFile* file_;
-  std::uint64_t at_, left_;
-  std::size_t step_, max_records_, position_ = 0;
-  std::vector<std::byte> buffer_;
-};
-
-// Writes the points of several pieces in the order of their numbers.
-StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFile& file) {
+StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, SpillFile& file) {
   std::vector<PieceReader> readers;
   readers.reserve(pieces.size());
   for (const Piece& piece : pieces)
-    readers.emplace_back(file, piece, step, std::min(kReadBytes, kAllReadBytes / pieces.size()));
+    readers.emplace_back(file, piece, scalar, std::min(kReadBytes, kAllReadBytes / pieces.size()));
   using Next = std::pair<std::uint64_t, std::size_t>;  // number of a point, and its reader
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
   for (std::size_t r = 0; r < readers.size(); ++r)
@@ -79,66 +82,15 @@ StoredCluster merge(const std::vector<Piece>& pieces, std::size_t step, SpillFil
     PieceReader& reader = readers[next.top().second];
     const std::size_t number = next.top().second;
     next.pop();
-    points.insert(points.end(), reader.record(), reader.record() + step - kNumberBytes);
+    points.insert(points.end(), reader.record(), reader.record() + point_bytes(scalar));
     if (points.size() >= kWriteBytes) write();
     reader.next();
     if (!reader.done()) next.emplace(reader.number(), number);
   }
   if (!points.empty()) write();
+  for (const Piece& piece : pieces)
+    if (piece.from.share == nullptr) file.discard({piece.offset, piece.points * record_bytes(scalar)});
   return cluster;
-}
-
-// Joins the pieces of two bricks that have the same core point.
-void unite(const std::vector<SharedPoint>& own, std::vector<SharedPoint>::const_iterator begin,
-           std::vector<SharedPoint>::const_iterator end, UnionFind& sets) {
-  auto it = own.begin();
-  for (; begin != end; ++begin) {
-    while (it != own.end() && it->number < begin->number)
-      ++it;
-    if (it == own.end()) return;
-    if (it->number == begin->number) sets.unite(it->piece, begin->piece);
-  }
-}
-
-}  // namespace
-
-void join_pieces(const BrickClusterer& clusterer, const ClusterOptions& options, ScalarType scalar,
-                 SpillFile& file, std::vector<StoredCluster>& clusters, Counts& counts) {
-  const std::vector<Piece>& pieces = clusterer.pieces();
-  const std::size_t step = record_bytes(scalar);
-  UnionFind sets;
-  sets.reset(pieces.size());
-  for (std::uint32_t brick = 0; brick < clusterer.brick_count(); ++brick) {
-    const std::vector<SharedPoint> others = clusterer.other_points(brick);
-    for (auto begin = others.begin(); begin != others.end();) {
-      const std::uint32_t owner = begin->owner;
-      const auto end =
-          std::find_if(begin, others.end(), [&](const SharedPoint& p) { return p.owner != owner; });
-      unite(clusterer.own_points(owner), begin, end, sets);
-      begin = end;
-    }
-  }
-  const std::vector<std::uint32_t>& roots = sets.roots();
-  std::vector<std::uint32_t> order(pieces.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return roots[a] < roots[b]; });
-  std::vector<Piece> of_cluster;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    of_cluster.push_back(pieces[order[i]]);
-    if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
-    std::uint64_t points = 0;
-    for (const Piece& piece : of_cluster)
-      points += piece.points;
-    if (is_size_allowed(options, points)) {
-      clusters.push_back(merge(of_cluster, step, file));
-    } else {
-      count_dropped(options, points, points, counts);
-    }
-    for (const Piece& piece : of_cluster)
-      file.discard({piece.offset, piece.points * step});
-    of_cluster.clear();
-  }
 }
 
 }  // namespace pcl_bv::detail

@@ -31,22 +31,24 @@ int open_unnamed(const std::filesystem::path& folder) {
 
 }  // namespace
 
-SpillFile::SpillFile(const std::filesystem::path& folder) : folder_(folder), fd_(open_unnamed(folder)) {}
+SpillFile::SpillFile(const std::filesystem::path& folder)
+    : folder_(folder.empty() ? std::filesystem::temp_directory_path() : folder), fd_(open_unnamed(folder_)) {}
 
 SpillFile::~SpillFile() {
   ::close(fd_);
 }
 
 Extent SpillFile::append(const void* bytes, std::size_t count) {
-  const Extent extent{end_, count};
+  const Extent extent{end_.fetch_add(count), count};
+  std::uint64_t at = extent.offset;
   const char* from = static_cast<const char*>(bytes);
   while (count > 0) {
-    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(end_));
+    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(at));
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) fail("write", folder_, written < 0 ? errno : ENOSPC);
     from += written;
     count -= static_cast<std::size_t>(written);
-    end_ += static_cast<std::uint64_t>(written);
+    at += static_cast<std::uint64_t>(written);
   }
   return extent;
 }

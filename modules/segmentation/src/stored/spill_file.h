@@ -4,6 +4,7 @@
 // A temporary file without a name.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,10 +18,11 @@ struct Extent {
 };
 
 /// Bytes that do not fit in memory. The file has no name, so the system frees its space when the process
-/// ends. One thread may write while others read what was written before.
+/// ends. All functions may be called by several threads at the same time.
 class SpillFile {
  public:
-  /// Makes the file in a folder. Throws std::runtime_error with the reason.
+  /// Makes the file in a folder; an empty path is the system's folder of temporary files. Throws
+  /// std::runtime_error with the reason.
   explicit SpillFile(const std::filesystem::path& folder);
   ~SpillFile();
   SpillFile(const SpillFile&) = delete;
@@ -39,7 +41,7 @@ class SpillFile {
  private:
   std::filesystem::path folder_;
   int fd_ = -1;
-  std::uint64_t end_ = 0;
+  std::atomic<std::uint64_t> end_ = 0;
 };
 
 /// A list of records that is written to a SpillFile in blocks.

@@ -4,17 +4,17 @@
 #include "pcl_bv/segmentation/stored_clusters.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <optional>
+#include <limits>
 #include <stdexcept>
 
 #include "brick_clusters.h"
-#include "bricks.h"
-#include "components.h"
+#include "brick_components.h"
+#include "brick_workers.h"
+#include "distributed_points.h"
 #include "joined_pieces.h"
+#include "merged_shares.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
 #include "spill_file.h"
 
 namespace pcl_bv::detail {
@@ -27,7 +27,7 @@ class SpillSource final : public PointSource {
       : file_(file), cluster_(cluster), scalar_(scalar) {}
 
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
-    const std::size_t step = 3 * size_of(scalar_);
+    const std::size_t step = point_bytes(scalar_);
     if (buffer.size() < count * step) buffer.resize(count * step);
     file_.read(cluster_.offset + first * step, buffer.data(), count * step);
     return packed_points(buffer.data(), scalar_, count, first);
@@ -39,170 +39,29 @@ class SpillSource final : public PointSource {
   ScalarType scalar_;
 };
 
-void check_stored(const ClusterOptions& options) {
-  check(options);
-  if (options.tolerance_per_metre > 0)
-    throw std::invalid_argument("stored clusters have no tolerance_per_metre");
-  if (options.oversized == Oversized::split)
-    throw std::invalid_argument("stored clusters cannot be split: oversized must be drop or keep");
-}
+// Finds and writes the components of bricks. Cannot be copied or moved.
+class BrickWorker {
+ public:
+  BrickWorker(const DistributedPoints& all, ScalarType scalar, const ClusterOptions& options,
+              const StoredClusterOptions& store, const Execution& execution, SpillFile& file,
+              std::vector<BrickResult>& results)
+      : components_(all.bricks, scalar, options, PieceRule::shared, execution, file),
+        clusters_(components_, options, store, execution, file),
+        results_(results) {}
+  BrickWorker(const BrickWorker&) = delete;
+  BrickWorker& operator=(const BrickWorker&) = delete;
 
-double halo_of(const ClusterOptions& options, ScalarType scalar) {
-  const double r = options.tolerance;
-  const double difference = scalar == ScalarType::float32 ? max_linked_difference(static_cast<float>(r * r))
-                                                          : max_linked_difference(r * r);
-  // The core condition of a point within one tolerance depends on points within two.
-  return (options.min_points > 1 ? 2 : 1) * difference * (1 + 1e-6);
-}
-
-// Calls work(part, first, result) for chunks of the points, in parallel, and then take(result) for the
-// results in the order of the chunks.
-template <typename Result, typename Work, typename Take>
-void in_order(const PointView& points, const ParallelPolicy& policy, const Work& work, const Take& take) {
-  const std::size_t chunks = chunk_count(points.count);
-  std::vector<Result> results(std::min<std::size_t>(chunks, std::size_t{4} * thread_count(policy)));
-  for (std::size_t begin = 0; begin < chunks; begin += results.size()) {
-    const std::size_t taken = std::min(results.size(), chunks - begin);
-    for_each_chunk(policy, taken, [&](std::size_t i) {
-      const std::size_t first = (begin + i) * kChunkPoints;
-      const LoadedPoints part(points, first, std::min(kChunkPoints, points.count - first));
-      results[i].clear();
-      work(part.view(), first, results[i]);
-    });
-    for (std::size_t i = 0; i < taken; ++i)
-      take(results[i]);
+  void operator()(std::uint32_t brick, const std::vector<std::byte>& records) {
+    const std::size_t step = record_bytes(components_.scalar());
+    components_.find(brick, records, step);
+    results_[brick] = clusters_.write(brick, records, step);
   }
-}
 
-// Returns the median coordinates of valid points from all parts of the cloud, or nothing if there are none.
-// The grid of bricks ends 2^20 cells from there, so one point far away must not be the middle.
-std::optional<Coordinates> middle_of(const PointView& points) {
-  constexpr std::size_t max_parts = 8, each = 257;  // points that are left out between two
-  const std::size_t chunks = chunk_count(points.count), parts = std::min(chunks, max_parts);
-  std::array<std::vector<double>, 3> sample;
-  const auto add = [&](std::size_t chunk, std::size_t step) {
-    const LoadedPoints part = load_chunk(points, chunk);
-    for (std::size_t i = 0; i < part.view().count; i += step) {
-      const Coordinates p = load_point(part.view(), i);
-      if (!is_valid(p)) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        sample[axis].push_back(p[axis]);
-    }
-  };
-  for (std::size_t i = 0; i < parts; ++i)
-    add(chunks * i / parts, each);
-  for (std::size_t chunk = 0; chunk < chunks && sample[0].empty(); ++chunk)
-    add(chunk, 1);
-  if (sample[0].empty()) return std::nullopt;
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
-  return Coordinates{median(sample[0]), median(sample[1]), median(sample[2])};
-}
-
-// Runs of points in the same cell.
-struct CellCounts {
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> runs;  // key of the cell, and points
-  std::size_t invalid = 0;
-
-  void clear() {
-    runs.clear();
-    invalid = 0;
-  }
+ private:
+  BrickComponents components_;
+  BrickClusters clusters_;
+  std::vector<BrickResult>& results_;
 };
-
-// Counts the points of each cell. Returns the number of points that are not valid.
-std::size_t count_cells(const PointView& points, const ParallelPolicy& policy, Bricks& bricks) {
-  std::size_t invalid = 0;
-  in_order<CellCounts>(
-      points, policy,
-      [&](const PointView& part, std::size_t, CellCounts& counts) {
-        for (std::size_t i = 0; i < part.count; ++i) {
-          const Coordinates p = load_point(part, i);
-          if (!is_valid(p)) {
-            ++counts.invalid;
-            continue;
-          }
-          const std::uint64_t key = bricks.cell_key(p);
-          if (counts.runs.empty() || counts.runs.back().first != key) counts.runs.emplace_back(key, 0);
-          ++counts.runs.back().second;
-        }
-      },
-      [&](const CellCounts& counts) {
-        for (const auto& [key, count] : counts.runs)
-          bricks.count(key, count);
-        invalid += counts.invalid;
-      });
-  return invalid;
-}
-
-// Writes a point's coordinates in the scalar type of the cloud, which is exact.
-void set_coordinates(const Coordinates& p, ScalarType scalar, std::byte* to) {
-  if (scalar == ScalarType::float32) {
-    const float xyz[3] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    std::memcpy(to, xyz, sizeof xyz);
-  } else {
-    const double xyz[3] = {p.x, p.y, p.z};
-    std::memcpy(to, xyz, sizeof xyz);
-  }
-}
-
-// Records of points, and the brick of each.
-struct PlacedPoints {
-  std::vector<std::byte> records;
-  std::vector<std::uint32_t> bricks;
-
-  void clear() {
-    records.clear();
-    bricks.clear();
-  }
-  void add(const std::byte* record, std::size_t bytes, std::uint32_t brick) {
-    records.insert(records.end(), record, record + bytes);
-    bricks.push_back(brick);
-  }
-};
-
-void place_points(const PointView& part, std::size_t first, const Bricks& bricks, PlacedPoints& placed) {
-  const std::size_t step = 3 * size_of(part.scalar);
-  std::byte record[kMaxRecordBytes];
-  Bricks::Cursor cursor;
-  for (std::size_t i = 0; i < part.count; ++i) {
-    const Coordinates p = load_point(part, i);
-    if (!is_valid(p)) continue;
-    const Bricks::Place place = bricks.place(p, cursor);
-    set_coordinates(p, part.scalar, record);
-    const auto add = [&](std::uint32_t brick, std::uint64_t number) {
-      std::memcpy(record + step, &number, sizeof number);
-      placed.add(record, step + sizeof number, brick);
-    };
-    add(place.own, (first + i) | (place.others > 0 ? kInOtherBricks : 0));
-    for (std::uint32_t o = 0; o < place.others; ++o)
-      add(place.other[o], (first + i) | kOfOtherBrick);
-  }
-}
-
-// Writes the points to the lists of their bricks. The points of a list are in the order of the cloud.
-std::vector<SpillList> distribute(const PointView& points, const Bricks& bricks, const ParallelPolicy& policy,
-                                  SpillFile& file) {
-  // The buffers of all lists have about 64 MiB together.
-  const std::size_t block = std::clamp<std::size_t>((64U << 20U) / (bricks.size() + 1), 4096, 1U << 20U);
-  const std::size_t record = record_bytes(points.scalar);
-  std::vector<SpillList> lists(bricks.size());
-  in_order<PlacedPoints>(
-      points, policy,
-      [&](const PointView& part, std::size_t first, PlacedPoints& placed) {
-        place_points(part, first, bricks, placed);
-      },
-      [&](const PlacedPoints& placed) {
-        for (std::size_t i = 0; i < placed.bricks.size(); ++i)
-          lists[placed.bricks[i]].add(file, &placed.records[i * record], record, block);
-      });
-  for (SpillList& list : lists)
-    list.finish(file);
-  return lists;
-}
 
 }  // namespace
 
@@ -213,45 +72,93 @@ struct StoredClusters::State {
   ScalarType scalar = ScalarType::float32;
   std::vector<StoredCluster> clusters;
   Counts counts;
-  std::size_t bricks = 0;
+  std::size_t brick_count = 0;
+
+  void add(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
+  void add_pieces(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
+  void sort();
 };
+
+void StoredClusters::State::add(const std::vector<BrickResult>& bricks, const ClusterOptions& options) {
+  for (const BrickResult& brick : bricks) {
+    clusters.insert(clusters.end(), brick.clusters.begin(), brick.clusters.end());
+    counts.small += brick.counts.small;
+    counts.large += brick.counts.large;
+    counts.noise += brick.counts.noise;
+  }
+  add_pieces(bricks, options);
+  sort();
+}
+
+void StoredClusters::State::sort() {
+  std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
+    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
+  });
+}
+
+// Adds the clusters that consist of pieces and have an allowed size. Counts the points of the others.
+void StoredClusters::State::add_pieces(const std::vector<BrickResult>& bricks,
+                                       const ClusterOptions& options) {
+  std::vector<Piece> pieces;
+  std::vector<SharedPoints> shared;
+  std::vector<std::uint32_t> first_set;
+  for (const BrickResult& brick : bricks) {
+    shared.push_back(brick.shared);
+    first_set.push_back(static_cast<std::uint32_t>(pieces.size()));
+    pieces.insert(pieces.end(), brick.pieces.begin(), brick.pieces.end());
+    if (pieces.size() > std::numeric_limits<std::uint32_t>::max())
+      throw std::length_error("too many parts of clusters: use more memory");
+  }
+  UnionFind sets;
+  sets.reset(pieces.size());
+  join_pieces(shared, first_set, file, sets);
+  const std::vector<std::uint32_t>& roots = sets.roots();
+  const std::vector<std::uint32_t> order = order_by_root(roots);
+  std::vector<Piece> of_cluster;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    of_cluster.push_back(pieces[order[i]]);
+    if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
+    std::uint64_t points = 0;
+    for (const Piece& piece : of_cluster)
+      points += piece.points;
+    if (is_size_allowed(options, points)) {
+      clusters.push_back(merge_pieces(of_cluster, scalar, file));
+    } else {
+      count_dropped(options, points, points, counts);
+    }
+    of_cluster.clear();
+  }
+}
 
 StoredClusters::StoredClusters(const PointView& points, const ClusterOptions& options,
                                const StoredClusterOptions& store, const Execution& execution) {
   const FloatEnvironment environment;
   check_stored(options);
-  if (points.indices != nullptr) throw std::invalid_argument("stored clusters take no index list");
-  state_ =
-      std::make_unique<State>(store.folder.empty() ? std::filesystem::temp_directory_path() : store.folder);
+  state_ = std::make_unique<State>(store.folder);
   State& state = *state_;
   state.scalar = points.scalar;
-  const std::optional<Coordinates> anchor = middle_of(points);
-  if (!anchor) {
-    state.counts.nonfinite = points.count;
-    return;
-  }
-  Bricks bricks(*anchor, halo_of(options, points.scalar));
-  state.counts.nonfinite = count_cells(points, execution.parallel, bricks);
-  // More bricks would need more memory for their lists than for their points.
-  constexpr std::size_t max_bricks = 16'384;
-  bricks.divide(std::max(store.points_in_memory, points.count / max_bricks));
-  state.bricks = bricks.size();
-  std::vector<SpillList> lists = distribute(points, bricks, execution.parallel, state.file);
-  BrickClusterer clusterer(bricks, points.scalar, options, execution, state.file);
-  std::vector<std::byte> records;
-  for (std::uint32_t brick = 0; brick < lists.size(); ++brick) {
-    lists[brick].read(state.file, records);
-    lists[brick].discard(state.file);
-    clusterer.add(brick, records);
-  }
-  state.clusters = clusterer.take_clusters();
-  state.counts.small = clusterer.counts().small;
-  state.counts.large = clusterer.counts().large;
-  state.counts.noise = clusterer.counts().noise;
-  join_pieces(clusterer, options, points.scalar, state.file, state.clusters, state.counts);
-  std::sort(state.clusters.begin(), state.clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
-    return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
+  const DistributedPoints all = distribute(points, options, store, execution, state.file);
+  state.counts.nonfinite = all.invalid;
+  state.brick_count = all.bricks.size();
+  std::vector<BrickResult> bricks(all.lists.size());
+  for_each_brick(all.lists, store, execution, state.file, [&](const Execution& part) {
+    return BrickWorker(all, points.scalar, options, store, part, state.file, bricks);
   });
+  state.add(bricks, options);
+}
+
+StoredClusters::StoredClusters(const std::vector<const ClusterShare*>& shares, const ClusterOptions& options,
+                               const StoredClusterOptions& store, const Execution& execution) {
+  const FloatEnvironment environment;
+  check_stored(options);
+  state_ = std::make_unique<State>(store.folder);
+  State& state = *state_;
+  MergedShares merged(shares, options, store, execution, state.file);
+  if (!shares.empty()) state.scalar = shares.front()->scalar();
+  state.clusters = merged.take_clusters();
+  state.counts = merged.counts();
+  state.brick_count = merged.brick_count();
+  state.sort();
 }
 
 StoredClusters::~StoredClusters() = default;
@@ -263,11 +170,23 @@ std::size_t StoredClusters::size() const {
 }
 
 std::size_t StoredClusters::brick_count() const {
-  return state_->bricks;
+  return state_->brick_count;
 }
 
 std::size_t StoredClusters::point_count(std::size_t cluster) const {
   return state_->clusters[cluster].points;
+}
+
+std::size_t StoredClusters::first_number(std::size_t cluster) const {
+  return state_->clusters[cluster].first_number;
+}
+
+std::optional<StoredVisit> StoredClusters::visit(std::size_t cluster) const {
+  return state_->clusters[cluster].visit;
+}
+
+std::optional<ComponentOfShare> StoredClusters::component(std::size_t cluster) const {
+  return state_->clusters[cluster].component;
 }
 
 const Counts& StoredClusters::counts() const {
@@ -279,7 +198,7 @@ StoredClusters::Points StoredClusters::points(std::size_t cluster) const {
   const StoredCluster& stored = state.clusters[cluster];
   Points points;
   if (stored.points <= kChunkPoints) {
-    points.bytes_.resize(3 * size_of(state.scalar) * stored.points);
+    points.bytes_.resize(point_bytes(state.scalar) * stored.points);
     state.file.read(stored.offset, points.bytes_.data(), points.bytes_.size());
     points.view_ = packed_points(points.bytes_.data(), state.scalar, stored.points);
   } else {

@@ -45,7 +45,8 @@ struct FilterConfig {
 enum class GroundMethod : std::uint8_t {
   none,
   plane,  ///< split_ground(): one plane, for indoor scenes.
-  zones   ///< GroundZones: many planes, for roads.
+  zones,  ///< GroundZones: many planes, for roads.
+  slope   ///< split_ground_by_slope(): for maps, which have no position of a sensor.
 };
 
 /// Settings of the ground removal.
@@ -60,10 +61,12 @@ struct GroundConfig {
   /// of FrameResult::sensor).
   std::optional<double> sensor_height;
   /// Largest height of ground points above the ground surface, metres. If not given, the default of the
-  /// method (GroundPlaneOptions, GroundZonesOptions).
+  /// method (GroundPlaneOptions, GroundZonesOptions, GroundSlopeOptions).
   std::optional<double> distance;
   /// Largest angle between the ground and the horizontal, degrees. If not given, the default of the method.
   std::optional<double> max_slope_degrees;
+  /// Side of the cells of `slope`, metres. If not given, the default of GroundSlopeOptions.
+  std::optional<double> cell_size{};
 };
 
 /// The name of a field of a cloud.

@@ -46,6 +46,10 @@ class CloudFile final : public PointSource {
   /// Throws IoError if the points cannot be read, or if the file has been cut or changed since it was opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
+  /// Reads records [first, first + count) with all their fields, whose positions header() has, into `buffer`,
+  /// which is enlarged if needed. Throws as load().
+  void load_records(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const;
+
  private:
   struct Opened;
   explicit CloudFile(std::unique_ptr<Opened> file);

@@ -25,10 +25,17 @@ RawCloud make_cloud(const std::vector<float>& xyz);
 /// space, or is "_" (padding) or a coordinate (x, y, z, X, Y, Z).
 void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
 
-/// Returns the values of an integer field, one per point. If several fields have this name, the first is
-/// used. Throws std::runtime_error if there is no such field. The message then lists the existing fields.
-/// Also throws std::runtime_error if the field is floating point, has several elements per point, is unsigned
-/// with 8 bytes, or is in RawCloud::invalid_fields.
+/// Returns the first field of this name, which must hold one integer per point. Throws std::runtime_error if
+/// there is no such field. The message then lists the existing fields. Also throws std::runtime_error if the
+/// field is floating point, has several elements per point, is unsigned with 8 bytes, or is in
+/// RawCloud::invalid_fields.
+const PointField& integer_field(const RawCloud& cloud, std::string_view name);
+
+/// Copies the values of an integer_field() from `count` records of `point_step` bytes.
+void copy_integers(const PointField& field, const std::byte* records, std::size_t count,
+                   std::size_t point_step, std::int64_t* to);
+
+/// Returns the values of an integer field, one per point. Throws as integer_field().
 std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name);
 
 /// Recomputes `packed_xyz` from `data`. Call it after changing `data` or `fields`. `packed_xyz` is filled if

@@ -61,8 +61,8 @@ struct PartialFile {
 std::string partial_file_content(const PartialFile& file);
 
 /// Parses the content of a file. Throws IoError with the reason if the content is cut, changed, of another
-/// version or of another format.
-PartialFile parse_partial_file(std::string_view content);
+/// version or of another format. Without `has_partial`, the Partial must be that of no points.
+PartialFile parse_partial_file(std::string_view content, bool has_partial = true);
 
 /// Writes a file atomically, and creates missing folders. Throws IoError.
 void write_partial_file(const std::filesystem::path& path, const PartialFile& file);

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Ground removal, without PCL. split_ground() finds one plane, for floors and flat roads. GroundZones is for
-// outdoor scenes, where roads rise, fall and have curbs, and roadsides are rough. The ground has to be
-// removed before clustering, because the ground would connect all objects.
+// outdoor scenes, where roads rise, fall and have curbs, and roadsides are rough. split_ground_by_slope() is
+// for maps, which have no position of a sensor. The ground has to be removed before clustering, because the
+// ground would connect all objects.
 //
 // find_sensor() estimates the position of the sensor. GroundZones measures distances from this position.
 // Range limits and ClusterOptions::tolerance_per_metre use distances from the origin, so they are right only
@@ -175,6 +176,54 @@ class GroundZones {
 /// Splits a cloud by GroundZones with a single call. A program that splits again and again saves allocations
 /// with a GroundZones object of its own.
 GroundSplit split_ground_by_zones(const PointView& points, const GroundZonesOptions& options = {},
+                                  const Execution& execution = {});
+
+/// Options of split_ground_by_slope().
+struct GroundSlopeOptions {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity; any length above 0.
+  /// Points at most this far above the ground surface are ground; metres, > 0.
+  double distance = 0.2;
+  double max_slope_degrees = 20;  ///< Largest angle between the ground and the horizontal, 0 to 89.
+  double cell_size = 1;           ///< Side of the cells of the grid, metres, 0.01 to 1000.
+};
+
+/// Splits a map into ground and other points. A map is a cloud without a sensor position, such as a mobile or
+/// airborne scan. Roofs, vehicles and trees are not ground, because they are higher than the ground next to
+/// them by more than the maximum slope allows.
+///
+/// A grid of square cells is laid perpendicular to `up`. The steps are:
+/// - Each cell stores the height of its lowest point.
+/// - Low outliers, e.g. reflections, are found. Cells within 3 cells of each other are linked if their
+///   heights differ by at most distance + max_slope * cell_size, where max_slope is the tangent of max_slope_degrees.
+///   Linked cells are a patch. A cell is above another one if its height exceeds that of the other by more
+///   than distance + max_slope * (distance of both centres). A cell of a patch of less than 20 cells is a low
+///   outlier if a cell of a larger patch within 10 cells is above it.
+/// - The surface in the centre of a cell c is the minimum of low(c') + max_slope * |c - c'| over all cells c'
+///   that are no low outliers. This is the lower envelope of cones.
+/// - Within a cell the surface is a plane. Along each axis of the grid, its slope is that to the next cell or
+///   that from the previous cell, whichever is less steep. The slope is 0 if the signs differ or if one of
+///   these cells has no points. The plane is raised by half of its rise along each axis, because the lowest
+///   point of a cell is at its lower edge.
+///
+/// Every point at most `distance` above the surface is ground, and so are all points below the surface. So
+/// the inner part of a roof is ground if the roof reaches max_slope * (distance to its edge) above the ground
+/// there: a flat roof of 10 m with 20 degrees 27 m from its edge. Parts of ground that are steeper than
+/// max_slope_degrees, such as walls, are not ground. A bridge is not ground above the road it crosses and as
+/// far as the slope demands, but ground at its ends.
+///
+/// Points that are not valid (is_valid()) are in neither list. With at least one valid point, ground is
+/// found; GroundSplit::normal, offset and sensor have no meaning. The order of the points and the number of
+/// threads do not change the result. Cells 2^31 or more cells away from the origin are merged with the cells
+/// at the border. O(n) and O(m log m) for m cells with points. Takes 1 byte for each point and up to 150
+/// bytes for each cell. Throws std::invalid_argument for an option outside its range and std::length_error if
+/// a point index exceeds 2^31 - 1.
+///
+/// Source: the slope criterion of Vosselman 2000, with lowest points of cells instead of all points.
+void split_ground_by_slope(const PointView& points, const GroundSlopeOptions& options, GroundSplit& split,
+                           const Execution& execution = {});
+
+/// Returns the split as a new object.
+GroundSplit split_ground_by_slope(const PointView& points, const GroundSlopeOptions& options = {},
                                   const Execution& execution = {});
 
 /// Checks whether a sensor at the position `assumed` may have recorded the cloud. If not, estimates the

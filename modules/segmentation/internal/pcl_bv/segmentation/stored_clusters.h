@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/parallel/execution.h"
@@ -17,7 +19,19 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-class SpillFile;
+class ClusterShare;
+
+/// Identifies a component of a share.
+struct ComponentOfShare {
+  std::size_t share = 0;  ///< Number of the share among those that are merged.
+  std::uint32_t number = 0;
+};
+
+/// Identifies a cluster that was visited (StoredClusterOptions::visit).
+struct StoredVisit {
+  std::size_t brick = 0;
+  std::size_t number = 0;  ///< Among the clusters of the call.
+};
 
 struct StoredClusterOptions {
   /// Maximum number of points in memory. A single cell of the grid and the points near a brick may exceed it,
@@ -25,6 +39,16 @@ struct StoredClusterOptions {
   std::size_t points_in_memory = std::size_t{4} << 20;
   /// Where the temporary file is made; empty for the system's folder of temporary files.
   std::filesystem::path folder;
+  /// If set, is called with the clusters of a brick while their points are in memory, which saves writing
+  /// them to the temporary file. These are the clusters of allowed sizes that have no part in other bricks.
+  /// Points are in the order of the cloud. There is at most one call for each brick. Several threads may call
+  /// at the same time, each with the execution that the call may use.
+  std::function<void(std::size_t brick, const std::vector<PointView>& clusters, const Execution& execution)>
+      visit{};
+  /// Whether visited clusters have points(), too.
+  bool keep_visited = true;
+  /// If set, tells which components of shares need no points(). See StoredClusters::component().
+  std::function<bool(const ComponentOfShare& component)> is_known{};
 };
 
 /// The clusters of EuclideanClusterer for a cloud of any size. Their points are in a temporary file, which
@@ -50,6 +74,18 @@ class StoredClusters {
   /// written. Exceptions of the source of the points are passed on.
   StoredClusters(const PointView& points, const ClusterOptions& options,
                  const StoredClusterOptions& store = {}, const Execution& execution = {});
+  /// Finds the clusters of a cloud that consists of shares (MadeClusterShare) with the same options. The
+  /// result is that of the whole cloud, whose points have the numbers of the shares. The shares must outlive
+  /// this object.
+  ///
+  /// Reads the points near other shares, and those of clusters that are joined or not known
+  /// (StoredClusterOptions::is_known). Memory: 32 bytes for each run of the shares, 60 bytes for each cell,
+  /// and as above for the points near other shares.
+  ///
+  /// Throws as above, std::invalid_argument for shares of both float and double points, and ShareError if a
+  /// share cannot be read.
+  StoredClusters(const std::vector<const ClusterShare*>& shares, const ClusterOptions& options,
+                 const StoredClusterOptions& store = {}, const Execution& execution = {});
   ~StoredClusters();
   StoredClusters(StoredClusters&&) noexcept;
   StoredClusters& operator=(StoredClusters&&) noexcept;
@@ -62,6 +98,15 @@ class StoredClusters {
 
   /// Number of points of a cluster.
   std::size_t point_count(std::size_t cluster) const;
+
+  /// Number of the first point of a cluster in the cloud.
+  std::size_t first_number(std::size_t cluster) const;
+
+  /// The visit of a cluster, or nothing if it was not visited.
+  std::optional<StoredVisit> visit(std::size_t cluster) const;
+
+  /// The component of a share that has exactly the points of the cluster, or nothing.
+  std::optional<ComponentOfShare> component(std::size_t cluster) const;
 
   /// The points of a cluster in the order of the cloud, in memory or in the temporary file.
   class Points {

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Files with the clusters of a share of a cloud, and their volumes. One machine merges all files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/report/partial_file.h"
+#include "pcl_bv/segmentation/cluster_share.h"
+
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
+
+/// What a file says about its share.
+struct ObjectFileHeader {
+  PartialFile cloud;          ///< The cloud, the points of the share, and counts; without a Partial.
+  std::string clusters;       ///< The options of the clustering. Shares with other options do not merge.
+  std::string volumes;        ///< The options of the volumes. Volumes with other options are fitted again.
+  std::size_t nonfinite = 0;  ///< Number of points of the share that are not valid.
+};
+
+/// The clusters of a share in a file. The index (32 bytes for each run and 24 for each component) is in
+/// memory.
+class ObjectFile final : public ClusterShare {
+ public:
+  /// Opens a share that begins at a byte of a file. Throws IoError with the reason if the index is damaged or
+  /// of another version.
+  ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begin);
+
+  const ObjectFileHeader& header() const { return header_; }
+  std::uint64_t begin() const { return begin_; }
+  std::uint64_t end() const { return end_; }  ///< First byte behind the share.
+
+  ScalarType scalar() const override { return scalar_; }
+  const std::vector<ShareRun>& runs() const override { return runs_; }
+  const std::vector<ShareComponent>& components() const override { return components_; }
+  void read(std::uint64_t first_byte, std::byte* to, std::size_t count) const override;
+
+  /// Reads bytes of the whole share, from its begin on. Throws IoError.
+  void read_bytes(std::uint64_t first_byte, std::byte* to, std::size_t count) const;
+
+  /// Returns the text that was written for a component, or nothing if there is none.
+  std::optional<std::string> text(std::uint32_t component) const;
+  bool has_text(std::uint32_t component) const { return texts_[component + 1] > texts_[component]; }
+
+ private:
+  void read_header(std::string_view content);
+
+  std::shared_ptr<const InputFile> file_;
+  std::uint64_t begin_, end_ = 0, records_ = 0, first_text_ = 0;
+  ObjectFileHeader header_;
+  ScalarType scalar_ = ScalarType::float32;
+  std::vector<ShareRun> runs_;
+  std::vector<ShareComponent> components_;
+  std::vector<std::uint64_t> texts_;  // where the text of each component begins, and where the last one ends
+};
+
+enum class FileLife : std::uint8_t {
+  lasting,   ///< Written atomically, and on the disk at the end (fsync).
+  temporary  ///< For another process that reads it now. Waiting for the disk would take seconds.
+};
+
+/// Writes a share, and creates missing folders. `text` returns the text of each component, at most
+/// 1 GiB; an empty text is none. Throws IoError, and what reading the share throws.
+void write_object_file(const std::filesystem::path& path, const ObjectFileHeader& header,
+                       const ClusterShare& share,
+                       const std::function<std::string(std::uint32_t component)>& text,
+                       FileLife life = FileLife::lasting);
+
+/// Writes several shares to one file, atomically.
+void join_object_files(const std::filesystem::path& path,
+                       const std::vector<std::unique_ptr<ObjectFile>>& shares);
+
+/// Returns whether a file begins as object files do. Throws IoError if it cannot be read.
+bool is_object_file(const std::filesystem::path& path);
+
+/// Opens all shares of a file. Throws IoError with the reason.
+std::vector<std::unique_ptr<ObjectFile>> open_object_file(const std::filesystem::path& path);
+
+}  // namespace detail
+}  // namespace pcl_bv

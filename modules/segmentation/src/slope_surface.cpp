@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/segmentation/slope_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "ground_checks.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
+#include "slope_cells.h"
+#include "up_frame.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+void check(const GroundSlopeOptions& options) {
+  constexpr const char* who = "ground by slope";
+  check_ground(who, options.distance, options.max_slope_degrees, {});
+  require(options.cell_size >= 0.01 && options.cell_size <= 1000, who, "cell_size", options.cell_size,
+          "0.01 to 1000");
+}
+
+// A point in the grid. The position in its cell is from -0.5 to 0.5.
+struct GridPoint {
+  CellPosition cell;
+  double in_cell_x, in_cell_y, height;
+};
+
+// Returns the cell of a coordinate in units of the cells' side. Cells at the border of the grid hold all
+// points beyond.
+std::int32_t cell_of(double coordinate) {
+  constexpr double min = std::numeric_limits<std::int32_t>::min(),
+                   max = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(std::floor(coordinate), min, max));
+}
+
+// The lowest points of a chunk. Consecutive points in the same cell are one entry.
+struct Lows {
+  std::vector<std::pair<CellPosition, double>> runs;
+  std::size_t valid = 0;
+
+  void add(const GridPoint& p) {
+    ++valid;
+    const bool same = !runs.empty() && runs.back().first.x == p.cell.x && runs.back().first.y == p.cell.y;
+    if (!same) {
+      runs.emplace_back(p.cell, p.height);
+    } else {
+      runs.back().second = std::min(runs.back().second, p.height);
+    }
+  }
+};
+
+}  // namespace
+
+struct SlopeSurface::State {
+  State(const GroundSlopeOptions& options, const UpFrame& up_frame)
+      : frame(up_frame), cell_size(options.cell_size), distance(options.distance) {}
+
+  GridPoint point(const Coordinates& p) const {
+    const Eigen::Vector3d at{p.x, p.y, p.z};
+    const double x = dot3(frame.u, at) / cell_size, y = dot3(frame.v, at) / cell_size;
+    const CellPosition cell{cell_of(x), cell_of(y)};
+    return {cell, std::clamp(x - cell.x - 0.5, -0.5, 0.5), std::clamp(y - cell.y - 0.5, -0.5, 0.5),
+            dot3(frame.up, at)};
+  }
+
+  void read(const PointView& points, const ParallelPolicy& policy) {
+    std::mutex mutex;
+    for_each_chunk(policy, chunk_count(points.count), [&](std::size_t chunk) {
+      const LoadedPoints part = load_chunk(points, chunk);
+      Lows lows;
+      for (std::size_t i = 0; i < part.view().count; ++i) {
+        const Coordinates p = load_point(part.view(), i);
+        if (is_valid(p)) lows.add(point(p));
+      }
+      const std::lock_guard lock(mutex);
+      valid += lows.valid;
+      for (const auto& [cell, height] : lows.runs)
+        cells.add(cell, height);
+    });
+  }
+
+  UpFrame frame;
+  double cell_size, distance;
+  SlopeCells cells;
+  std::size_t valid = 0;
+};
+
+SlopeSurface::SlopeSurface(const PointView& points, const GroundSlopeOptions& options,
+                           const Execution& execution) {
+  const FloatEnvironment environment;
+  check(options);
+  state_ = std::make_unique<State>(options, UpFrame(options.up));
+  state_->read(points, execution.parallel);
+  // The last bit of a tangent depends on the processor, so it is rounded to float.
+  const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
+  const double rise = double{slope} * options.cell_size;
+  find_envelope(low_outliers(state_->cells, rise, options.distance, execution.parallel), rise,
+                execution.parallel, state_->cells);
+  find_rises(execution.parallel, state_->cells);
+}
+
+SlopeSurface::~SlopeSurface() = default;
+SlopeSurface::SlopeSurface(SlopeSurface&&) noexcept = default;
+SlopeSurface& SlopeSurface::operator=(SlopeSurface&&) noexcept = default;
+
+std::size_t SlopeSurface::valid_points() const {
+  return state_->valid;
+}
+
+std::size_t SlopeSurface::cell_count() const {
+  return state_->cells.size();
+}
+
+// The lowest point of a cell on a slope is half a rise below the centre, along each axis. So the plane
+// through the height of the cell is raised by half its rises.
+void SlopeSurface::classify(const PointView& points, std::uint8_t* ground) const {
+  const FloatEnvironment environment;
+  const SlopeCell* cell = nullptr;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates coordinates = load_point(points, i);
+    ground[i] = 0;
+    if (!is_valid(coordinates)) continue;
+    const GridPoint p = state_->point(coordinates);
+    if (cell == nullptr || cell->at.x != p.cell.x || cell->at.y != p.cell.y) {
+      const std::optional<std::uint32_t> number = state_->cells.find(p.cell);
+      if (!number) continue;
+      cell = &state_->cells[*number];
+    }
+    const double x = cell->rise_x, y = cell->rise_y;
+    const double surface =
+        (cell->height + 0.5 * (std::abs(x) + std::abs(y))) + (x * p.in_cell_x + y * p.in_cell_y);
+    ground[i] = p.height - surface <= state_->distance ? 1 : 0;
+  }
+}
+
+}  // namespace pcl_bv::detail

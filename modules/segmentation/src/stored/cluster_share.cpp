@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/segmentation/cluster_share.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "brick_workers.h"
+#include "joined_pieces.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "run_writer.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// What is left of a brick of a share.
+struct ShareBrick {
+  BrickRuns runs;
+  SharedPoints shared;
+  std::vector<std::uint32_t> visited;  // pieces, in the order of the visit
+};
+
+// Finds and writes the components of bricks. Cannot be copied or moved.
+class ShareWorker {
+ public:
+  ShareWorker(const DistributedPoints& all, ScalarType scalar, const ClusterOptions& options,
+              const StoredClusterOptions& store, const Execution& execution, SpillFile& file,
+              std::vector<ShareBrick>& bricks)
+      : components_(all.bricks, scalar, options, PieceRule::all, execution, file),
+        writer_(components_, grid_of_runs(options, scalar), file),
+        options_(options),
+        store_(store),
+        execution_(execution),
+        bricks_(bricks) {}
+  ShareWorker(const ShareWorker&) = delete;
+  ShareWorker& operator=(const ShareWorker&) = delete;
+
+  void operator()(std::uint32_t number, const std::vector<std::byte>& records) {
+    components_.find(number, records, record_bytes(components_.scalar()));
+    ShareBrick& brick = bricks_[number];
+    brick.runs = writer_.write(records);
+    brick.shared = components_.shared_points();
+    if (!store_.visit) return;
+    const std::vector<PointView> views =
+        writer_.complete_pieces(brick.runs, records, options_, brick.visited);
+    if (!views.empty()) store_.visit(number, views, execution_);
+  }
+
+ private:
+  BrickComponents components_;
+  RunWriter writer_;
+  ClusterOptions options_;
+  const StoredClusterOptions& store_;
+  Execution execution_;
+  std::vector<ShareBrick>& bricks_;
+};
+
+}  // namespace
+
+std::uint32_t run_check_sum(const std::byte* bytes, std::size_t count, std::uint32_t before) {
+  std::uint32_t sum = before;
+  for (std::size_t i = 0; i + sizeof sum <= count; i += sizeof sum) {
+    std::uint32_t word;
+    std::memcpy(&word, bytes + i, sizeof word);
+    sum = (sum ^ word) * 0x01000193;  // FNV-1a, by words
+    sum ^= sum >> 15;
+  }
+  return sum;
+}
+
+std::size_t share_record_bytes(ScalarType scalar) {
+  return record_bytes(scalar);
+}
+
+struct MadeClusterShare::State {
+  explicit State(const std::filesystem::path& folder) : file(folder) {}
+
+  void add(const std::vector<ShareBrick>& bricks);
+  void join(const std::vector<ShareBrick>& bricks);
+
+  SpillFile file;
+  ScalarType scalar = ScalarType::float32;
+  std::size_t invalid = 0;
+  std::vector<ShareRun> runs;
+  std::vector<ShareComponent> components;
+  std::vector<std::optional<StoredVisit>> visits;  // of the components
+  std::vector<std::uint32_t> component_of;         // of the pieces of all bricks
+  // Where records are: those from byte `first` on are in the extent.
+  struct Part {
+    std::uint64_t first;
+    Extent extent;
+  };
+  std::vector<Part> parts;
+};
+
+// Gives numbers to the components. A component is a set of pieces; its number is that of its first piece.
+void MadeClusterShare::State::join(const std::vector<ShareBrick>& bricks) {
+  std::vector<std::uint32_t> first_set;
+  std::vector<SharedPoints> shared;
+  std::size_t pieces = 0;
+  for (const ShareBrick& brick : bricks) {
+    first_set.push_back(static_cast<std::uint32_t>(pieces));
+    shared.push_back(brick.shared);
+    pieces += brick.runs.pieces.size();
+    if (pieces >= ShareRun::kNoise) throw std::length_error("too many clusters in a share: use more shares");
+  }
+  UnionFind sets;
+  sets.reset(pieces);
+  join_pieces(shared, first_set, file, sets);
+  component_of = sets.roots();
+  std::uint32_t components_found = 0;
+  for (std::size_t p = 0; p < pieces; ++p)  // a root is the first of its set
+    component_of[p] = component_of[p] == p ? components_found++ : component_of[component_of[p]];
+  components.assign(components_found, {0, std::numeric_limits<std::uint64_t>::max()});
+}
+
+void MadeClusterShare::State::add(const std::vector<ShareBrick>& bricks) {
+  join(bricks);
+  visits.resize(components.size());
+  std::size_t first_piece = 0;
+  std::uint64_t bytes = 0;
+  for (std::size_t b = 0; b < bricks.size(); ++b) {
+    const BrickRuns& brick = bricks[b].runs;
+    parts.push_back({bytes, brick.records});
+    bytes += brick.records.bytes;
+    for (ShareRun run : brick.runs) {
+      if (run.component != ShareRun::kNoise) run.component = component_of[first_piece + run.component];
+      runs.push_back(run);
+    }
+    for (std::size_t p = 0; p < brick.pieces.size(); ++p) {
+      ShareComponent& component = components[component_of[first_piece + p]];
+      component.points += brick.pieces[p].points;
+      component.first_number = std::min(component.first_number, brick.pieces[p].first_number);
+    }
+    for (std::size_t v = 0; v < bricks[b].visited.size(); ++v)
+      visits[component_of[first_piece + bricks[b].visited[v]]] = StoredVisit{b, v};
+    first_piece += brick.pieces.size();
+  }
+}
+
+MadeClusterShare::MadeClusterShare(const PointView& points, const ClusterOptions& options,
+                                   const StoredClusterOptions& store, const Execution& execution) {
+  const FloatEnvironment environment;
+  check_stored(options);
+  state_ = std::make_unique<State>(store.folder);
+  state_->scalar = points.scalar;
+  const DistributedPoints all = distribute(points, options, store, execution, state_->file);
+  state_->invalid = all.invalid;
+  std::vector<ShareBrick> bricks(all.lists.size());
+  for_each_brick(all.lists, store, execution, state_->file, [&](const Execution& part) {
+    return ShareWorker(all, points.scalar, options, store, part, state_->file, bricks);
+  });
+  state_->add(bricks);
+}
+
+MadeClusterShare::~MadeClusterShare() = default;
+
+ScalarType MadeClusterShare::scalar() const {
+  return state_->scalar;
+}
+const std::vector<ShareRun>& MadeClusterShare::runs() const {
+  return state_->runs;
+}
+const std::vector<ShareComponent>& MadeClusterShare::components() const {
+  return state_->components;
+}
+std::optional<StoredVisit> MadeClusterShare::visit(std::uint32_t component) const {
+  return state_->visits[component];
+}
+std::size_t MadeClusterShare::invalid_points() const {
+  return state_->invalid;
+}
+
+void MadeClusterShare::read(std::uint64_t first_byte, std::byte* to, std::size_t count) const {
+  const std::vector<State::Part>& parts = state_->parts;
+  auto part = std::prev(std::upper_bound(parts.begin(), parts.end(), first_byte,
+                                         [](std::uint64_t byte, const auto& p) { return byte < p.first; }));
+  for (; count > 0; ++part) {
+    const std::uint64_t skipped = first_byte - part->first;
+    const std::size_t here = std::min<std::uint64_t>(count, part->extent.bytes - skipped);
+    state_->file.read(part->extent.offset + skipped, to, here);
+    to += here;
+    count -= here;
+    first_byte += here;
+  }
+}
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "merged_shares.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "brick_workers.h"
+#include "joined_pieces.h"
+#include "piece_reader.h"
+#include "run_writer.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr std::size_t kRunBytes = 1U << 20U;  // of a run at a time
+constexpr std::uint32_t kNoComponent = ActiveBrick::kMixed;
+
+// A record near other shares: a record as in bricks, and the component of the point in its share.
+std::size_t active_record_bytes(ScalarType scalar) {
+  return record_bytes(scalar) + sizeof(std::uint32_t);
+}
+
+std::uint32_t component_of_record(const std::byte* record, ScalarType scalar) {
+  std::uint32_t component;
+  std::memcpy(&component, record + record_bytes(scalar), sizeof component);
+  return component;
+}
+
+std::vector<std::byte> sorted_by_number(const std::vector<std::byte>& records, ScalarType scalar) {
+  const std::size_t step = active_record_bytes(scalar);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(records.size() / step);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = {number_of_record(&records[i * step], scalar) & kNumberMask, static_cast<std::uint32_t>(i)};
+  std::sort(order.begin(), order.end());
+  std::vector<std::byte> sorted(records.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    std::memcpy(&sorted[i * step], &records[order[i].second * step], step);
+  return sorted;
+}
+
+// Clusters the points of bricks near other shares. Cannot be copied or moved.
+class ActiveWorker {
+ public:
+  ActiveWorker(const Bricks& bricks, ScalarType scalar, const ClusterOptions& options,
+               const Execution& execution, SpillFile& file, std::vector<ActiveBrick>& results)
+      : components_(bricks, scalar, options, PieceRule::all, execution, file),
+        clusters_(components_, options, store_, execution, file),
+        results_(results) {}
+  ActiveWorker(const ActiveWorker&) = delete;
+  ActiveWorker& operator=(const ActiveWorker&) = delete;
+
+  void operator()(std::uint32_t number, const std::vector<std::byte>& unsorted) {
+    const ScalarType scalar = components_.scalar();
+    const std::size_t step = active_record_bytes(scalar);
+    const std::vector<std::byte> records = sorted_by_number(unsorted, scalar);
+    components_.find(number, records, step);
+    ActiveBrick& brick = results_[number];
+    brick.result = clusters_.write(number, records, step);
+    add_links(records, step, brick);
+  }
+
+ private:
+  // A core point of a share is a core point of the cloud. So its component in the share and its piece in the
+  // brick belong to one cluster.
+  void add_links(const std::vector<std::byte>& records, std::size_t step, ActiveBrick& brick) {
+    constexpr std::uint32_t unset = kNoComponent - 1;
+    brick.component.assign(components_.piece_count(), unset);
+    for (std::size_t i = 0; i * step < records.size(); ++i) {
+      const std::uint32_t c = components_.component_of(i);
+      if (c == BrickComponents::kNoise) continue;
+      const std::uint32_t piece = components_.components()[c].piece;
+      if (piece == BrickComponents::kNoPiece) continue;
+      const std::byte* const record = &records[i * step];
+      const std::uint64_t number = number_of_record(record, components_.scalar());
+      const std::uint32_t component = component_of_record(record, components_.scalar());
+      if ((number & kOfOtherBrick) == 0) {
+        std::uint32_t& all = brick.component[piece];
+        all = all == unset || all == component ? component : ActiveBrick::kMixed;
+      }
+      const std::pair<std::uint32_t, std::uint32_t> link{component, piece};
+      const bool linked = (number & kCore) != 0 && components_.is_core(i);
+      if (linked && (brick.links.empty() || brick.links.back() != link)) brick.links.push_back(link);
+    }
+    std::sort(brick.links.begin(), brick.links.end());
+    brick.links.erase(std::unique(brick.links.begin(), brick.links.end()), brick.links.end());
+  }
+
+  StoredClusterOptions store_;
+  BrickComponents components_;
+  BrickClusters clusters_;
+  std::vector<ActiveBrick>& results_;
+};
+
+}  // namespace
+
+MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const ClusterOptions& options,
+                           const StoredClusterOptions& store, const Execution& execution, SpillFile& file)
+    : shares_(shares), options_(options), store_(store), file_(file), scalar_(ScalarType::float32) {
+  if (!shares.empty()) scalar_ = shares.front()->scalar();
+  std::size_t components = 0;
+  for (const ClusterShare* share : shares) {
+    if (share->scalar() != scalar_) throw std::invalid_argument("shares have float and double points");
+    first_component_.push_back(static_cast<std::uint32_t>(components));
+    components += share->components().size();
+    if (components >= kNoComponent - 1) throw std::length_error("too many clusters in the shares");
+  }
+  passive_points_.assign(components, 0);
+  Bricks bricks(grid_of_runs(options, scalar_));
+  find_active_cells();
+  count_runs(bricks);
+  std::vector<SpillList> lists(bricks.size());
+  distribute(bricks, lists);
+  cluster_active(bricks, lists, execution);
+  join();
+}
+
+// A cell is active if it has points, and it and the cells around it have points of several shares.
+void MergedShares::find_active_cells() {
+  constexpr std::uint32_t several = ~std::uint32_t{0};
+  std::unordered_map<std::uint64_t, std::uint32_t> share_of_cell;
+  for (std::size_t s = 0; s < shares_.size(); ++s) {
+    for (const ShareRun& run : shares_[s]->runs()) {
+      const auto [it, added] = share_of_cell.emplace(run.cell, static_cast<std::uint32_t>(s));
+      if (!added && it->second != s) it->second = several;
+    }
+  }
+  if (shares_.size() < 2) return;  // cells that are not listed are passive
+  const auto for_each_around = [](std::uint64_t cell, const auto& visit) {
+    for (int i = 0; i < 27; ++i)
+      visit(BrickGrid::neighbour(cell, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+  };
+  std::vector<std::uint64_t> active;
+  for (const auto& [cell, share] : share_of_cell) {
+    bool others = share == several;
+    for_each_around(cell, [&, own = share](std::uint64_t around) {
+      const auto found = others ? share_of_cell.end() : share_of_cell.find(around);
+      others = others || (found != share_of_cell.end() && found->second != own);
+    });
+    if (others) active.push_back(cell);
+  }
+  for (const std::uint64_t cell : active)
+    for_each_around(cell, [&](std::uint64_t around) { cells_.emplace(around, CellKind::near_active); });
+  for (const std::uint64_t cell : active)
+    cells_[cell] = CellKind::active;
+}
+
+// Counts the points of active cells in bricks, and those of passive cells in components.
+void MergedShares::count_runs(Bricks& bricks) {
+  std::uint64_t active_points = 0;
+  first_run_.assign(passive_points_.size() + 1, 0);
+  const auto kind_of = [&](const ShareRun& run) {
+    const auto found = cells_.find(run.cell);
+    return found == cells_.end() ? CellKind::passive : found->second;
+  };
+  for (std::size_t s = 0; s < shares_.size(); ++s) {
+    for (const ShareRun& run : shares_[s]->runs()) {
+      if (kind_of(run) == CellKind::active) {
+        bricks.count(run.cell, run.points);
+        active_points += run.points;
+      } else if (run.component == ShareRun::kNoise) {
+        counts_.noise += run.points;
+      } else {
+        passive_points_[component_number(s, run.component)] += run.points;
+        ++first_run_[component_number(s, run.component) + 1];
+      }
+    }
+  }
+  divide(active_points, store_, ParallelPolicy{Serial{}}, bricks);
+  for (std::size_t c = 1; c < first_run_.size(); ++c)
+    first_run_[c] += first_run_[c - 1];
+  passive_runs_.resize(first_run_.back());
+  std::vector<std::uint64_t> next(first_run_.begin(), first_run_.end() - 1);
+  for (std::uint32_t s = 0; s < shares_.size(); ++s) {
+    std::uint64_t offset = 0;
+    for (std::uint32_t r = 0; r < shares_[s]->runs().size(); ++r) {
+      const ShareRun& run = shares_[s]->runs()[r];
+      if (run.component != ShareRun::kNoise && kind_of(run) != CellKind::active)
+        passive_runs_[next[component_number(s, run.component)]++] = {s, r, offset};
+      offset += run.points * record_bytes(scalar_);
+    }
+  }
+}
+
+void MergedShares::distribute(const Bricks& bricks, std::vector<SpillList>& lists) {
+  const std::size_t block = block_bytes(lists.size());
+  for (std::uint32_t s = 0; s < shares_.size() && !lists.empty(); ++s) {
+    std::uint64_t offset = 0;
+    for (std::uint32_t r = 0; r < shares_[s]->runs().size(); ++r) {
+      const ShareRun& run = shares_[s]->runs()[r];
+      const auto kind = cells_.find(run.cell);
+      if (kind != cells_.end())
+        add_points_of_run({s, r, offset}, kind->second == CellKind::active, bricks, block, lists);
+      offset += run.points * record_bytes(scalar_);
+    }
+  }
+  for (SpillList& list : lists)
+    list.finish(file_);
+}
+
+void MergedShares::add_points_of_run(const Place& place, bool active, const Bricks& bricks, std::size_t block,
+                                     std::vector<SpillList>& lists) {
+  const ClusterShare& share = *shares_[place.share];
+  const ShareRun& run = share.runs()[place.run];
+  const std::uint32_t component =
+      run.component == ShareRun::kNoise ? kNoComponent : component_number(place.share, run.component);
+  PieceReader reader(file_, {place.offset, run.points, {&share, place.share, run.check_sum}}, scalar_,
+                     kRunBytes);
+  std::byte record[record_bytes(ScalarType::float64) + sizeof component];
+  const std::size_t size = point_bytes(scalar_);
+  PointView view = view_of_records({}, record_bytes(scalar_), scalar_);
+  view.count = 1;
+  Bricks::Cursor cursor;
+  for (; !reader.done(); reader.next()) {
+    view.data = reader.record();
+    const Bricks::Place at = bricks.place(load_point(view, 0), cursor);
+    const std::uint64_t number = reader.number() | (number_of_record(reader.record(), scalar_) & kCore);
+    const auto add = [&](std::uint32_t brick, std::uint64_t mark) {
+      const std::uint64_t marked = number | mark;
+      std::memcpy(record, reader.record(), size);
+      std::memcpy(record + size, &marked, sizeof marked);
+      std::memcpy(record + size + sizeof marked, &component, sizeof component);
+      lists[brick].add(file_, record, active_record_bytes(scalar_), block);
+    };
+    if (active) {
+      if (at.own == Bricks::kNone) throw ShareError(place.share, "its cells do not have its points");
+      add(at.own, at.others > 0 ? kInOtherBricks : 0);
+    }
+    for (std::uint32_t o = 0; o < at.others; ++o)
+      add(at.other[o], kOfOtherBrick);
+  }
+}
+
+void MergedShares::cluster_active(const Bricks& bricks, const std::vector<SpillList>& lists,
+                                  const Execution& execution) {
+  bricks_.resize(lists.size());
+  for_each_brick(lists, store_, execution, file_, [&](const Execution& part) {
+    return ActiveWorker(bricks, scalar_, options_, part, file_, bricks_);
+  });
+}
+
+void MergedShares::join() {
+  std::size_t sets_count = passive_points_.size();
+  std::vector<SharedPoints> shared;
+  for (const ActiveBrick& brick : bricks_) {
+    first_piece_.push_back(static_cast<std::uint32_t>(sets_count));
+    shared.push_back(brick.result.shared);
+    sets_count += brick.result.pieces.size();
+    counts_.noise += brick.result.counts.noise;
+    if (sets_count >= kNoComponent) throw std::length_error("too many parts of clusters: use more memory");
+  }
+  UnionFind sets;
+  sets.reset(sets_count);
+  join_pieces(shared, first_piece_, file_, sets);
+  for (std::size_t b = 0; b < bricks_.size(); ++b) {
+    for (const auto& [component, piece] : bricks_[b].links)
+      sets.unite(component, first_piece_[b] + piece);
+  }
+  const std::vector<std::uint32_t>& roots = sets.roots();
+  const std::vector<std::uint32_t> order = order_by_root(roots);
+  std::vector<std::uint32_t> group;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    group.push_back(order[i]);
+    if (i + 1 < order.size() && roots[order[i]] == roots[order[i + 1]]) continue;
+    add_group(group);
+    group.clear();
+  }
+}
+
+std::pair<std::size_t, std::uint32_t> MergedShares::share_of(std::uint32_t component) const {
+  const auto after = std::upper_bound(first_component_.begin(), first_component_.end(), component);
+  const auto share = static_cast<std::size_t>(after - first_component_.begin()) - 1;
+  return {share, component - first_component_[share]};
+}
+
+// Adds the cluster of components and pieces, or counts its points. Components of a group come first.
+void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
+  std::uint64_t points = 0;
+  std::uint32_t only = kNoComponent - 1;  // the component that has all points so far
+  const auto add = [&](std::uint32_t component, std::uint64_t count) {
+    if (count == 0) return;
+    only = points == 0 || only == component ? component : kNoComponent;
+    points += count;
+  };
+  for (const std::uint32_t set : group) {
+    if (set < passive_points_.size()) {
+      add(set, passive_points_[set]);
+    } else {
+      const auto brick = static_cast<std::size_t>(
+          std::upper_bound(first_piece_.begin(), first_piece_.end(), set) - first_piece_.begin() - 1);
+      const std::uint32_t piece = set - first_piece_[brick];
+      add(bricks_[brick].component[piece], bricks_[brick].result.pieces[piece].points);
+    }
+  }
+  if (points == 0) return;
+  if (!is_size_allowed(options_, points)) return count_dropped(options_, points, points, counts_);
+  if (only < passive_points_.size()) {
+    const auto [share, number] = share_of(only);
+    const ShareComponent& component = shares_[share]->components()[number];
+    if (component.points == points) {
+      const ComponentOfShare of_share{share, number};
+      const bool known = store_.is_known && store_.is_known(of_share);
+      StoredCluster cluster{0, points, component.first_number + shares_[share]->first_number};
+      if (!known) cluster = gather(group);
+      cluster.component = of_share;
+      clusters_.push_back(cluster);
+      return;
+    }
+  }
+  clusters_.push_back(gather(group));
+}
+
+StoredCluster MergedShares::gather(const std::vector<std::uint32_t>& group) {
+  std::vector<Piece> pieces;
+  for (const std::uint32_t set : group) {
+    if (set >= passive_points_.size()) {
+      const auto brick = static_cast<std::size_t>(
+          std::upper_bound(first_piece_.begin(), first_piece_.end(), set) - first_piece_.begin() - 1);
+      pieces.push_back(bricks_[brick].result.pieces[set - first_piece_[brick]]);
+      continue;
+    }
+    for (std::uint64_t i = first_run_[set]; i < first_run_[set + 1]; ++i) {
+      const Place& place = passive_runs_[i];
+      const ShareRun& run = shares_[place.share]->runs()[place.run];
+      pieces.push_back({place.offset, run.points, {shares_[place.share], place.share, run.check_sum}});
+    }
+  }
+  return merge_pieces(pieces, scalar_, file_);
+}
+
+}  // namespace pcl_bv::detail

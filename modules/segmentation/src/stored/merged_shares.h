@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Joins the components of shares.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "brick_clusters.h"
+#include "distributed_points.h"
+#include "pcl_bv/segmentation/cluster_share.h"
+#include "union_find.h"
+
+namespace pcl_bv::detail {
+
+/// What is left of a brick with points near other shares.
+struct ActiveBrick {
+  BrickResult result;
+  /// Components of shares that have a core point in common with a piece of the brick, and the piece.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
+  /// For each piece, the component of all its points in their shares, or kMixed.
+  std::vector<std::uint32_t> component;
+  static constexpr std::uint32_t kMixed = ~std::uint32_t{0};
+};
+
+/// Merges the components of shares. In a cell that has points of one share around it only, the components of
+/// that share are right. The points of all other cells ("active" cells) are clustered again, with those of
+/// all shares that can affect them. Components of the shares are then joined with the pieces of these
+/// clusters that have a core point in common.
+class MergedShares {
+ public:
+  MergedShares(const std::vector<const ClusterShare*>& shares, const ClusterOptions& options,
+               const StoredClusterOptions& store, const Execution& execution, SpillFile& file);
+
+  /// Clusters of allowed sizes.
+  std::vector<StoredCluster> take_clusters() { return std::move(clusters_); }
+  const Counts& counts() const { return counts_; }
+  std::size_t brick_count() const { return bricks_.size(); }
+
+ private:
+  // A run, and the share that has it.
+  struct Place {
+    std::uint32_t share;
+    std::uint32_t run;
+    std::uint64_t offset;  // of its first byte in the share
+  };
+  enum class CellKind : std::uint8_t { passive, near_active, active };
+
+  void find_active_cells();
+  void count_runs(Bricks& bricks);
+  void distribute(const Bricks& bricks, std::vector<SpillList>& lists);
+  void add_points_of_run(const Place& place, bool active, const Bricks& bricks, std::size_t block,
+                         std::vector<SpillList>& lists);
+  void cluster_active(const Bricks& bricks, const std::vector<SpillList>& lists, const Execution& execution);
+  void join();
+  void add_group(const std::vector<std::uint32_t>& group);
+  StoredCluster gather(const std::vector<std::uint32_t>& group);
+  std::uint32_t component_number(std::size_t share, std::uint32_t component) const {
+    return first_component_[share] + component;
+  }
+  std::pair<std::size_t, std::uint32_t> share_of(std::uint32_t component) const;
+
+  const std::vector<const ClusterShare*>& shares_;
+  ClusterOptions options_;
+  const StoredClusterOptions& store_;
+  SpillFile& file_;
+  ScalarType scalar_;
+  std::unordered_map<std::uint64_t, CellKind> cells_;
+  std::vector<std::uint32_t> first_component_;  // of each share, among all components
+  std::vector<std::uint64_t> passive_points_;   // of each component
+  std::vector<Place> passive_runs_;             // by component
+  std::vector<std::uint64_t> first_run_;        // of each component, in passive_runs_; then their number
+  std::vector<ActiveBrick> bricks_;
+  std::vector<std::uint32_t> first_piece_;  // of each brick, among all sets; components come first
+  std::vector<StoredCluster> clusters_;
+  Counts counts_;
+};
+
+}  // namespace pcl_bv::detail

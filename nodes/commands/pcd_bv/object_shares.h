@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Objects of clouds that are processed in shares: files of partial results with --cluster, and their merging.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "inputs.h"
+#include "options.h"
+#include "pcl_bv/report/object_file.h"
+#include "pcl_bv/report/report.h"
+#include "status.h"
+#include "tiles.h"
+
+namespace pcl_bv::detail {
+
+/// Finds the clusters of a share, fits their volumes and writes them to a file. Throws TileError for an input
+/// that fails, and std::runtime_error if a file cannot be written.
+void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
+                        const std::filesystem::path& path, FileLife life);
+
+/// Finds the clusters of the share that the options name, fits their volumes and writes the file of
+/// --partial. Or, with --merge, writes all files to one. Reports problems on standard error.
+Status make_object_file(const Job& job, const Options& options);
+
+/// Merges the clusters of the files. Volumes are those of the files if they have the requested methods, and
+/// are fitted if not. Reports each file that cannot be merged; then the report has an error. Returns whether
+/// all volumes were fitted, as report_failures().
+Status merge_object_files(const std::vector<std::string>& files, const Options& options, Report& report);
+
+}  // namespace pcl_bv::detail

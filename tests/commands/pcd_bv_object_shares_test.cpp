@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Objects of clouds that are processed in shares: --partial and --merge with --cluster.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tiled_objects.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using testing::HasSubstr;
+
+class PcdBvObjectShares : public TiledObjects {
+ protected:
+  // Writes the shares of the inputs to a folder of their own, which is returned.
+  std::string shares(const std::string& name, std::size_t count, const std::vector<std::string>& options,
+                     const std::vector<std::string>& inputs) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      std::vector<std::string> all{"--partial", at(name + "/" + std::to_string(k)), "--part",
+                                   std::to_string(k) + "/" + std::to_string(count)};
+      all.insert(all.end(), options.begin(), options.end());
+      all.insert(all.end(), inputs.begin(), inputs.end());
+      const Result result = run(all);
+      EXPECT_EQ(result.status, 0) << result.err;
+      EXPECT_EQ(result.out, "");
+    }
+    return at(name);
+  }
+
+  // Changes the byte at a position from the end of a file.
+  void damage(const std::string& path, std::streamoff from_end) const {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(-from_end, std::ios::end);
+    const int byte = file.get();
+    file.seekp(-from_end, std::ios::end);
+    file.put(static_cast<char>(byte ^ 64));
+  }
+};
+
+TEST_F(PcdBvObjectShares, GiveTheBytesOfOneProcessForAnySharesAndMemory) {
+  const std::vector<std::vector<std::string>> options = {
+      {"--cluster", "0.4", "--volume", "all,hull,best"},
+      {"--cluster", "0.4", "--min-points", "5", "--min-size", "20", "--volume", "aabb,obb-lshape"},
+      {"--cluster", "1.5", "--max-size", "3000", "--volume", "sphere-epos26"},
+      {"--cluster", "1.5", "--max-size", "3000", "--oversized", "keep", "--volume", "dop26,prism"},
+      {"--cluster", "0.4", "--min-extent", "0.5,0.1,1", "--max-extent", "20,5,9", "--volume", "prism"}};
+  for (unsigned seed = 1; seed <= options.size(); ++seed) {
+    SCOPED_TRACE(seed);
+    const std::string name = std::to_string(seed), folder = tiles("tiles" + name, yard(seed), 6);
+    const Result expected = objects(options[seed - 1], {"--together"}, folder);
+    for (const std::size_t count : {1UL, 2UL, 5UL}) {
+      const std::string parts =
+          shares("parts" + name + "_" + std::to_string(count), count, options[seed - 1], {folder});
+      for (const char* const memory : {"1", "600"}) {
+        const Result merged = objects(options[seed - 1], {"--merge", "--memory", memory}, parts);
+        EXPECT_EQ(merged.status, 0) << merged.err;
+        EXPECT_TRUE(merged.out == expected.out) << count << " shares, " << memory << " MB";
+      }
+    }
+  }
+}
+
+TEST_F(PcdBvObjectShares, AreFittedAgainForOtherVolumesAndChecked) {
+  const std::string folder = tiles("tiles", yard(1), 6);
+  const std::string parts = shares("parts", 3, {"--cluster", "0.4", "--volume", "aabb"}, {folder});
+  const std::vector<std::string> other = {"--cluster", "0.4", "--volume", "dop14,obb-pca"};
+  EXPECT_EQ(objects(other, {"--merge"}, parts).out, objects(other, {"--together"}, folder).out);
+  const std::vector<std::string> sizes = {"--cluster", "0.4", "--min-size", "100", "--volume", "aabb"};
+  EXPECT_EQ(objects(sizes, {"--merge"}, parts).out, objects(sizes, {"--together"}, folder).out);
+  const std::vector<std::string> same = {"--cluster", "0.4", "--volume", "aabb"};
+  EXPECT_EQ(objects(same, {"--merge", "--check"}, parts).out,
+            objects(same, {"--together", "--check"}, folder).out);
+}
+
+TEST_F(PcdBvObjectShares, OfIndependentInputsAreOneCloudInTheOrderOfTheFiles) {
+  const Points points = yard(2);
+  const std::vector<std::string> options = {"--cluster", "0.4", "--volume", "aabb,obb-lshape"};
+  const std::size_t half = points.size() / 2;
+  const std::string a = binary("a.pcd", Points(points.begin(), points.begin() + half));
+  const std::string b = binary("b.pcd", Points(points.begin() + half, points.end()));
+  shares("parts/0", 1, options, {a});
+  shares("parts/1", 2, options, {b});
+  std::vector<std::string> all = {"--merge", "--format", "jsonl"};
+  all.insert(all.end(), options.begin(), options.end());
+  for (const char* const part : {"parts/0/0", "parts/1/1", "parts/1/0"})
+    all.push_back(at(part));
+  const Result merged = run(all);
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  std::vector<std::string> together = {"--together", "--format", "jsonl"};
+  together.insert(together.end(), options.begin(), options.end());
+  together.insert(together.end(), {a, b});
+  EXPECT_EQ(merged.out, run(together).out);
+}
+
+TEST_F(PcdBvObjectShares, MergeToOneFileThatMergesAgain) {
+  const std::string folder = tiles("tiles", yard(3), 6);
+  const std::vector<std::string> options = {"--cluster", "0.4", "--volume", "aabb"};
+  const std::string parts = shares("parts", 4, options, {folder});
+  for (const char* const pair : {"0", "2"}) {
+    const int first = *pair - '0';
+    const Result result = run({"--merge", "--partial", at("pairs/" + std::string(pair)), "--cluster", "0.4",
+                               parts + "/" + std::to_string(first + 1), parts + "/" + std::to_string(first)});
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+  EXPECT_EQ(objects(options, {"--merge"}, at("pairs")).out, objects(options, {"--together"}, folder).out);
+}
+
+TEST_F(PcdBvObjectShares, NameFilesThatCannotBeMerged) {
+  const std::string folder = tiles("tiles", yard(1), 6);
+  const std::vector<std::string> options = {"--cluster", "0.4", "--volume", "aabb"};
+  const auto expect_error = [&](const std::string& parts, const std::string& what) {
+    const Result result = objects(options, {"--merge"}, parts);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr(what));
+  };
+  const std::string truncated = shares("truncated", 2, options, {folder});
+  std::filesystem::resize_file(truncated + "/1", std::filesystem::file_size(truncated + "/1") - 10);
+  expect_error(truncated, "truncated/1: is truncated");
+  const std::string twice = shares("twice", 2, options, {folder});
+  std::filesystem::copy(twice + "/0", twice + "/2");
+  expect_error(twice, "twice/2: overlaps another share");
+  const std::string missing = shares("missing", 2, options, {folder});
+  std::filesystem::remove(missing + "/0");
+  expect_error(missing, "shares are missing: points 0 to ");
+  const std::string other = shares("other", 2, {"--cluster", "0.5", "--volume", "aabb"}, {folder});
+  expect_error(other, "other/0: was made with --cluster 0.5 --min-points 1");
+  const std::string index = shares("index", 2, options, {folder});
+  std::filesystem::resize_file(index + "/0", 3000);
+  expect_error(index, "index/0: is truncated");
+  const std::string whole = shares("whole", 1, {"--volume", "aabb"}, {folder});
+  expect_error(whole, "whole/0: is no file of objects");
+  const std::string damaged = shares("damaged", 2, options, {folder});
+  damage(damaged + "/0", static_cast<std::streamoff>(std::filesystem::file_size(damaged + "/0")) - 200);
+  expect_error(damaged, "damaged/0: is damaged");
+  for (const std::string& parts : {truncated, twice, damaged})
+    EXPECT_EQ(objects(options, {"--merge"}, parts).error_lines(), 1U);
+}
+
+TEST_F(PcdBvObjectShares, RefuseWhatTheyDoNotHave) {
+  const std::string folder = tiles("tiles", gaussian(100, 8), 2);
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--ground", "slope"}, {"--class", "class"}, {"--check"}}) {
+    const Result result = objects(options, {"--cluster", "1", "--partial", at("p")}, folder);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_EQ(result.error_lines(), 1U) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv::test

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clusters of shares, when they are joined, are those of the whole cloud.
+
+#include "pcl_bv/segmentation/cluster_share.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+
+#include "stored_scenes.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// Sorts the points of a cloud by tile, and returns where the tiles begin and end.
+template <typename T>
+std::vector<std::size_t> make_tiles(std::mt19937_64& random, test::TestCloud<T>& cloud) {
+  const std::size_t tiles = 1 + random() % 8, kind = random() % 3;
+  const double side = std::pow(10, std::uniform_real_distribution<double>(-0.5, 2)(random));
+  std::vector<std::size_t> tile(cloud.size()), order(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double x = cloud.xyz[3 * i], y = cloud.xyz[3 * i + 1];
+    const double square = std::isnan(x) ? 0 : std::floor(x / side) * 7 + std::floor(y / side) * 3;
+    const std::size_t by_square = static_cast<std::size_t>(static_cast<std::int64_t>(square) + (1 << 20));
+    tile[i] = (kind == 0 ? by_square : kind == 1 ? random() : i * tiles / cloud.size()) % tiles;
+  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return tile[a] < tile[b]; });
+  test::TestCloud<T> sorted{
+      cloud.name + ", " + std::to_string(tiles) + " tiles of kind " + std::to_string(kind), {}};
+  std::vector<std::size_t> ends{0};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto from = cloud.xyz.begin() + static_cast<std::ptrdiff_t>(3 * order[i]);
+    sorted.xyz.insert(sorted.xyz.end(), from, from + 3);
+    if (i + 1 == order.size() || tile[order[i]] != tile[order[i + 1]]) ends.push_back(i + 1);
+  }
+  cloud = sorted;
+  return ends;
+}
+
+ClusterOptions random_options(std::mt19937_64& random) {
+  ClusterOptions options;
+  options.tolerance =
+      static_cast<float>(std::pow(10, std::uniform_real_distribution<double>(-1.2, 0.5)(random)));
+  options.min_size = random() % 2 == 0 ? 1 : 10;
+  options.min_points = std::array{1, 2, 4, 8}[random() % 4];
+  if (random() % 4 == 0) options.max_size = 300;
+  return options;
+}
+
+using Shares = std::vector<std::unique_ptr<MadeClusterShare>>;
+
+std::vector<const ClusterShare*> pointers(const Shares& shares) {
+  std::vector<const ClusterShare*> all;
+  for (const auto& share : shares)
+    all.push_back(share.get());
+  return all;
+}
+
+// A cluster that is a component of a share has the points of that component.
+void expect_components_to_match(const Shares& shares, ClusterOptions options, const StoredClusters& joined) {
+  options.min_size = 1;
+  options.oversized = Oversized::keep;
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    const StoredClusters alone({shares[s].get()}, options);
+    std::map<std::uint32_t, std::size_t> number;  // of the component, to the number in `alone`
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      number[alone.component(i).value().number] = i;
+    EXPECT_EQ(number.size(), shares[s]->components().size());
+    const ClusterBytes of_share = bytes_of(alone), of_all = bytes_of(joined);
+    for (std::size_t i = 0; i < joined.size(); ++i) {
+      const auto component = joined.component(i);
+      if (component && component->share == s) {
+        EXPECT_EQ(of_all[i], of_share[number.at(component->number)]);
+      }
+    }
+  }
+}
+
+template <typename T>
+class ClusterSharesOf : public testing::Test {};
+using ScalarTypes = testing::Types<float, double>;
+TYPED_TEST_SUITE(ClusterSharesOf, ScalarTypes);
+
+TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudForAnyTilingAndOrder) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    test::TestCloud<TypeParam> cloud = scene<TypeParam>(seed);
+    std::mt19937_64 random(seed);
+    const std::vector<std::size_t> ends = make_tiles(random, cloud);
+    const ClusterOptions options = random_options(random);
+    SCOPED_TRACE(testing::Message() << cloud.name << ", min_points " << options.min_points << ", tolerance "
+                                    << options.tolerance);
+    const std::size_t in_memory = std::array{1U, 40U, 1U << 20U}[random() % 3];
+    Shares shares;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const bool own_numbers = seed % 2 == 0;
+      PointView part = cloud.view().slice(ends[i], ends[i + 1] - ends[i]);
+      if (own_numbers) part.first = 0;
+      shares.push_back(
+          std::make_unique<MadeClusterShare>(part, options, StoredClusterOptions{in_memory, {}}));
+      if (own_numbers) shares.back()->first_number = ends[i];
+    }
+    std::shuffle(shares.begin(), shares.end(), random);
+    const StoredClusters joined(pointers(shares), options, {in_memory, {}});
+    const Clusters expected = cluster(cloud.view(), options);
+    EXPECT_EQ(bytes_of(joined), bytes_of(cloud.view(), expected));
+    EXPECT_EQ(joined.counts().small, expected.small_points);
+    EXPECT_EQ(joined.counts().large, expected.large_points);
+    EXPECT_EQ(joined.counts().noise, expected.noise_points);
+    expect_components_to_match(shares, options, joined);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudOnNastyClouds) {
+  for (const test::TestCloud<TypeParam>& cloud : test::nasty_clouds<TypeParam>()) {
+    SCOPED_TRACE(cloud.name);
+    for (const float tolerance : {1e-20F, 1e-3F, 0.5F, 1e4F, 1e20F}) {
+      for (const std::size_t min_points : {1, 3}) {
+        ClusterOptions options;
+        options.tolerance = tolerance;
+        options.min_points = min_points;
+        Shares shares;
+        const std::size_t half = cloud.size() / 2;
+        shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(0, half), options));
+        shares.push_back(
+            std::make_unique<MadeClusterShare>(cloud.view().slice(half, cloud.size() - half), options));
+        EXPECT_EQ(bytes_of(StoredClusters(pointers(shares), options)),
+                  bytes_of(cloud.view(), cluster(cloud.view(), options)));
+      }
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+// Two clumps far apart, and a line of points across the border of the shares at x = 0.
+test::TestCloud<float> two_clumps_and_a_line() {
+  test::TestCloud<float> cloud{"clumps and line", {}};
+  const auto add = [&](float x, float y) { cloud.xyz.insert(cloud.xyz.end(), {x, y, 0}); };
+  for (int side : {-1, 1}) {
+    for (int i = 0; i < 100; ++i)
+      add(static_cast<float>(side * 100) + 0.01F * static_cast<float>(i), 0);
+    for (int i = 0; i < 50; ++i)
+      add(static_cast<float>(side) * (0.05F + 0.1F * static_cast<float>(i)), 0);
+  }
+  return cloud;
+}
+
+TEST(ClusterShares, SayWhichClustersAreComponentsOfAShareAndDoNotReadThosePoints) {
+  const test::TestCloud<float> cloud = two_clumps_and_a_line();
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  std::size_t visited = 0;
+  StoredClusterOptions store;
+  store.visit = [&](std::size_t, const std::vector<PointView>& clusters, const Execution&) {
+    visited += clusters.size();
+  };
+  Shares shares;
+  shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(0, 150), options, store));
+  shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(150, 150), options, store));
+  EXPECT_EQ(visited, 4U);
+  StoredClusterOptions known;
+  known.is_known = [&](const ComponentOfShare& c) { return shares[c.share]->visit(c.number).has_value(); };
+  const StoredClusters joined(pointers(shares), options, known);
+  ASSERT_EQ(joined.size(), 3U);
+  EXPECT_EQ(
+      joined.component(0).has_value() + joined.component(1).has_value() + joined.component(2).has_value(), 2);
+}
+
+// A share whose records change after it was made.
+class DamagedShare final : public ClusterShare {
+ public:
+  explicit DamagedShare(const ClusterShare& good) : good_(good) {}
+  ScalarType scalar() const override { return good_.scalar(); }
+  const std::vector<ShareRun>& runs() const override { return good_.runs(); }
+  const std::vector<ShareComponent>& components() const override { return good_.components(); }
+  void read(std::uint64_t first_byte, std::byte* to, std::size_t count) const override {
+    good_.read(first_byte, to, count);
+    to[count / 2] ^= std::byte{1};
+  }
+
+ private:
+  const ClusterShare& good_;
+};
+
+TEST(ClusterShares, ThatAreDamagedAreNamed) {
+  const test::TestCloud<float> cloud = two_clumps_and_a_line();
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  const MadeClusterShare good(cloud.view().slice(0, 150), options),
+      other(cloud.view().slice(150, 150), options);
+  const DamagedShare bad(other);
+  try {
+    const StoredClusters joined({&good, &bad}, options);
+    FAIL() << "no error";
+  } catch (const ShareError& error) {
+    EXPECT_EQ(error.share(), 1U);
+    EXPECT_STREQ(error.what(), "its points are damaged");
+  }
+}
+
+TEST(ClusterShares, OfNoPointAreNone) {
+  ClusterOptions options;
+  options.tolerance = 1;
+  const MadeClusterShare none(PointView{}, options);
+  EXPECT_EQ(StoredClusters({&none}, options).size(), 0U);
+  EXPECT_EQ(StoredClusters(std::vector<const ClusterShare*>{}, options).size(), 0U);
+}
+
+}  // namespace
+}  // namespace pcl_bv::detail
