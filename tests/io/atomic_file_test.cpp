@@ -192,6 +192,23 @@ TEST_F(AtomicFile, StaysIfTheFunctionThatWritesItThrows) {
   EXPECT_EQ(entries(), 1);
 }
 
+TEST_F(AtomicFile, HasThePiecesThatAFunctionGivesToASink) {
+  const fs::path path = folder() / "a";
+  write_file_atomically(path, [&](const FileSink& write) {
+    write("one ");
+    EXPECT_FALSE(fs::exists(path));
+    write("two");
+  });
+  EXPECT_EQ(file_content(path), "one two");
+  const auto failing = [](const FileSink& write) {
+    write("three");
+    throw std::length_error("no more");
+  };
+  EXPECT_THROW(write_file_atomically(path, failing), std::length_error);
+  EXPECT_EQ(file_content(path), "one two");
+  EXPECT_EQ(entries(), 1);
+}
+
 TEST_F(AtomicFile, IsWrittenByTheFunctionItselfIfItIsADevice) {
   const fs::path null = test::device_in(folder(), test::Device::null);
   if (null.empty()) GTEST_SKIP() << "no device can be made";

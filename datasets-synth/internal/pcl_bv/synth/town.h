@@ -92,5 +92,5 @@ TownSequence parse_town(const std::string& text);
 /// Returns whether the text begins as those of parse_town().
 bool is_town(const std::string& text);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

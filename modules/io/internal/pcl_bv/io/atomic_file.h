@@ -56,5 +56,5 @@ void create_parent_folders(const std::filesystem::path& file);
 /// regular file throws IoError and leaves the existing file unchanged.
 void remove_temporary_files() noexcept;
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
