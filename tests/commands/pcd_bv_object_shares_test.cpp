@@ -49,12 +49,7 @@ class PcdBvObjectShares : public TiledObjects {
 };
 
 TEST_F(PcdBvObjectShares, GiveTheBytesOfOneProcessForAnySharesAndMemory) {
-  const std::vector<std::vector<std::string>> options = {
-      {"--cluster", "0.4", "--volume", "all,hull,best"},
-      {"--cluster", "0.4", "--min-points", "5", "--min-size", "20", "--volume", "aabb,obb-lshape"},
-      {"--cluster", "1.5", "--max-size", "3000", "--volume", "sphere-epos26"},
-      {"--cluster", "1.5", "--max-size", "3000", "--oversized", "keep", "--volume", "dop26,prism"},
-      {"--cluster", "0.4", "--min-extent", "0.5,0.1,1", "--max-extent", "20,5,9", "--volume", "prism"}};
+  const std::vector<std::vector<std::string>> options = cluster_options();
   for (unsigned seed = 1; seed <= options.size(); ++seed) {
     SCOPED_TRACE(seed);
     const std::string name = std::to_string(seed), folder = tiles("tiles" + name, yard(seed), 6);

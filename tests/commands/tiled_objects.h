@@ -45,6 +45,15 @@ class TiledObjects : public Tiled {
     return points;
   }
 
+  // Options that use all parts of the clustering.
+  static std::vector<std::vector<std::string>> cluster_options() {
+    return {{"--cluster", "0.4", "--volume", "all,hull,best"},
+            {"--cluster", "0.4", "--min-points", "5", "--min-size", "20", "--volume", "aabb,obb-lshape"},
+            {"--cluster", "1.5", "--max-size", "3000", "--volume", "sphere-epos26"},
+            {"--cluster", "1.5", "--max-size", "3000", "--oversized", "keep", "--volume", "dop26,prism"},
+            {"--cluster", "0.4", "--min-extent", "0.5,0.1,1", "--max-extent", "20,5,9", "--volume", "prism"}};
+  }
+
   // The field `label` of a file.
   static std::vector<std::uint32_t> labels_in(const std::string& path) {
     const RawCloud cloud = read_cloud(path);

@@ -117,24 +117,14 @@ TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudForAnyTilingAndOrder)
 }
 
 TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudOnNastyClouds) {
-  for (const test::TestCloud<TypeParam>& cloud : test::nasty_clouds<TypeParam>()) {
-    SCOPED_TRACE(cloud.name);
-    for (const float tolerance : {1e-20F, 1e-3F, 0.5F, 1e4F, 1e20F}) {
-      for (const std::size_t min_points : {1, 3}) {
-        ClusterOptions options;
-        options.tolerance = tolerance;
-        options.min_points = min_points;
-        Shares shares;
-        const std::size_t half = cloud.size() / 2;
-        shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(0, half), options));
-        shares.push_back(
-            std::make_unique<MadeClusterShare>(cloud.view().slice(half, cloud.size() - half), options));
-        EXPECT_EQ(bytes_of(StoredClusters(pointers(shares), options)),
-                  bytes_of(cloud.view(), cluster(cloud.view(), options)));
-      }
-    }
-    if (testing::Test::HasFailure()) return;
-  }
+  for_each_nasty_clustering<TypeParam>([](const PointView& points, const ClusterOptions& options) {
+    const std::size_t half = points.count / 2;
+    Shares shares;
+    shares.push_back(std::make_unique<MadeClusterShare>(points.slice(0, half), options));
+    shares.push_back(std::make_unique<MadeClusterShare>(points.slice(half, points.count - half), options));
+    EXPECT_EQ(bytes_of(StoredClusters(pointers(shares), options)),
+              bytes_of(points, cluster(points, options)));
+  });
 }
 
 // Two clumps far apart, and a line of points across the border of the shares at x = 0.

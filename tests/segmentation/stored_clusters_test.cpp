@@ -63,18 +63,9 @@ TYPED_TEST(StoredClustersOf, AreThoseOfTheWholeCloudForAnyBricks) {
 }
 
 TYPED_TEST(StoredClustersOf, AreThoseOfTheWholeCloudOnNastyClouds) {
-  for (const test::TestCloud<TypeParam>& cloud : test::nasty_clouds<TypeParam>()) {
-    SCOPED_TRACE(cloud.name);
-    for (const float tolerance : {1e-20F, 1e-3F, 0.5F, 1e4F, 1e20F}) {
-      for (const std::size_t min_points : {1, 3}) {
-        ClusterOptions options;
-        options.tolerance = tolerance;
-        options.min_points = min_points;
-        expect_same_as_in_memory(cloud.view(), options, 100);
-      }
-    }
-    if (testing::Test::HasFailure()) return;
-  }
+  for_each_nasty_clustering<TypeParam>([](const PointView& points, const ClusterOptions& options) {
+    expect_same_as_in_memory(points, options, 100);
+  });
 }
 
 TEST(StoredClusters, OfOneClusterInAllBricksHaveAllItsPointsInOrder) {

@@ -91,4 +91,22 @@ test::TestCloud<T> scene(std::uint64_t seed) {
   return mixed;
 }
 
+// Calls check(points, options) for nasty clouds with tolerances from very small to very large, until a check
+// fails.
+template <typename T, typename Check>
+void for_each_nasty_clustering(const Check& check) {
+  for (const test::TestCloud<T>& cloud : test::nasty_clouds<T>()) {
+    SCOPED_TRACE(cloud.name);
+    for (const float tolerance : {1e-20F, 1e-3F, 0.5F, 1e4F, 1e20F}) {
+      for (const std::size_t min_points : {1, 3}) {
+        ClusterOptions options;
+        options.tolerance = tolerance;
+        options.min_points = min_points;
+        check(cloud.view(), options);
+      }
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
 }  // namespace pcl_bv::detail

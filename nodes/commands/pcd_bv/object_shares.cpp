@@ -153,11 +153,11 @@ void describe(const MergedClouds& clouds, const Shares& shares, Report& report) 
     report.counts.nonfinite += share->header().nonfinite;
 }
 
-// Returns whether the volumes of a component are in its file.
-bool is_known(const Shares& shares, const Options& options, const ComponentOfShare& component) {
+// Returns whether the volumes of a component are in its file. `volumes` is the volumes_text() of the options.
+bool is_known(const Shares& shares, const Options& options, const std::string& volumes,
+              const ComponentOfShare& component) {
   const ObjectFile& share = *shares[component.share];
-  return !options.check && share.header().volumes == volumes_text(options.pipeline) &&
-         share.has_text(component.number);
+  return !options.check && share.header().volumes == volumes && share.has_text(component.number);
 }
 
 Object read_object(const Shares& shares, const ComponentOfShare& component) {
@@ -172,10 +172,11 @@ void add_objects(const StoredClusters& clusters, const Shares& shares, const Opt
                  Report& report) {
   const ClassTable table(options.pipeline);
   const ObjectFitter fitter(options, table, std::nullopt);
+  const std::string volumes = volumes_text(options.pipeline);
   std::vector<Object> objects(clusters.size());
   for_each_cluster(clusters, options.pipeline.execution(), [&](std::size_t i, const Execution& execution) {
     const auto component = clusters.component(i);
-    objects[i] = component && is_known(shares, options, *component)
+    objects[i] = component && is_known(shares, options, volumes, *component)
                      ? read_object(shares, *component)
                      : fitter.fit(clusters.points(i).view(), execution);
   });
@@ -255,7 +256,10 @@ Status merge_object_files(const std::vector<std::string>& files, const Options& 
     pointers.push_back(share.get());
   }
   StoredClusterOptions store = store_options(options, shares.front()->scalar());
-  store.is_known = [&](const ComponentOfShare& component) { return is_known(shares, options, component); };
+  const std::string volumes = volumes_text(options.pipeline);
+  store.is_known = [&](const ComponentOfShare& component) {
+    return is_known(shares, options, volumes, component);
+  };
   try {
     const StoredClusters clusters(pointers, ClassTable(options.pipeline).default_options(), store,
                                   options.pipeline.execution());

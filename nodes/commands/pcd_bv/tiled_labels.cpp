@@ -7,6 +7,7 @@
 
 #include "commands/shared/messages.h"
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "tiles.h"
@@ -23,7 +24,7 @@ RawCloud load_tile(const Tiles& tiles, std::size_t tile, std::size_t points) {
   } catch (const std::exception& error) {
     throw TileError(tile, error.what());
   }
-  throw TileError(tile, "the file was changed while it was read");
+  throw TileError(tile, kChangedWhileRead);
 }
 
 }  // namespace

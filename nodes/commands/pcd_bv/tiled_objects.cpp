@@ -54,7 +54,7 @@ RemainingPoints remaining_points(const PointView& cloud, const PipelineConfig& c
 }
 
 // Sets the numbers of points that are dropped before the clustering, to which `valid` points are left.
-void count_dropped(const RemainingPoints& remaining, std::size_t valid, Report& report) {
+void set_dropped_counts(const RemainingPoints& remaining, std::size_t valid, Report& report) {
   const bool filtered = remaining.filtered.owner != nullptr, ground = remaining.ground.owner != nullptr;
   const std::size_t before = ground ? remaining.ground.valid : valid;
   report.counts.nonfinite = filtered ? remaining.filtered.counts.nonfinite : remaining.points.count - before;
@@ -87,14 +87,14 @@ class TiledObjects {
                      value);
       }
     }
-    count_dropped(remaining, valid, report_);
+    set_dropped_counts(remaining, valid, report_);
     sort();
   }
 
   // Adds the objects of points without classes.
   void add_all(const RemainingPoints& remaining) {
     const std::size_t invalid = add_clusters(remaining.points, table_.default_options(), std::nullopt);
-    count_dropped(remaining, remaining.points.count - invalid, report_);
+    set_dropped_counts(remaining, remaining.points.count - invalid, report_);
   }
 
   double fit_seconds() const { return fit_seconds_; }

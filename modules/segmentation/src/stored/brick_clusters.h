@@ -54,7 +54,7 @@ struct Piece {
   PieceOfShare from{};
 };
 
-/// What is left of a brick.
+/// The result of a brick.
 struct BrickResult {
   std::vector<StoredCluster> clusters;  ///< Clusters of allowed sizes with all their points in the brick.
   std::vector<Piece> pieces;

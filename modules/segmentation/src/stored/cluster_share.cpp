@@ -15,7 +15,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-// What is left of a brick of a share.
+// The result of a brick of a share.
 struct ShareBrick {
   BrickRuns runs;
   SharedPoints shared;

@@ -18,6 +18,15 @@ namespace {
 constexpr std::size_t kRunBytes = 1U << 20U;  // of a run at a time
 constexpr std::uint32_t kNoComponent = ActiveBrick::kMixed;
 
+// Returns the list that has an item, and the position of the item in it. Items are numbered over all lists;
+// `firsts` has the number of the first item of each list.
+std::pair<std::size_t, std::uint32_t> place_in_lists(const std::vector<std::uint32_t>& firsts,
+                                                     std::uint32_t item) {
+  const auto after = std::upper_bound(firsts.begin(), firsts.end(), item);
+  const auto list = static_cast<std::size_t>(after - firsts.begin()) - 1;
+  return {list, item - firsts[list]};
+}
+
 // A record near other shares: a record as in bricks, and the component of the point in its share.
 std::size_t active_record_bytes(ScalarType scalar) {
   return record_bytes(scalar) + sizeof(std::uint32_t);
@@ -202,8 +211,8 @@ void MergedShares::distribute(const Bricks& bricks, std::vector<SpillList>& list
     list.finish(file_);
 }
 
-void MergedShares::add_points_of_run(const Place& place, bool active, const Bricks& bricks, std::size_t block,
-                                     std::vector<SpillList>& lists) {
+void MergedShares::add_points_of_run(const RunPlace& place, bool active, const Bricks& bricks,
+                                     std::size_t block, std::vector<SpillList>& lists) {
   const ClusterShare& share = *shares_[place.share];
   const ShareRun& run = share.runs()[place.run];
   const std::uint32_t component =
@@ -273,12 +282,6 @@ void MergedShares::join() {
   }
 }
 
-std::pair<std::size_t, std::uint32_t> MergedShares::share_of(std::uint32_t component) const {
-  const auto after = std::upper_bound(first_component_.begin(), first_component_.end(), component);
-  const auto share = static_cast<std::size_t>(after - first_component_.begin()) - 1;
-  return {share, component - first_component_[share]};
-}
-
 // Adds the cluster of components and pieces, or counts its points. Components of a group come first.
 void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
   std::uint64_t points = 0;
@@ -292,16 +295,14 @@ void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
     if (set < passive_points_.size()) {
       add(set, passive_points_[set]);
     } else {
-      const auto brick = static_cast<std::size_t>(
-          std::upper_bound(first_piece_.begin(), first_piece_.end(), set) - first_piece_.begin() - 1);
-      const std::uint32_t piece = set - first_piece_[brick];
+      const auto [brick, piece] = place_in_lists(first_piece_, set);
       add(bricks_[brick].component[piece], bricks_[brick].result.pieces[piece].points);
     }
   }
   if (points == 0) return;
   if (!is_size_allowed(options_, points)) return count_dropped(options_, points, points, counts_);
   if (only < passive_points_.size()) {
-    const auto [share, number] = share_of(only);
+    const auto [share, number] = place_in_lists(first_component_, only);
     const ShareComponent& component = shares_[share]->components()[number];
     if (component.points == points) {
       const ComponentOfShare of_share{share, number};
@@ -321,13 +322,12 @@ StoredCluster MergedShares::gather(const std::vector<std::uint32_t>& group) {
   std::vector<Piece> pieces;
   for (const std::uint32_t set : group) {
     if (set >= passive_points_.size()) {
-      const auto brick = static_cast<std::size_t>(
-          std::upper_bound(first_piece_.begin(), first_piece_.end(), set) - first_piece_.begin() - 1);
-      pieces.push_back(bricks_[brick].result.pieces[set - first_piece_[brick]]);
+      const auto [brick, piece] = place_in_lists(first_piece_, set);
+      pieces.push_back(bricks_[brick].result.pieces[piece]);
       continue;
     }
     for (std::uint64_t i = first_run_[set]; i < first_run_[set + 1]; ++i) {
-      const Place& place = passive_runs_[i];
+      const RunPlace& place = passive_runs_[i];
       const ShareRun& run = shares_[place.share]->runs()[place.run];
       pieces.push_back({place.offset, run.points, {shares_[place.share], place.share, run.check_sum}});
     }

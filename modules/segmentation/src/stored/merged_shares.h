@@ -16,7 +16,7 @@
 
 namespace pcl_bv::detail {
 
-/// What is left of a brick with points near other shares.
+/// The result of a brick with points near other shares.
 struct ActiveBrick {
   BrickResult result;
   /// Components of shares that have a core point in common with a piece of the brick, and the piece.
@@ -42,7 +42,7 @@ class MergedShares {
 
  private:
   // A run, and the share that has it.
-  struct Place {
+  struct RunPlace {
     std::uint32_t share;
     std::uint32_t run;
     std::uint64_t offset;  // of its first byte in the share
@@ -52,7 +52,7 @@ class MergedShares {
   void find_active_cells();
   void count_runs(const ParallelPolicy& policy, Bricks& bricks);
   void distribute(const Bricks& bricks, std::vector<SpillList>& lists);
-  void add_points_of_run(const Place& place, bool active, const Bricks& bricks, std::size_t block,
+  void add_points_of_run(const RunPlace& place, bool active, const Bricks& bricks, std::size_t block,
                          std::vector<SpillList>& lists);
   void cluster_active(const Bricks& bricks, const std::vector<SpillList>& lists, const Execution& execution);
   void join();
@@ -61,7 +61,6 @@ class MergedShares {
   std::uint32_t component_number(std::size_t share, std::uint32_t component) const {
     return first_component_[share] + component;
   }
-  std::pair<std::size_t, std::uint32_t> share_of(std::uint32_t component) const;
 
   const std::vector<const ClusterShare*>& shares_;
   ClusterOptions options_;
@@ -71,7 +70,7 @@ class MergedShares {
   std::unordered_map<std::uint64_t, CellKind> cells_;
   std::vector<std::uint32_t> first_component_;  // of each share, among all components
   std::vector<std::uint64_t> passive_points_;   // of each component
-  std::vector<Place> passive_runs_;             // by component
+  std::vector<RunPlace> passive_runs_;          // by component
   std::vector<std::uint64_t> first_run_;        // of each component, in passive_runs_; then their number
   std::vector<ActiveBrick> bricks_;
   std::vector<std::uint32_t> first_piece_;  // of each brick, among all sets; components come first
