@@ -16,14 +16,11 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A file is a preamble, the header as JSON, the index (runs, components, texts), a CRC-32 of all these, the
-// records of the points, and the texts.
-constexpr char kObjectFormat[24] = "pcl_bv objects 1\n";
-struct Preamble {
-  char format[sizeof kObjectFormat];
-  std::uint64_t header_bytes, cloud_bytes, runs, components, text_bytes;
-};
-static_assert(sizeof(Preamble) == 64);
+// A share is a preamble, the records of the points, the texts of components, and the index: the header as
+// JSON, what it says about the cloud, runs, components, begins of texts, and a CRC-32 of preamble and index.
+// The records come first, because their number is known before the index is.
+constexpr char kObjectFormat[sizeof ObjectFilePreamble::format] = "pcl_bv objects 1\n";
+static_assert(sizeof(ObjectFilePreamble) == 72);
 static_assert(sizeof(ShareRun) == 24 && sizeof(ShareComponent) == 16);
 
 constexpr std::uint64_t kMaxHeader = 1U << 24U, kMaxItems = std::uint64_t{1} << 32U;
@@ -41,22 +38,15 @@ std::uint32_t check_sum(std::initializer_list<std::string_view> parts) {
   return sum.checksum();
 }
 
+std::string_view bytes_of(const ObjectFilePreamble& preamble) {
+  return {reinterpret_cast<const char*>(&preamble), sizeof preamble};
+}
+
 std::uint64_t points_in(const std::vector<ShareRun>& runs) {
   std::uint64_t points = 0;
   for (const ShareRun& run : runs)
     points += run.points;
   return points;
-}
-
-// Returns the bytes of all records. Throws IoError if they are more than `left`, or a run is empty.
-std::uint64_t record_bytes_of(const std::vector<ShareRun>& runs, ScalarType scalar, std::uint64_t left) {
-  const std::uint64_t step = share_record_bytes(scalar), before = left;
-  for (const ShareRun& run : runs) {
-    if (run.points == 0) throw IoError("its index is wrong");
-    if (run.points > left / step) throw IoError("is truncated");
-    left -= run.points * step;
-  }
-  return before - left;
 }
 
 void require_good(bool good, const char* what) {
@@ -71,119 +61,135 @@ std::string header_text(const ObjectFileHeader& header, ScalarType scalar) {
   return json.dump(-1, ' ', true, UntrustedJson::error_handler_t::replace) + '\n';
 }
 
-void write(std::ofstream& out, std::string_view bytes) {
+void write(std::ostream& out, std::string_view bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!out) throw IoError("cannot be written: is the disk full?");
 }
 
-template <typename Read>
-void copy(const Read& read, std::uint64_t bytes, std::ofstream& out) {
-  std::vector<std::byte> block;
-  for (std::uint64_t done = 0; done < bytes; done += block.size()) {
-    block.resize(std::min<std::uint64_t>(kBlock, bytes - done));
-    read(done, block.data(), block.size());
-    write(out, bytes_of(block));
-  }
-}
-
-// Writes a file with a stream. Creates missing folders of a lasting file.
-void write_stream(const std::filesystem::path& path, FileLife life,
-                  const std::function<void(std::ofstream&)>& work) {
-  const auto write_to = [&](const std::filesystem::path& file) {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    if (!out) throw IoError("cannot be opened for writing");
-    work(out);
-    out.close();
-    if (!out) throw IoError("cannot be written: is the disk full?");
-  };
-  if (life == FileLife::temporary) return write_to(path);
-  create_parent_folders(path);
-  replace_file_atomically(path, write_to);
+template <typename Stream>
+void close(Stream& out) {
+  out.close();
+  require_good(!out.fail(), "cannot be written: is the disk full?");
 }
 
 }  // namespace
 
-void write_object_file(const std::filesystem::path& path, const ObjectFileHeader& header,
-                       const ClusterShare& share,
-                       const std::function<std::string(std::uint32_t component)>& text, FileLife life) {
-  std::vector<std::string> texts(share.components().size());
-  std::vector<ObjectText> index(1);
-  for (std::uint32_t c = 0; c < texts.size(); ++c) {
-    texts[c] = text(c);
-    index.back().check_sum = check_sum({texts[c]});
-    index.push_back({index.back().begin + texts[c].size(), 0});
+std::uint64_t first_record_of_object_file() {
+  return sizeof(ObjectFilePreamble);
+}
+
+void write_object_file(const std::filesystem::path& path, FileLife life,
+                       const std::function<void(const std::filesystem::path& file)>& make) {
+  require_good(!std::filesystem::exists(path) || std::filesystem::is_regular_file(path),
+               "is not a regular file");
+  const auto make_new = [&](const std::filesystem::path& file) {
+    require_good(std::ofstream(file, std::ios::binary | std::ios::trunc).is_open(),
+                 "cannot be opened for writing");
+    make(file);
+  };
+  if (life == FileLife::temporary) return make_new(path);
+  create_parent_folders(path);
+  replace_file_atomically(path, make_new);
+}
+
+void complete_object_file(const std::filesystem::path& file, const ObjectFileHeader& header,
+                          const ClusterShare& share,
+                          const std::function<std::string(std::uint32_t component)>& text) {
+  std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+  require_good(out.is_open(), "cannot be opened for writing");
+  const std::uint64_t records = points_in(share.runs()) * share_record_bytes(share.scalar());
+  out.seekp(static_cast<std::streamoff>(sizeof(ObjectFilePreamble) + records));
+  std::vector<ObjectText> texts(1);
+  for (std::uint32_t c = 0; c < share.components().size(); ++c) {
+    const std::string each = text(c);
+    write(out, each);
+    texts.back().check_sum = check_sum({each});
+    texts.push_back({texts.back().begin + each.size(), 0});
   }
-  const std::string cloud = partial_file_content(header.cloud), own = header_text(header, share.scalar());
-  Preamble preamble{{}, own.size(), cloud.size(), share.runs().size(), texts.size(), index.back().begin};
+  const std::string own = header_text(header, share.scalar()), cloud = partial_file_content(header.cloud);
+  ObjectFilePreamble preamble{{},
+                              records,
+                              texts.back().begin,
+                              own.size(),
+                              cloud.size(),
+                              share.runs().size(),
+                              share.components().size()};
   std::memcpy(preamble.format, kObjectFormat, sizeof kObjectFormat);
-  const std::string_view start(reinterpret_cast<const char*>(&preamble), sizeof preamble);
-  const std::uint32_t sum =
-      check_sum({start, own, cloud, bytes_of(share.runs()), bytes_of(share.components()), bytes_of(index)});
-  write_stream(path, life, [&](std::ofstream& out) {
-    for (const std::string_view part : {start, std::string_view(own), std::string_view(cloud),
-                                        bytes_of(share.runs()), bytes_of(share.components()), bytes_of(index),
-                                        std::string_view(reinterpret_cast<const char*>(&sum), sizeof sum)})
-      write(out, part);
-    copy([&](std::uint64_t at, std::byte* to, std::size_t count) { share.read(at, to, count); },
-         points_in(share.runs()) * share_record_bytes(share.scalar()), out);
-    for (const std::string& each : texts)
-      write(out, each);
-  });
+  const std::string_view runs = bytes_of(share.runs()), components = bytes_of(share.components());
+  const std::uint32_t sum = check_sum({bytes_of(preamble), own, cloud, runs, components, bytes_of(texts)});
+  for (const std::string_view part :
+       {std::string_view(own), std::string_view(cloud), runs, components, bytes_of(texts)})
+    write(out, part);
+  write(out, {reinterpret_cast<const char*>(&sum), sizeof sum});
+  out.seekp(0);
+  write(out, bytes_of(preamble));
+  close(out);
 }
 
 ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begin)
     : file_(std::move(file)), begin_(begin) {
-  Preamble preamble;
-  require_good(file_->size() - begin >= sizeof preamble, "is truncated");
-  file_->read(begin, &preamble, sizeof preamble);
-  require_good(std::memcmp(preamble.format, kObjectFormat, 15) == 0,
+  require_good(file_->size() - begin >= sizeof preamble_, "is truncated");
+  file_->read(begin, &preamble_, sizeof preamble_);
+  require_good(std::memcmp(preamble_.format, kObjectFormat, 15) == 0,
                "is no file of objects, as --partial writes them");
-  require_good(std::memcmp(preamble.format, kObjectFormat, sizeof kObjectFormat) == 0,
+  require_good(std::memcmp(preamble_.format, kObjectFormat, sizeof kObjectFormat) == 0,
                "was written by another version of pcl_bv: this one reads version 1");
-  require_good(preamble.header_bytes <= kMaxHeader && preamble.cloud_bytes <= kMaxHeader &&
-                   preamble.runs <= kMaxItems && preamble.components <= kMaxItems,
+  require_good(preamble_.header_bytes <= kMaxHeader && preamble_.cloud_bytes <= kMaxHeader &&
+                   preamble_.runs <= kMaxItems && preamble_.components <= kMaxItems,
                "is damaged: its index is too large");
-  const std::uint64_t index = preamble.runs * sizeof(ShareRun) +
-                              preamble.components * sizeof(ShareComponent) +
-                              (preamble.components + 1) * sizeof(ObjectText);
-  const std::uint64_t at = begin + sizeof preamble, left = file_->size() - at;
-  require_good(preamble.header_bytes + preamble.cloud_bytes + index + 4 <= left, "is truncated");
-  std::string header(preamble.header_bytes + preamble.cloud_bytes, '\0');
-  file_->read(at, header.data(), header.size());
+  const std::uint64_t left = file_->size() - begin - sizeof preamble_;
+  require_good(preamble_.record_bytes <= left && preamble_.text_bytes <= left - preamble_.record_bytes,
+               "is truncated");
+  read_index();
+  require_right_index();
+}
+
+void ObjectFile::read_index() {
+  std::uint64_t at = begin_ + sizeof preamble_ + preamble_.record_bytes + preamble_.text_bytes;
+  const std::uint64_t bytes = preamble_.header_bytes + preamble_.cloud_bytes +
+                              preamble_.runs * sizeof(ShareRun) +
+                              preamble_.components * sizeof(ShareComponent) +
+                              (preamble_.components + 1) * sizeof(ObjectText) + sizeof(std::uint32_t);
+  require_good(bytes <= file_->size() - at, "is truncated");
+  end_ = at + bytes;
+  std::string header(preamble_.header_bytes + preamble_.cloud_bytes, '\0');
   try {
-    runs_.resize(preamble.runs);
-    components_.resize(preamble.components);
-    texts_.resize(preamble.components + 1);
+    runs_.resize(preamble_.runs);
+    components_.resize(preamble_.components);
+    texts_.resize(preamble_.components + 1);
   } catch (const std::bad_alloc&) {
     throw IoError("its index does not fit in memory");
   }
-  std::uint64_t offset = at + header.size();
-  const auto read_list = [&](auto& list) {
-    const std::size_t bytes = bytes_of(list).size();
-    file_->read(offset, list.data(), bytes);
-    offset += bytes;
+  const auto read_next = [&](void* to, std::size_t count) {
+    file_->read(at, to, count);
+    at += count;
   };
-  read_list(runs_);
-  read_list(components_);
-  read_list(texts_);
   std::uint32_t sum;
-  file_->read(offset, &sum, sizeof sum);
-  const std::string_view start(reinterpret_cast<const char*>(&preamble), sizeof preamble);
-  require_good(sum == check_sum({start, header, bytes_of(runs_), bytes_of(components_), bytes_of(texts_)}),
+  read_next(header.data(), header.size());
+  read_next(runs_.data(), bytes_of(runs_).size());
+  read_next(components_.data(), bytes_of(components_).size());
+  read_next(texts_.data(), bytes_of(texts_).size());
+  read_next(&sum, sizeof sum);
+  require_good(sum == check_sum({bytes_of(preamble_), header, bytes_of(runs_), bytes_of(components_),
+                                 bytes_of(texts_)}),
                "is damaged: the checksum does not match");
-  records_ = offset + sizeof sum;
-  read_header(std::string_view(header).substr(0, preamble.header_bytes));
-  header_.cloud = parse_partial_file(std::string_view(header).substr(preamble.header_bytes), false);
-  const std::uint64_t left_for_points = file_->size() - records_;
-  first_text_ = records_ + record_bytes_of(runs_, scalar_, left_for_points);
-  require_good(preamble.text_bytes <= file_->size() - first_text_, "is truncated");
-  end_ = first_text_ + preamble.text_bytes;
-  for (const ShareRun& run : runs_)
-    require_good(run.component == ShareRun::kNoise || run.component < components_.size(),
-                 "its index is wrong");
+  read_header(std::string_view(header).substr(0, preamble_.header_bytes));
+  header_.cloud = parse_partial_file(std::string_view(header).substr(preamble_.header_bytes), false);
+}
+
+void ObjectFile::require_right_index() const {
+  const std::uint64_t step = share_record_bytes(scalar_);
+  std::uint64_t left = preamble_.record_bytes;
+  bool right = true;
+  for (const ShareRun& run : runs_) {
+    right = right && run.points > 0 && run.points <= left / step &&
+            (run.component == ShareRun::kNoise || run.component < components_.size());
+    left -= right ? run.points * step : 0;
+  }
   const bool sorted = std::is_sorted(texts_.begin(), texts_.end(),
                                      [](const auto& a, const auto& b) { return a.begin < b.begin; });
-  require_good(sorted && texts_.front().begin == 0 && texts_.back().begin == preamble.text_bytes,
+  require_good(right && left == 0 && sorted && texts_.front().begin == 0 &&
+                   texts_.back().begin == preamble_.text_bytes,
                "its index is wrong");
 }
 
@@ -200,7 +206,7 @@ void ObjectFile::read_header(std::string_view content) {
 }
 
 void ObjectFile::read(std::uint64_t first_byte, std::byte* to, std::size_t count) const {
-  file_->read(records_ + first_byte, to, count);
+  file_->read(begin_ + sizeof preamble_ + first_byte, to, count);
 }
 
 void ObjectFile::read_bytes(std::uint64_t first_byte, std::byte* to, std::size_t count) const {
@@ -210,17 +216,25 @@ void ObjectFile::read_bytes(std::uint64_t first_byte, std::byte* to, std::size_t
 std::optional<std::string> ObjectFile::text(std::uint32_t component) const {
   if (!has_text(component)) return std::nullopt;
   std::string text(texts_[component + 1].begin - texts_[component].begin, '\0');
-  file_->read(first_text_ + texts_[component].begin, text.data(), text.size());
+  const std::uint64_t first_text = begin_ + sizeof preamble_ + preamble_.record_bytes;
+  file_->read(first_text + texts_[component].begin, text.data(), text.size());
   require_good(check_sum({text}) == texts_[component].check_sum, "is damaged: a volume has changed");
   return text;
 }
 
 void join_object_files(const std::filesystem::path& path,
                        const std::vector<std::unique_ptr<ObjectFile>>& shares) {
-  write_stream(path, FileLife::lasting, [&](std::ofstream& out) {
-    for (const auto& share : shares)
-      copy([&](std::uint64_t at, std::byte* to, std::size_t count) { share->read_bytes(at, to, count); },
-           share->end() - share->begin(), out);
+  create_parent_folders(path);
+  write_file_atomically(path, [&](const FileSink& sink) {
+    std::vector<std::byte> block;
+    for (const auto& share : shares) {
+      const std::uint64_t bytes = share->end() - share->begin();
+      for (std::uint64_t done = 0; done < bytes; done += block.size()) {
+        block.resize(std::min<std::uint64_t>(kBlock, bytes - done));
+        share->read_bytes(done, block.data(), block.size());
+        sink(bytes_of(block));
+      }
+    }
   });
 }
 

@@ -189,10 +189,8 @@ void add_objects(const StoredClusters& clusters, const Shares& shares, const Opt
   }
 }
 
-}  // namespace
-
-void write_object_share(const Tiles& tiles, const ShareOption& number, const Options& options,
-                        const std::filesystem::path& path, FileLife life) {
+void write_share(const Tiles& tiles, const ShareOption& number, const Options& options,
+                 const std::filesystem::path& path, FileLife life, const GatherCells& gather) {
   const PipelineConfig& config = options.pipeline;
   const PointRange range = tiles.share(number.number, number.count);
   const SharePoints points(tiles, range, options.origin.at, options);
@@ -202,17 +200,32 @@ void write_object_share(const Tiles& tiles, const ShareOption& number, const Opt
   store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
     fitter.visit(brick, found, execution);
   };
-  const MadeClusterShare share(points.view(), table.default_options(), store, config.execution());
-  const std::vector<std::string> texts = fit_share(share, table.default_options(), options, fitter);
-  tiles.require_unchanged();
-  ObjectFileHeader header{describe_cloud(tiles, options.origin.at, options), clusters_text(config),
-                          volumes_text(config), share.invalid_points()};
-  if (range.first < range.second) header.cloud.shares = {range};
-  header.cloud.counts.range = points.counts().range;
-  header.cloud.counts.inside = points.counts().inside;
-  header.nonfinite -= points.counts().range + points.counts().inside;
-  write_object_file(
-      path, header, share, [&](std::uint32_t component) { return texts[component]; }, life);
+  write_object_file(path, life, [&](const std::filesystem::path& file) {
+    const MadeClusterShare share(points.view(), table.default_options(), store, config.execution(),
+                                 {file, first_record_of_object_file(), gather});
+    const std::vector<std::string> texts = fit_share(share, table.default_options(), options, fitter);
+    tiles.require_unchanged();
+    ObjectFileHeader header{describe_cloud(tiles, options.origin.at, options), clusters_text(config),
+                            volumes_text(config), share.invalid_points()};
+    if (range.first < range.second) header.cloud.shares = {range};
+    header.cloud.counts.range = points.counts().range;
+    header.cloud.counts.inside = points.counts().inside;
+    header.nonfinite -= points.counts().range + points.counts().inside;
+    complete_object_file(file, header, share, [&](std::uint32_t component) { return texts[component]; });
+  });
+}
+
+}  // namespace
+
+void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
+                        const std::filesystem::path& path) {
+  write_share(tiles, share, options, path, FileLife::lasting, {});
+}
+
+void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
+                                  const std::filesystem::path& path, const GatherCells& gather) {
+  // With --check, merging reads all points.
+  write_share(tiles, share, options, path, FileLife::temporary, options.check ? GatherCells() : gather);
 }
 
 Status make_object_file(const Job& job, const Options& options) {
@@ -227,7 +240,7 @@ Status make_object_file(const Job& job, const Options& options) {
       return Status::done;
     }
     if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
-    write_object_share(*job.tiles, options.share, options, *options.partial, FileLife::lasting);
+    write_object_share(*job.tiles, options.share, options, *options.partial);
     report_notes(*job.tiles);
     return Status::done;
   } catch (const TileError& error) {

@@ -20,7 +20,12 @@ namespace pcl_bv::detail {
 /// Finds the clusters of a share, fits their volumes and writes them to a file. Throws TileError for an input
 /// that fails, and std::runtime_error if a file cannot be written.
 void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                        const std::filesystem::path& path, FileLife life);
+                        const std::filesystem::path& path);
+
+/// As write_object_share(), for a file that is merged with those of all other shares by the same run of a
+/// program. Only what this needs is written (ShareRecords::gather).
+void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
+                                  const std::filesystem::path& path, const GatherCells& gather);
 
 /// Finds the clusters of the share that the options name, fits their volumes and writes the file of
 /// --partial. Or, with --merge, writes all files to one. Reports problems on standard error.

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <new>
 #include <vector>
@@ -56,15 +58,61 @@ class CommonFolder {
   std::filesystem::path path_;
 };
 
+// Sends the cells of each rank to all others, while it writes its file.
+class CellMessages {
+ public:
+  explicit CellMessages(Ranks& ranks) : ranks_(ranks) {}
+
+  /// Thrown if another rank has failed.
+  struct OtherRankFailed {};
+
+  /// A collective call, as GatherCells.
+  std::vector<std::uint64_t> gather(const std::vector<std::uint64_t>& own) {
+    std::string text(own.size() * sizeof(std::uint64_t), '\0');
+    std::memcpy(text.data(), own.data(), text.size());
+    const std::vector<std::string> all = exchange(text);
+    std::vector<std::uint64_t> others;
+    for (std::size_t rank = 0; rank < all.size(); ++rank) {
+      if (all[rank] == kFailed) throw OtherRankFailed();
+      if (rank == ranks_.rank()) continue;
+      const std::size_t before = others.size();
+      others.resize(before + all[rank].size() / sizeof(std::uint64_t));
+      std::memcpy(others.data() + before, all[rank].data(), all[rank].size());
+    }
+    return others;
+  }
+
+  /// Tells other ranks that wait for the cells of this rank that it has failed.
+  void end() {
+    if (calls_ < 2 && !failed_) exchange(kFailed);
+  }
+
+ private:
+  static constexpr const char* kFailed = "failed";  // the bytes of cells are a multiple of 8
+
+  std::vector<std::string> exchange(const std::string& text) {
+    std::vector<std::string> all = ranks_.all_gather(text);
+    ++calls_;
+    failed_ = std::find(all.begin(), all.end(), kFailed) != all.end();
+    return all;
+  }
+
+  Ranks& ranks_;
+  int calls_ = 0;
+  bool failed_ = false;
+};
+
 // Writes the file of a rank. Returns the input that fails on any rank. Throws IoError on all ranks if a rank
 // cannot write.
 std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
                                         const CommonFolder& folder) {
   std::string problem;
+  CellMessages messages(ranks);
   const auto failure = run_and_catch([&] {
     try {
-      write_object_share(tiles, {ranks.rank(), ranks.size()}, options, folder.file(ranks.rank()),
-                         FileLife::temporary);
+      write_temporary_object_share(tiles, {ranks.rank(), ranks.size()}, options, folder.file(ranks.rank()),
+                                   [&](const auto& cells) { return messages.gather(cells); });
+    } catch (const CellMessages::OtherRankFailed&) {  // it says why
     } catch (const TileError&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -73,6 +121,7 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
       problem = error.what();
     }
   });
+  if (!options.check) messages.end();
   for (const std::string& each : ranks.all_gather(problem))
     if (!each.empty()) throw IoError(each);
   return first_failure(ranks, failure);
@@ -92,19 +141,21 @@ Status detail::find_merged_objects(Ranks& ranks, Tiles& tiles, const Options& op
     status = Status::failed;
   }
   std::string problem;
-  if (ranks.first()) {
+  ranks.work_on_first([&](std::size_t ranks_here) {
     try {
       report_notes(tiles);
       std::vector<std::string> files;
       for (std::size_t rank = 0; rank < ranks.size(); ++rank)
         files.push_back(folder.file(rank));
-      status = worse(status, merge_object_files(files, options, report));
+      Options merging = options;
+      merging.pipeline.threads *= static_cast<decltype(merging.pipeline.threads)>(ranks_here);
+      status = worse(status, merge_object_files(files, merging, report));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
       problem = error.what();
     }
-  }
+  });
   problem = ranks.broadcast(problem);
   if (!problem.empty()) throw IoError(problem);
   return status;

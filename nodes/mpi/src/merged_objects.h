@@ -13,9 +13,9 @@
 namespace pcl_bv::detail {
 
 /// A collective call. Each rank finds the clusters of its share and fits their volumes. The first rank joins
-/// them and sets the report. Ranks pass files in a folder that the first rank makes in its folder of temporary
-/// files ($TMPDIR), which all ranks must be able to access. An input that fails on any rank is reported once
-/// and left out. Throws IoError on all ranks if no input is left or a file cannot be written.
+/// them and sets the report. Ranks pass files in a folder that the first rank makes in its folder of
+/// temporary files ($TMPDIR), which all ranks must be able to access. An input that fails on any rank is
+/// reported once and left out. Throws IoError on all ranks if no input is left or a file cannot be written.
 Status find_merged_objects(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
 
 }  // namespace pcl_bv::detail

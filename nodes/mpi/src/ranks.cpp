@@ -4,10 +4,13 @@
 #include "ranks.h"
 
 #include <mpi.h>
+#include <sched.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 #include <type_traits>
 
 namespace pcl_bv {
@@ -85,6 +88,29 @@ std::vector<std::string> Ranks::all_gather(const std::string& text) {
     texts.push_back(
         joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(lengths[i])));
   return texts;
+}
+
+void Ranks::work_on_first(const std::function<void(std::size_t ranks)>& work) {
+  MPI_Comm machine = MPI_COMM_NULL;
+  int ranks = 1;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &ranks);
+  // mpirun binds each rank to processors of its own.
+  cpu_set_t own{}, all{};
+  sched_getaffinity(0, sizeof own, &own);
+  MPI_Allreduce(&own, &all, sizeof own, MPI_BYTE, MPI_BOR, machine);
+  MPI_Comm_free(&machine);
+  if (first()) {
+    sched_setaffinity(0, sizeof all, &all);
+    work(static_cast<std::size_t>(ranks));
+    sched_setaffinity(0, sizeof own, &own);
+  }
+  MPI_Request all_here = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
+  for (int done = 0; done == 0;) {
+    MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
+    if (done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) {

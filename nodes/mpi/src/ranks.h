@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,6 +46,10 @@ class Ranks {
 
   /// Sets `of_all` to the farthest points of all ranks. Returns whether `failed` is true on any rank.
   bool merge_farthest(const detail::OctantPoints& own, bool failed, detail::OctantPoints& of_all);
+
+  /// Calls work(ranks) on the first rank, while the others sleep. During the call the first rank may use the
+  /// processors of the other ranks of its machine; `ranks` is the number of ranks there.
+  void work_on_first(const std::function<void(std::size_t ranks)>& work);
 
   // The following functions send a message from one rank to another.
 

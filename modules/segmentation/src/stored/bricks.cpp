@@ -66,6 +66,14 @@ const Bricks::Cell* Bricks::find(std::uint64_t key) const {
   return found == cells_.end() ? nullptr : &found->second;
 }
 
+std::vector<std::uint64_t> Bricks::cells() const {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(cells_.size());
+  for (const auto& [key, cell] : cells_)
+    keys.push_back(key);
+  return keys;
+}
+
 bool Bricks::is_inner(std::uint64_t key, const Cell& cell) const {
   for (int i = 0; i < 27; ++i) {
     const Cell* const other = find(BrickGrid::neighbour(key, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
@@ -79,7 +87,7 @@ void Bricks::divide(std::size_t max_points) {
   cells.reserve(cells_.size());
   for (const auto& [key, cell] : cells_)
     cells.push_back({key, BrickGrid::position(key), cell.points});
-  size_ = 0;
+  first_point_ = {0};
   std::vector<CellRange> ranges;
   if (!cells.empty()) ranges.emplace_back(cells.begin(), cells.end());
   while (!ranges.empty()) {
@@ -93,8 +101,8 @@ void Bricks::divide(std::size_t max_points) {
       continue;
     }
     for (auto it = range.first; it != range.second; ++it)
-      cells_.at(it->key).brick = static_cast<std::uint32_t>(size_);
-    ++size_;
+      cells_.at(it->key).brick = static_cast<std::uint32_t>(size());
+    first_point_.push_back(first_point_.back() + points);
   }
   for (auto& [key, cell] : cells_)
     cell.inner = is_inner(key, cell);

@@ -34,10 +34,16 @@ class Bricks {
   /// Counts points of a cell. To be called for all points before divide().
   void count(std::uint64_t cell_key, std::uint64_t points) { cells_[cell_key].points += points; }
 
+  /// Returns the keys of the cells with points.
+  std::vector<std::uint64_t> cells() const;
+
   /// Makes bricks of at most `max_points` own points. A single cell may exceed it.
   void divide(std::size_t max_points);
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return first_point_.size() - 1; }
+
+  /// Returns the number of points that belong to earlier bricks. `brick` can be size().
+  std::uint64_t points_before(std::uint32_t brick) const { return first_point_[brick]; }
 
   /// The brick to which a point belongs, and the bricks whose points it can affect.
   struct Place {
@@ -58,7 +64,7 @@ class Bricks {
 
   BrickGrid grid_;
   std::unordered_map<std::uint64_t, Cell> cells_;
-  std::size_t size_ = 0;
+  std::vector<std::uint64_t> first_point_ = {0};  // of each brick; then the number of all points
 };
 
 }  // namespace pcl_bv::detail

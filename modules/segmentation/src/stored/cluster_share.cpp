@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "active_cells.h"
 #include "brick_workers.h"
 #include "joined_pieces.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -27,9 +28,11 @@ class ShareWorker {
  public:
   ShareWorker(const DistributedPoints& all, ScalarType scalar, const ClusterOptions& options,
               const StoredClusterOptions& store, const Execution& execution, SpillFile& file,
-              std::vector<ShareBrick>& bricks)
-      : components_(all.bricks, scalar, options, PieceRule::all, execution, file),
-        writer_(components_, grid_of_runs(options, scalar), file),
+              const std::optional<NearCells>& near, SpillFile& records, std::vector<ShareBrick>& bricks)
+      : all_(all.bricks),
+        components_(all.bricks, scalar, options, PieceRule::all, execution, file),
+        writer_(components_, grid_of_runs(options, scalar), near),
+        records_(records),
         options_(options),
         store_(store),
         execution_(execution),
@@ -40,8 +43,9 @@ class ShareWorker {
   void operator()(std::uint32_t number, const std::vector<std::byte>& records) {
     components_.find(number, records, record_bytes(components_.scalar()));
     ShareBrick& brick = bricks_[number];
-    brick.runs = writer_.write(records);
+    brick.runs = writer_.make(records);
     brick.shared = components_.shared_points();
+    write(number);
     if (!store_.visit) return;
     const std::vector<PointView> views =
         writer_.complete_pieces(brick.runs, records, options_, brick.visited);
@@ -49,8 +53,23 @@ class ShareWorker {
   }
 
  private:
+  // Writes the records behind those of earlier bricks.
+  void write(std::uint32_t brick) {
+    const std::size_t step = record_bytes(components_.scalar());
+    const std::uint64_t first = all_.points_before(brick), end = all_.points_before(brick + 1);
+    std::uint64_t points = 0;
+    for (const ShareRun& run : bricks_[brick].runs.runs)
+      points += run.points;
+    if (points != end - first) throw std::runtime_error(kPointsChanged);
+    for (const WrittenRecords& part : writer_.written())
+      records_.write((first + part.first_in_brick) * step, &writer_.buffer()[part.first * step],
+                     part.count * step);
+  }
+
+  const Bricks& all_;
   BrickComponents components_;
   RunWriter writer_;
+  SpillFile& records_;
   ClusterOptions options_;
   const StoredClusterOptions& store_;
   Execution execution_;
@@ -75,24 +94,20 @@ std::size_t share_record_bytes(ScalarType scalar) {
 }
 
 struct MadeClusterShare::State {
-  explicit State(const std::filesystem::path& folder) : file(folder) {}
+  State(const std::filesystem::path& folder, const ShareRecords& written)
+      : file(folder),
+        records(written.file.empty() ? SpillFile(folder) : SpillFile(written.file, written.first_byte)) {}
 
   void add(const std::vector<ShareBrick>& bricks);
   void join(const std::vector<ShareBrick>& bricks);
 
-  SpillFile file;
+  SpillFile file, records;
   ScalarType scalar = ScalarType::float32;
   std::size_t invalid = 0;
   std::vector<ShareRun> runs;
   std::vector<ShareComponent> components;
   std::vector<std::optional<StoredVisit>> visits;  // of the components
   std::vector<std::uint32_t> component_of;         // of the pieces of all bricks
-  // Where records are: those from byte `first` on are in the extent.
-  struct Part {
-    std::uint64_t first;
-    Extent extent;
-  };
-  std::vector<Part> parts;
 };
 
 // Gives numbers to the components. A component is a set of pieces; its number is that of its first piece.
@@ -120,11 +135,8 @@ void MadeClusterShare::State::add(const std::vector<ShareBrick>& bricks) {
   join(bricks);
   visits.resize(components.size());
   std::size_t first_piece = 0;
-  std::uint64_t bytes = 0;
   for (std::size_t b = 0; b < bricks.size(); ++b) {
     const BrickRuns& brick = bricks[b].runs;
-    parts.push_back({bytes, brick.records});
-    bytes += brick.records.bytes;
     for (ShareRun run : brick.runs) {
       if (run.component != ShareRun::kNoise) run.component = component_of[first_piece + run.component];
       runs.push_back(run);
@@ -141,16 +153,19 @@ void MadeClusterShare::State::add(const std::vector<ShareBrick>& bricks) {
 }
 
 MadeClusterShare::MadeClusterShare(const PointView& points, const ClusterOptions& options,
-                                   const StoredClusterOptions& store, const Execution& execution) {
+                                   const StoredClusterOptions& store, const Execution& execution,
+                                   const ShareRecords& written) {
   const FloatEnvironment environment;
   check_stored(options);
-  state_ = std::make_unique<State>(store.folder);
+  state_ = std::make_unique<State>(store.folder, written);
   state_->scalar = points.scalar;
   const DistributedPoints all = distribute(points, options, store, execution, state_->file);
   state_->invalid = all.invalid;
+  std::optional<NearCells> near;
+  if (written.gather) near = {all.bricks.grid(), cells_near_others(all.bricks.cells(), written.gather)};
   std::vector<ShareBrick> bricks(all.lists.size());
   for_each_brick(all.lists, store, execution, state_->file, [&](const Execution& part) {
-    return ShareWorker(all, points.scalar, options, store, part, state_->file, bricks);
+    return ShareWorker(all, points.scalar, options, store, part, state_->file, near, state_->records, bricks);
   });
   state_->add(bricks);
 }
@@ -174,17 +189,7 @@ std::size_t MadeClusterShare::invalid_points() const {
 }
 
 void MadeClusterShare::read(std::uint64_t first_byte, std::byte* to, std::size_t count) const {
-  const std::vector<State::Part>& parts = state_->parts;
-  auto part = std::prev(std::upper_bound(parts.begin(), parts.end(), first_byte,
-                                         [](std::uint64_t byte, const auto& p) { return byte < p.first; }));
-  for (; count > 0; ++part) {
-    const std::uint64_t skipped = first_byte - part->first;
-    const std::size_t here = std::min<std::uint64_t>(count, part->extent.bytes - skipped);
-    state_->file.read(part->extent.offset + skipped, to, here);
-    to += here;
-    count -= here;
-    first_byte += here;
-  }
+  state_->records.read(first_byte, to, count);
 }
 
 }  // namespace pcl_bv::detail

@@ -101,7 +101,7 @@ void place_points(const PointView& part, std::size_t first, const Bricks& bricks
     const Coordinates p = load_point(part, i);
     if (!is_valid(p)) continue;
     const Bricks::Place place = bricks.place(p, cursor);
-    if (place.own == Bricks::kNone) throw std::runtime_error("the points have changed while they were read");
+    if (place.own == Bricks::kNone) throw std::runtime_error(kPointsChanged);
     write_coordinates(p, part.scalar, record);
     const auto add = [&](std::uint32_t brick, std::uint64_t number) {
       std::memcpy(record + step, &number, sizeof number);

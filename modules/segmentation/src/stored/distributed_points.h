@@ -15,6 +15,9 @@
 
 namespace pcl_bv::detail {
 
+/// Text of the error if passes over the points find different ones.
+inline constexpr char kPointsChanged[] = "the points have changed while they were read";
+
 /// Throws std::invalid_argument for options that clusters of bricks do not have.
 void check_stored(const ClusterOptions& options);
 

@@ -118,44 +118,12 @@ MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const
   }
   passive_points_.assign(components, 0);
   Bricks bricks(grid_of_runs(options, scalar_));
-  find_active_cells();
+  cells_ = find_active_cells(shares);
   count_runs(execution.parallel, bricks);
   std::vector<SpillList> lists(bricks.size());
   distribute(bricks, lists);
   cluster_active(bricks, lists, execution);
   join();
-}
-
-// A cell is active if it has points, and it and the cells around it have points of several shares.
-void MergedShares::find_active_cells() {
-  constexpr std::uint32_t several = ~std::uint32_t{0};
-  std::unordered_map<std::uint64_t, std::uint32_t> share_of_cell;
-  for (std::size_t s = 0; s < shares_.size(); ++s) {
-    for (const ShareRun& run : shares_[s]->runs()) {
-      const auto [it, added] = share_of_cell.emplace(run.cell, static_cast<std::uint32_t>(s));
-      if (!added && it->second != s) it->second = several;
-    }
-  }
-  if (shares_.size() < 2) return;  // cells that are not listed are passive
-  const auto for_each_around = [](std::uint64_t cell, const auto& visit) {
-    for (int i = 0; i < 27; ++i)
-      visit(BrickGrid::neighbour(cell, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-  };
-  std::vector<std::uint64_t> active;
-  for (const auto& [cell, share] : share_of_cell) {
-    bool others = share == several;
-    for_each_around(cell, [&, own = share](std::uint64_t around) {
-      const auto found = others ? share_of_cell.end() : share_of_cell.find(around);
-      others = others || (found != share_of_cell.end() && found->second != own);
-    });
-    if (others) active.push_back(cell);
-  }
-  for (const std::uint64_t cell : active)
-    for_each_around(cell, [&](std::uint64_t around) {
-      if (share_of_cell.contains(around)) cells_.emplace(around, CellKind::near_active);
-    });
-  for (const std::uint64_t cell : active)
-    cells_[cell] = CellKind::active;
 }
 
 // Counts the points of active cells in bricks, and those of passive cells in components.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "active_cells.h"
 #include "brick_clusters.h"
 #include "distributed_points.h"
 #include "pcl_bv/segmentation/cluster_share.h"
@@ -47,9 +48,7 @@ class MergedShares {
     std::uint32_t run;
     std::uint64_t offset;  // of its first byte in the share
   };
-  enum class CellKind : std::uint8_t { passive, near_active, active };
 
-  void find_active_cells();
   void count_runs(const ParallelPolicy& policy, Bricks& bricks);
   void distribute(const Bricks& bricks, std::vector<SpillList>& lists);
   void add_points_of_run(const RunPlace& place, bool active, const Bricks& bricks, std::size_t block,

@@ -24,21 +24,27 @@ std::uint32_t RunWriter::piece_of(std::size_t record) const {
                                               : components_.components()[component].piece;
 }
 
-// Sorts the records of the brick by piece, and those of a piece by cell. Keeps the order otherwise.
+// Sorts the records of the brick by piece, and keeps their order otherwise.
 void RunWriter::sort(const std::vector<std::byte>& records, std::size_t piece_count) {
   const ScalarType scalar = components_.scalar();
   const PointView view = view_of_records(records, record_bytes(scalar), scalar);
   const auto is_own = [&](std::size_t i) {
     return (number_of_record(view.address(i), scalar) & kOfOtherBrick) == 0;
   };
-  cell_.resize(view.count);
   begin_.assign(piece_count + 2, 0);
+  is_near_.assign(piece_count + 1, near_ ? 0 : 1);
   GridCell cell;
+  bool near = false;
   for (std::size_t i = 0; i < view.count; ++i) {
     if (!is_own(i)) continue;
-    ++begin_[piece_of(i) + 1];
-    if (const auto at = grid_.scaled(load_point(view, i)); !cell.contains(at)) cell = grid_.cell_of(at);
-    cell_[i] = cell.key;
+    const std::uint32_t piece = piece_of(i);
+    ++begin_[piece + 1];
+    if (!near_) continue;
+    if (const auto at = near_->grid.scaled(load_point(view, i)); !cell.contains(at)) {
+      cell = near_->grid.cell_of(at);
+      near = near_->keys.contains(cell.key);
+    }
+    is_near_[piece] |= static_cast<std::uint8_t>(near);
   }
   for (std::size_t p = 1; p < begin_.size(); ++p)
     begin_[p] += begin_[p - 1];
@@ -48,14 +54,17 @@ void RunWriter::sort(const std::vector<std::byte>& records, std::size_t piece_co
     if (is_own(i)) order_[next[piece_of(i)]++] = static_cast<std::uint32_t>(i);
 }
 
-BrickRuns RunWriter::write(const std::vector<std::byte>& records) {
+BrickRuns RunWriter::make(const std::vector<std::byte>& records) {
   const std::size_t pieces = components_.piece_count();
   sort(records, pieces);
+  const PointView view = view_of_records(records, record_bytes(components_.scalar()), components_.scalar());
+  cell_.resize(view.count);
   BrickRuns brick;
   brick.pieces.resize(pieces);
   brick.is_complete.assign(pieces, 0);
   for (const BrickComponents::Component& component : components_.components())
     if (component.piece != BrickComponents::kNoPiece) brick.is_complete[component.piece] = !component.shared;
+  buffer_.clear();
   written_.clear();
   const ScalarType scalar = components_.scalar();
   for (std::size_t p = 0; p <= pieces; ++p) {
@@ -64,10 +73,27 @@ BrickRuns RunWriter::write(const std::vector<std::byte>& records) {
       const std::byte* const record = records.data() + order_[first] * record_bytes(scalar);
       brick.pieces[p] = {end - first, number_of_record(record, scalar) & kNumberMask};
     }
-    add_runs(records, first, end, p < pieces ? static_cast<std::uint32_t>(p) : ShareRun::kNoise, brick.runs);
+    const std::uint32_t component = p < pieces ? static_cast<std::uint32_t>(p) : ShareRun::kNoise;
+    if (first == end) continue;
+    find_cells(view, first, end, is_near_[p] != 0);
+    if (is_near_[p] != 0 || (p < pieces && brick.is_complete[p] == 0)) {
+      add_runs(records, first, end, component, brick.runs);
+    } else {
+      brick.runs.push_back({cell_[order_[first]], end - first, component, 0});
+    }
   }
-  brick.records = file_.append(written_.data(), written_.size());
   return brick;
+}
+
+// Finds the cells of the records of a piece: of each record, or the first one's for all.
+void RunWriter::find_cells(const PointView& view, std::size_t first, std::size_t end, bool each) {
+  GridCell cell = grid_.cell_of(grid_.scaled(load_point(view, order_[first])));
+  for (std::size_t i = first; i < end; ++i) {
+    if (each)
+      if (const auto at = grid_.scaled(load_point(view, order_[i])); !cell.contains(at))
+        cell = grid_.cell_of(at);
+    cell_[order_[i]] = cell.key;
+  }
 }
 
 void RunWriter::add_runs(const std::vector<std::byte>& records, std::size_t first, std::size_t end,
@@ -78,19 +104,22 @@ void RunWriter::add_runs(const std::vector<std::byte>& records, std::size_t firs
                                     order_.begin() + static_cast<std::ptrdiff_t>(end));
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return cell_[a] < cell_[b]; });
+  if (written_.empty() || written_.back().first_in_brick + written_.back().count != first)
+    written_.push_back({first, buffer_.size() / step, 0});
+  written_.back().count += end - first;
   for (std::size_t i = 0; i < sorted.size();) {
-    const std::size_t begin = written_.size();
+    const std::size_t begin = buffer_.size();
     const std::uint64_t cell = cell_[sorted[i]];
     std::uint64_t points = 0;
     for (; i < sorted.size() && cell_[sorted[i]] == cell; ++i, ++points) {
       const std::byte* const record = records.data() + sorted[i] * step;
       const std::uint64_t number =
           (number_of_record(record, scalar) & kNumberMask) | (components_.is_core(sorted[i]) ? kCore : 0);
-      const std::size_t at = written_.size();
-      written_.insert(written_.end(), record, record + step);
-      std::memcpy(written_.data() + at + point_bytes(scalar), &number, sizeof number);
+      const std::size_t at = buffer_.size();
+      buffer_.insert(buffer_.end(), record, record + step);
+      std::memcpy(buffer_.data() + at + point_bytes(scalar), &number, sizeof number);
     }
-    runs.push_back({cell, points, component, run_check_sum(&written_[begin], written_.size() - begin)});
+    runs.push_back({cell, points, component, run_check_sum(&buffer_[begin], buffer_.size() - begin)});
   }
 }
 

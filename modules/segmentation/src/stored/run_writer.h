@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include "brick_clusters.h"
@@ -19,19 +21,34 @@ BrickGrid grid_of_runs(const ClusterOptions& options, ScalarType scalar);
 
 /// The runs of a brick.
 struct BrickRuns {
-  Extent records;
   std::vector<ShareRun> runs;  ///< With numbers of pieces as components, or kNoise.
   std::vector<ShareComponent> pieces;
   std::vector<std::uint8_t> is_complete;  ///< For each piece, whether all its points are in the brick.
 };
 
-/// Writes the brick whose components were found last, with all components as pieces.
+/// Cells near other shares.
+struct NearCells {
+  BrickGrid grid;
+  std::unordered_set<std::uint64_t> keys;
+};
+
+/// Records that follow one another in the brick and in a buffer.
+struct WrittenRecords {
+  std::uint64_t first_in_brick, first, count;
+};
+
+/// Makes runs of the brick whose components were found last, with all components as pieces.
 class RunWriter {
  public:
-  RunWriter(const BrickComponents& components, const BrickGrid& grid, SpillFile& file)
-      : components_(components), grid_(grid), file_(file) {}
+  /// With `near`, a piece without points in these cells is one run. If it is complete or noise, its records
+  /// are not written.
+  RunWriter(const BrickComponents& components, const BrickGrid& grid, const std::optional<NearCells>& near)
+      : components_(components), grid_(grid), near_(near) {}
 
-  BrickRuns write(const std::vector<std::byte>& records);
+  BrickRuns make(const std::vector<std::byte>& records);
+  /// Returns the records to write. Valid until the next call.
+  const std::vector<std::byte>& buffer() const { return buffer_; }
+  const std::vector<WrittenRecords>& written() const { return written_; }
 
   /// Returns the complete pieces of allowed sizes, as views of packed points in the order of the cloud. Valid
   /// until the next call. `pieces` gets their numbers.
@@ -41,16 +58,19 @@ class RunWriter {
  private:
   void sort(const std::vector<std::byte>& records, std::size_t piece_count);
   std::uint32_t piece_of(std::size_t record) const;
+  void find_cells(const PointView& view, std::size_t first, std::size_t end, bool each);
   void add_runs(const std::vector<std::byte>& records, std::size_t first, std::size_t end,
                 std::uint32_t component, std::vector<ShareRun>& runs);
 
   const BrickComponents& components_;
   BrickGrid grid_;
-  SpillFile& file_;
-  std::vector<std::uint64_t> cell_;   // for each record
-  std::vector<std::uint32_t> order_;  // records by piece; noise is last
-  std::vector<std::size_t> begin_;    // for each piece, in order_; then the ends of pieces and of noise
-  std::vector<std::byte> written_, packed_;
+  const std::optional<NearCells>& near_;
+  std::vector<std::uint8_t> is_near_;  // for each piece, then for noise, whether it has points in near cells
+  std::vector<std::uint64_t> cell_;    // for each record
+  std::vector<std::uint32_t> order_;   // records by piece; noise is last
+  std::vector<std::size_t> begin_;     // for each piece, in order_; then the ends of pieces and of noise
+  std::vector<std::byte> buffer_, packed_;
+  std::vector<WrittenRecords> written_;
 };
 
 }  // namespace pcl_bv::detail

@@ -16,23 +16,26 @@
 namespace pcl_bv::detail {
 namespace {
 
-[[noreturn]] void fail(const char* what, const std::filesystem::path& folder, int error) {
-  throw std::runtime_error(std::string("cannot ") + what + " a temporary file in " + folder.string() + ": " +
+[[noreturn]] void fail(const char* what, const std::string& name, int error) {
+  throw std::runtime_error(std::string("cannot ") + what + ' ' + name + ": " +
                            std::generic_category().message(error));
-}
-
-int open_unnamed(const std::filesystem::path& folder) {
-  std::string name = (folder / "pcl_bv_XXXXXX").string();
-  const int fd = ::mkostemp(name.data(), O_CLOEXEC);
-  if (fd < 0) fail("make", folder, errno);
-  ::unlink(name.c_str());
-  return fd;
 }
 
 }  // namespace
 
-SpillFile::SpillFile(const std::filesystem::path& folder)
-    : folder_(folder.empty() ? std::filesystem::temp_directory_path() : folder), fd_(open_unnamed(folder_)) {}
+SpillFile::SpillFile(const std::filesystem::path& given) {
+  const std::filesystem::path folder = given.empty() ? std::filesystem::temp_directory_path() : given;
+  name_ = "a temporary file in " + folder.string();
+  std::string path = (folder / "pcl_bv_XXXXXX").string();
+  fd_ = ::mkostemp(path.data(), O_CLOEXEC);
+  if (fd_ < 0) fail("make", name_, errno);
+  ::unlink(path.c_str());
+}
+
+SpillFile::SpillFile(const std::filesystem::path& file, std::uint64_t begin)
+    : name_("its points"), fd_(::open(file.c_str(), O_RDWR | O_CLOEXEC)), begin_(begin) {
+  if (fd_ < 0) fail("open", name_, errno);
+}
 
 SpillFile::~SpillFile() {
   ::close(fd_);
@@ -45,15 +48,15 @@ Extent SpillFile::append(const void* bytes, std::size_t count) {
 }
 
 void SpillFile::reserve(std::uint64_t bytes) {
-  if (::ftruncate(fd_, static_cast<off_t>(end_ += bytes)) != 0) fail("write", folder_, errno);
+  if (::ftruncate(fd_, static_cast<off_t>(begin_ + (end_ += bytes))) != 0) fail("write", name_, errno);
 }
 
 void SpillFile::write(std::uint64_t offset, const void* bytes, std::size_t count) {
   const char* from = static_cast<const char*>(bytes);
   while (count > 0) {
-    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(offset));
+    const ssize_t written = ::pwrite(fd_, from, count, static_cast<off_t>(begin_ + offset));
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("write", folder_, written < 0 ? errno : ENOSPC);
+    if (written <= 0) fail("write", name_, written < 0 ? errno : ENOSPC);
     from += written;
     count -= static_cast<std::size_t>(written);
     offset += static_cast<std::uint64_t>(written);
@@ -63,9 +66,9 @@ void SpillFile::write(std::uint64_t offset, const void* bytes, std::size_t count
 void SpillFile::read(std::uint64_t offset, void* to, std::size_t count) const {
   char* at = static_cast<char*>(to);
   while (count > 0) {
-    const ssize_t got = ::pread(fd_, at, count, static_cast<off_t>(offset));
+    const ssize_t got = ::pread(fd_, at, count, static_cast<off_t>(begin_ + offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) fail("read", folder_, got < 0 ? errno : EIO);
+    if (got <= 0) fail("read", name_, got < 0 ? errno : EIO);
     at += got;
     count -= static_cast<std::size_t>(got);
     offset += static_cast<std::uint64_t>(got);
@@ -76,7 +79,8 @@ void SpillFile::discard(const Extent& extent) {
 #ifdef FALLOC_FL_PUNCH_HOLE
   if (extent.bytes > 0)
     static_cast<void>(::fallocate(fd_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
-                                  static_cast<off_t>(extent.offset), static_cast<off_t>(extent.bytes)));
+                                  static_cast<off_t>(begin_ + extent.offset),
+                                  static_cast<off_t>(extent.bytes)));
 #endif
 }
 

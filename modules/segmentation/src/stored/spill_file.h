@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A temporary file without a name.
+// Files for what does not fit in memory.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pcl_bv::detail {
@@ -17,13 +18,15 @@ struct Extent {
   std::uint64_t offset = 0, bytes = 0;
 };
 
-/// Bytes that do not fit in memory. The file has no name, so the system frees its space when the process
-/// ends. All functions may be called by several threads at the same time.
+/// Bytes that do not fit in memory. All functions may be called by several threads at the same time.
 class SpillFile {
  public:
-  /// Makes the file in a folder; an empty path is the system's folder of temporary files. Throws
-  /// std::runtime_error with the reason.
+  /// Makes a file without a name in a folder, so the system frees its space when the process ends. An empty
+  /// path is the system's folder of temporary files. Throws std::runtime_error with the reason.
   explicit SpillFile(const std::filesystem::path& folder);
+  /// Opens an existing file to write from byte `begin` on, which is offset 0 of all functions. Throws as
+  /// above.
+  SpillFile(const std::filesystem::path& file, std::uint64_t begin);
   ~SpillFile();
   SpillFile(const SpillFile&) = delete;
   SpillFile& operator=(const SpillFile&) = delete;
@@ -45,8 +48,9 @@ class SpillFile {
   void discard(const Extent& extent);
 
  private:
-  std::filesystem::path folder_;
+  std::string name_;  // in messages
   int fd_ = -1;
+  std::uint64_t begin_ = 0;
   std::atomic<std::uint64_t> end_ = 0;
 };
 

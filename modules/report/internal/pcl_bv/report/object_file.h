@@ -33,6 +33,12 @@ struct ObjectText {
   std::uint64_t begin = 0, check_sum = 0;
 };
 
+/// The first bytes of a share in a file.
+struct ObjectFilePreamble {
+  char format[24];
+  std::uint64_t record_bytes, text_bytes, header_bytes, cloud_bytes, runs, components;
+};
+
 /// The clusters of a share in a file. The index (24 bytes for each run and 32 for each component) is in
 /// memory.
 class ObjectFile final : public ClusterShare {
@@ -61,10 +67,13 @@ class ObjectFile final : public ClusterShare {
   }
 
  private:
+  void read_index();
   void read_header(std::string_view content);
+  void require_right_index() const;
 
   std::shared_ptr<const InputFile> file_;
-  std::uint64_t begin_, end_ = 0, records_ = 0, first_text_ = 0;
+  std::uint64_t begin_, end_ = 0;
+  ObjectFilePreamble preamble_;
   ObjectFileHeader header_;
   ScalarType scalar_ = ScalarType::float32;
   std::vector<ShareRun> runs_;
@@ -77,12 +86,19 @@ enum class FileLife : std::uint8_t {
   temporary  ///< For another process that reads it now. Waiting for the disk would take seconds.
 };
 
-/// Writes a share, and creates missing folders. `text` returns the text of each component; an empty
-/// text is none. Throws IoError, and what reading the share throws.
-void write_object_file(const std::filesystem::path& path, const ObjectFileHeader& header,
-                       const ClusterShare& share,
-                       const std::function<std::string(std::uint32_t component)>& text,
-                       FileLife life = FileLife::lasting);
+/// Calls `make` with an empty file, to which it writes a share: its records from the byte
+/// first_record_of_object_file() on (RecordFile), and then the rest by complete_object_file(). Creates
+/// missing folders of a lasting file. Throws IoError, and what `make` throws.
+void write_object_file(const std::filesystem::path& path, FileLife life,
+                       const std::function<void(const std::filesystem::path& file)>& make);
+
+std::uint64_t first_record_of_object_file();
+
+/// Writes all but the records of a share behind them. `text` is called for each component in their order, and
+/// returns its text; an empty text is none. Throws IoError.
+void complete_object_file(const std::filesystem::path& file, const ObjectFileHeader& header,
+                          const ClusterShare& share,
+                          const std::function<std::string(std::uint32_t component)>& text);
 
 /// Writes several shares to one file, atomically.
 void join_object_files(const std::filesystem::path& path,

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -72,13 +74,27 @@ class ClusterShare {
 /// Returns the number of bytes of a record of a share.
 std::size_t share_record_bytes(ScalarType scalar);
 
-/// Clusters the points of a share. The records are in a temporary file.
+/// A collective call of all shares. Takes keys of the cells of a share and returns those of all other shares.
+using GatherCells = std::function<std::vector<std::uint64_t>(const std::vector<std::uint64_t>& own)>;
+
+/// Which records a share writes, and where.
+struct ShareRecords {
+  /// An existing file and the byte from which records are written; empty for a temporary file.
+  std::filesystem::path file;
+  std::uint64_t first_byte = 0;
+  /// If set, records that are not needed to merge the share with the others are not written: those of visited
+  /// components and noise that no other share can affect. They must not be read.
+  GatherCells gather{};
+};
+
+/// Clusters the points of a share.
 class MadeClusterShare final : public ClusterShare {
  public:
   /// As StoredClusters; options about sizes are ignored, and StoredClusterOptions::visit is called with the
   /// components of one brick that have an allowed size. Points have the numbers PointView::index(i).
   MadeClusterShare(const PointView& points, const ClusterOptions& options,
-                   const StoredClusterOptions& store = {}, const Execution& execution = {});
+                   const StoredClusterOptions& store = {}, const Execution& execution = {},
+                   const ShareRecords& written = {});
   ~MadeClusterShare() override;
 
   ScalarType scalar() const override;

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Finds where points of several shares are near each other.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "pcl_bv/segmentation/cluster_share.h"
+
+namespace pcl_bv::detail {
+
+enum class CellKind : std::uint8_t {
+  passive,      ///< It and the cells around it have points of one share only.
+  near_active,  ///< Passive, and an active cell is around it.
+  active
+};
+
+/// Returns the cells of a share that have points of other shares in or around them. Makes two calls of
+/// gather().
+std::unordered_set<std::uint64_t> cells_near_others(const std::vector<std::uint64_t>& cells,
+                                                    const GatherCells& gather);
+
+/// Returns the cells with points that are active or near an active cell.
+std::unordered_map<std::uint64_t, CellKind> find_active_cells(const std::vector<const ClusterShare*>& shares);
+
+}  // namespace pcl_bv::detail
