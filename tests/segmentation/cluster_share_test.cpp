@@ -206,7 +206,7 @@ TYPED_TEST(ClusterSharesOf, NeedOnlyThePointsNearOtherShares) {
       for (const ShareRun& run : share->runs())
         unwritten += run.check_sum == 0 ? run.points : 0;
   }
-  EXPECT_GT(unwritten, points / 4);
+  EXPECT_GT(unwritten, points / 8);
 }
 
 TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudOnNastyClouds) {
