@@ -99,6 +99,17 @@ TEST_F(PcdBvObjectFiles, OfATiledCloudAreThoseOfTheWholeCloud) {
   }
 }
 
+TEST_F(PcdBvObjectFiles, OfSharesAreThoseOfTheWholeCloud) {
+  const Points points = clumps(2);
+  const std::string folder = tiles("tiles", points, 7);
+  for (const char* const part : {"0/3", "1/3", "2/3"})
+    ASSERT_EQ(run({"--cluster", "0.5", "--volume", "aabb", "--partial", at("parts/") + part[0], "--part",
+                   part, folder})
+                  .status,
+              0);
+  expect_objects(report_of({"--merge", "--objects", at("out"), at("parts")}), points, at("out"));
+}
+
 TEST_F(PcdBvObjectFiles, OfSeveralInputsAreInAFolderForEach) {
   const Points first = clumps(3), second = clumps(4);
   const std::string a = binary("a.pcd", first), b = binary("b.pcd", second);
@@ -146,7 +157,7 @@ TEST_F(PcdBvObjectFiles, AreRejectedWhereThereAreNoObjectsOrInputsWouldBeLost) {
            {"--objects", at("out"), cloud},
            {"--together", "--objects", at("out"), cloud},
            {"--partial", at("p"), "--objects", at("out"), cloud},
-           {"--merge", "--cluster", "1", "--objects", at("out"), at("p")},
+           {"--merge", "--objects", at("out"), at("p")},
            {"--cluster", "1", "--objects", at("in"), cloud},
            {"--together", "--cluster", "1", "--objects", at("in"), at("in")}}) {
     const Result result = run(arguments);

@@ -158,8 +158,8 @@ TEST_F(PcdBvObjectShares, NameFilesThatCannotBeMerged) {
 
 TEST_F(PcdBvObjectShares, RefuseWhatTheyDoNotHave) {
   const std::string folder = tiles("tiles", gaussian(100, 8), 2);
-  for (const std::vector<std::string>& options :
-       std::vector<std::vector<std::string>>{{"--ground", "slope"}, {"--class", "class"}, {"--check"}}) {
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--ground", "slope"}, {"--objects", at("o")}, {"--labels", at("l")}, {"--check"}}) {
     const Result result = objects(options, {"--cluster", "1", "--partial", at("p")}, folder);
     EXPECT_EQ(result.status, 2) << result.err;
     EXPECT_EQ(result.error_lines(), 1U) << result.err;

@@ -159,6 +159,47 @@ TEST_F(PcdBvTiledMaps, AreThoseOfOneFileWithGroundClassesAndBoth) {
   }
 }
 
+TEST_F(PcdBvTiledMaps, OfSharesWithClassesAreThoseOfOneProcess) {
+  const std::string own = classes(
+      "{value: 2, drop: true}, {value: 3, tolerance: 0.2, min_size: 2, volumes: [sphere, dop14]}, "
+      "{value: 6, tolerance: 1.5, max_size: 4000}");
+  const std::vector<std::vector<std::string>> options = {
+      {"--cluster", "0.6", "--class", "class", "--volume", "aabb,sphere"},
+      {"--config", own, "--volume", "aabb,obb-lshape", "--max-extent", "30,30,3", "--min-points", "3"}};
+  for (unsigned seed = 1; seed <= options.size(); ++seed) {
+    SCOPED_TRACE(seed);
+    const std::string name = std::to_string(seed);
+    Map map = town(seed, 60'000);
+    map.erase(
+        std::remove_if(map.begin(), map.begin() + 20'000, [](const MapPoint& p) { return p.value == 4; }),
+        map.begin() + 20'000);  // the first share has no point of a class
+    const std::string tiles = pcd_tiles("tiles" + name, map, 5);
+    const Result expected = objects(options[seed - 1], {"--together"}, tiles);
+    ASSERT_GT(expected.json()["clusters"].size(), 20U);
+    for (const std::size_t count : {1UL, 4UL}) {
+      const std::string parts = at("parts" + name + std::to_string(count));
+      for (std::size_t k = 0; k < count; ++k) {
+        std::vector<std::string> share = {"--partial", parts + "/" + std::to_string(k), "--part",
+                                          std::to_string(k) + "/" + std::to_string(count), tiles};
+        share.insert(share.end(), options[seed - 1].begin(), options[seed - 1].end());
+        const Result made = run(share);
+        ASSERT_EQ(made.status, 0) << made.err;
+      }
+      for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--check"}}) {
+        std::vector<std::string> merge = {"--merge"}, together = {"--together"};
+        merge.insert(merge.end(), more.begin(), more.end());
+        together.insert(together.end(), more.begin(), more.end());
+        const Result merged = objects(options[seed - 1], merge, parts);
+        EXPECT_EQ(merged.status, 0) << merged.err;
+        EXPECT_TRUE(merged.out == objects(options[seed - 1], together, tiles).out) << count << " shares";
+      }
+      const Result other = objects({"--cluster", "0.6"}, {"--merge"}, parts);
+      EXPECT_EQ(other.status, 1);
+      EXPECT_THAT(other.err, HasSubstr(" --class class"));
+    }
+  }
+}
+
 TEST_F(PcdBvTiledMaps, CountWhatGroundAndClassesDrop) {
   const Map map = town(4, 40'000);
   const std::string tiles = pcd_tiles("tiles", map, 3);

@@ -143,7 +143,11 @@ TEST_F(PcdBvTogether, ShowsHowManyPointsItHasRead) {
       run({"--together", "--progress", "synth:gauss:3000000", "synth:gauss:3000000:2"}, {.terminal = true});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("2 files, "));
-  EXPECT_THAT(result.err, HasSubstr(" M points read in all passes"));
+  EXPECT_THAT(result.err, testing::ContainsRegex(" M points read in all passes, [0-9.]+ s, [1-9][0-9]* MB"));
+  const Result share =
+      run({"--partial", at("share"), "--progress", "synth:gauss:6000000"}, {.terminal = true});
+  EXPECT_THAT(share.err,
+              testing::ContainsRegex("[0-9.]+ M points read in all passes, [0-9.]+ s, [1-9][0-9]* MB"));
 }
 
 TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {

@@ -18,7 +18,6 @@
 #include "command.h"
 
 namespace pcl_bv::test {
-using namespace detail;
 namespace {
 
 // Evenly in [0, 1).

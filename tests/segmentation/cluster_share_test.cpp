@@ -254,6 +254,24 @@ TEST(ClusterShares, SayWhichClustersAreComponentsOfAShareAndDoNotReadThosePoints
       joined.component(0).has_value() + joined.component(1).has_value() + joined.component(2).has_value(), 2);
 }
 
+TEST(ClusterShares, OfMoreRunsThanAreReadAtATimeKeepTheOrderOfTheCloud) {
+  test::TestCloud<float> cloud{"a line in any order", {}};
+  std::vector<float> along(8000);
+  std::iota(along.begin(), along.end(), 0.0F);
+  std::mt19937_64 random(1);
+  std::shuffle(along.begin(), along.end(), random);
+  for (const float x : along)
+    cloud.xyz.insert(cloud.xyz.end(), {x, 0, 0});
+  ClusterOptions options;
+  options.tolerance = 1.01F;
+  Shares shares;
+  for (const std::size_t first : {0U, 4000U})
+    shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(first, 4000), options));
+  EXPECT_GT(shares[0]->runs().size() + shares[1]->runs().size(), 2048U);
+  EXPECT_EQ(bytes_of(StoredClusters(pointers(shares), options)),
+            bytes_of(cloud.view(), cluster(cloud.view(), options)));
+}
+
 // A share whose records change after it was made.
 class DamagedShare final : public ClusterShare {
  public:

@@ -54,10 +54,12 @@ void require_good(bool good, const char* what) {
 }
 
 std::string header_text(const ObjectFileHeader& header, ScalarType scalar) {
-  const nlohmann::ordered_json json{{"scalar", scalar == ScalarType::float32 ? "float32" : "float64"},
-                                    {"nonfinite", header.nonfinite},
-                                    {"clusters", header.clusters},
-                                    {"volumes", header.volumes}};
+  nlohmann::ordered_json json{{"scalar", scalar == ScalarType::float32 ? "float32" : "float64"},
+                              {"nonfinite", header.nonfinite},
+                              {"clusters", header.clusters},
+                              {"volumes", header.volumes},
+                              {"dropped_class", header.dropped_class}};
+  if (header.class_value) json["class"] = *header.class_value;
   return json.dump(-1, ' ', true, UntrustedJson::error_handler_t::replace) + '\n';
 }
 
@@ -92,13 +94,13 @@ void write_object_file(const std::filesystem::path& path, FileLife life,
   replace_file_atomically(path, make_new);
 }
 
-void complete_object_file(const std::filesystem::path& file, const ObjectFileHeader& header,
-                          const ClusterShare& share,
-                          const std::function<std::string(std::uint32_t component)>& text) {
+std::uint64_t complete_object_file(const std::filesystem::path& file, std::uint64_t begin,
+                                   const ObjectFileHeader& header, const ClusterShare& share,
+                                   const std::function<std::string(std::uint32_t component)>& text) {
   std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
   require_good(out.is_open(), "cannot be opened for writing");
   const std::uint64_t records = points_in(share.runs()) * share_record_bytes(share.scalar());
-  out.seekp(static_cast<std::streamoff>(sizeof(ObjectFilePreamble) + records));
+  out.seekp(static_cast<std::streamoff>(begin + sizeof(ObjectFilePreamble) + records));
   std::vector<ObjectText> texts(1);
   for (std::uint32_t c = 0; c < share.components().size(); ++c) {
     const std::string each = text(c);
@@ -121,9 +123,11 @@ void complete_object_file(const std::filesystem::path& file, const ObjectFileHea
        {std::string_view(own), std::string_view(cloud), runs, components, bytes_of(texts)})
     write(out, part);
   write(out, {reinterpret_cast<const char*>(&sum), sizeof sum});
-  out.seekp(0);
+  const auto end = static_cast<std::uint64_t>(out.tellp());
+  out.seekp(static_cast<std::streamoff>(begin));
   write(out, bytes_of(preamble));
   close(out);
+  return end;
 }
 
 ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begin)
@@ -200,6 +204,8 @@ void ObjectFile::read_header(std::string_view content) {
     header_.nonfinite = json.at("nonfinite").get<std::size_t>();
     header_.clusters = json.at("clusters").get<std::string>();
     header_.volumes = json.at("volumes").get<std::string>();
+    header_.dropped_class = json.at("dropped_class").get<std::size_t>();
+    if (json.contains("class")) header_.class_value = json.at("class").get<std::int64_t>();
   } catch (const UntrustedJson::exception&) {
     throw IoError("its header cannot be read");
   }

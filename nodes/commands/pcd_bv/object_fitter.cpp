@@ -66,9 +66,6 @@ std::vector<Object> ObjectFitter::fit(const StoredClusters& clusters) {
   for_each_cluster(clusters, execution_, [&](std::size_t i, const Execution& execution) {
     const auto visited = clusters.visit(i);
     objects[i] = visited ? take(*visited) : fit(clusters.points(i).view(), execution);
-    objects[i].first_number = clusters.first_number(i);
-    objects[i].clusters = &clusters;
-    objects[i].cluster = i;
   });
   return objects;
 }

@@ -28,8 +28,8 @@ StoredClusterOptions store_options(const Options& options, ScalarType scalar);
 struct Object {
   ExtentVerdict verdict = ExtentVerdict::keep;
   ClusterEntry entry;
-  std::size_t first_number = 0;  ///< Number of its first point in the cloud.
-  /// The cluster, as long as the StoredClusters live.
+  std::size_t first_number = 0;  ///< Set by ObjectList: number of its first point in the cloud.
+  /// Set by ObjectList: the cluster, as long as the StoredClusters live.
   const StoredClusters* clusters = nullptr;
   std::size_t cluster = 0;
 };

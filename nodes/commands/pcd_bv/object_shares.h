@@ -23,17 +23,25 @@ void write_object_share(const Tiles& tiles, const ShareOption& share, const Opti
                         const std::filesystem::path& path);
 
 /// As write_object_share(), for a file that is merged with those of all other shares by the same run of a
-/// program. Only what this needs is written (ShareRecords::gather).
+/// program. Only what this needs is written (ShareRecords::gather). `gather` is not called if the options
+/// need all records.
 void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
                                   const std::filesystem::path& path, const GatherCells& gather);
+
+bool needs_all_records(const Options& options);
 
 /// Finds the clusters of the share that the options name, fits their volumes and writes the file of
 /// --partial. Or, with --merge, writes all files to one. Reports problems on standard error.
 Status make_object_file(const Job& job, const Options& options);
 
+/// Writes the shares of all files to the file of --partial. Reports each file that does not belong to the
+/// others; then returns false.
+bool join_object_files(const std::vector<std::string>& files, const Options& options);
+
 /// Merges the clusters of the files. Volumes are those of the files if they have the requested methods, and
-/// are fitted if not. Reports each file that cannot be merged; then the report has an error. Returns whether
-/// all volumes were fitted, as report_failures().
-Status merge_object_files(const std::vector<std::string>& files, const Options& options, Report& report);
+/// are fitted if not. Writes the points of the objects if the job says so. Reports each file that cannot be
+/// merged; then the report has an error. Returns whether all volumes were fitted, as report_failures().
+Status merge_object_files(const Job& job, const std::vector<std::string>& files, const Options& options,
+                          Report& report);
 
 }  // namespace pcl_bv::detail

@@ -194,7 +194,6 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject_combinations(line, with_clusters.c_str(), {"--image", "--view-html"});
     if (!over_ranks) reject_combinations(line, with_clusters.c_str(), {"--gpu"});
     reject(ground && shares, "--ground (ground.method)");
-    reject(config.cluster.class_field && shares, "--class (cluster.class_field)");
     reject(ground && config.ground.method != GroundMethod::slope,
            "--ground plane or zones (ground.method), only with --ground slope");
     reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
@@ -209,7 +208,8 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   reject(over_ranks && options.clusters() && options.origin.requested && !options.origin.at,
          "--origin auto and --cluster over ranks");
   if (!options.merge && !options.partial) return;
-  reject_combinations(line, option, {"--image", "--view-html", "--info", "--objects"});
+  reject_combinations(line, option, {"--image", "--view-html", "--info"});
+  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--objects"});
   if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
   if (options.merge)
     reject_combinations(line, option,

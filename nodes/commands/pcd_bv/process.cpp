@@ -29,29 +29,14 @@
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "shares.h"
+#include "stopwatch.h"
+#include "tile_progress.h"
 #include "tiled_objects.h"
 #include "view_html.h"
 
 namespace pcl_bv {
 using namespace detail;
 namespace {
-
-class Stopwatch {
- public:
-  /// Returns the seconds since the last lap(), or since construction.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
-  /// Returns the seconds since the last lap(), or since construction, without a new lap.
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// If requested, counts the points outside of each volume whose fit has not failed.
 void check(const PointView& cloud, const FrameResult& result, const Options& options,
@@ -182,15 +167,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
 /// Processes a cloud that is tiled over several inputs. If an input fails, excludes it and processes the
 /// cloud again without it.
 Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
-  const Stopwatch watch;
-  if (options.progress && errors_go_to_a_terminal()) {
-    job.tiles->on_loaded = [watch, &tiles = *job.tiles](std::size_t points) {
-      char text[120];
-      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s",
-                    tiles.included_count(), static_cast<double>(points) / 1e6, watch.seconds());
-      show_status_line(text);
-    };
-  }
+  const TileProgress progress(*job.tiles, options);
   Status status = report_excluded_inputs(*job.tiles);
   for (;;) {
     if (job.tiles->included_count() == 0) throw IoError("no input could be read");
@@ -211,7 +188,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
 Status process_partials(const Job& job, const Options& options, Report& report) {
   if (options.clusters()) {
     report.file = kTiledName;
-    const Status status = merge_object_files(job.partials, options, report);
+    const Status status = merge_object_files(job, job.partials, options, report);
     return report.error ? status : worse(status, write_mesh(job, report.clusters));
   }
   Stopwatch watch;

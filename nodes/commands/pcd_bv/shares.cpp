@@ -14,6 +14,7 @@
 #include "object_shares.h"
 #include "pipeline/config/settings.h"
 #include "shifted_points.h"
+#include "tile_progress.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -158,6 +159,7 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
   }
   // No input may be excluded: the other shares contain it, so they would belong to a different cloud.
   if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
+  const TileProgress progress(*job.tiles, options);
   const Execution execution = execution_of(options);
   PartialFile file = describe_cloud(*job.tiles, options.origin.at, options);
   const PointRange range = job.tiles->share(options.share.number, options.share.count);

@@ -4,19 +4,17 @@
 #include "tiled_objects.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "class_points.h"
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
-#include "object_files.h"
 #include "object_fitter.h"
+#include "object_list.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/segmentation/stored_clusters.h"
 #include "pipeline/class_table.h"
@@ -24,17 +22,12 @@
 #include "pipeline/filtered_view.h"
 #include "pipeline/ground_view.h"
 #include "process.h"
+#include "stopwatch.h"
 #include "tiled_labels.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 // The points to be clustered, and the stages that have dropped others.
 struct RemainingPoints {
@@ -68,27 +61,17 @@ class TiledObjects {
   TiledObjects(const Options& options, ScalarType scalar, Report& report)
       : options_(options),
         report_(report),
+        list_(options, report),
         table_(options.pipeline),
         store_(store_options(options, scalar)) {}
 
-  // Adds the objects of all classes. They have the order of the objects of a cloud in memory.
+  // Adds the objects of all classes.
   void add_classes(const ClassifiedPoints& cloud, const RemainingPoints& remaining) {
-    const ParallelPolicy& policy = options_.pipeline.execution().parallel;
-    std::size_t valid = 0;
-    for (const auto& [value, count] : count_classes(cloud, policy)) {
-      valid += count;
-      const auto own = std::find_if(table_.class_options().begin(), table_.class_options().end(),
-                                    [value = value](const ClassOptions& one) { return one.value == value; });
-      const bool has_own = own != table_.class_options().end();
-      if (has_own && own->drop) {
-        report_.counts.dropped_class += count;
-      } else {
-        add_clusters(ClassPoints(cloud, value).view(), has_own ? own->clusters : table_.default_options(),
-                     value);
-      }
-    }
-    set_dropped_counts(remaining, valid, report_);
-    sort();
+    const Classes classes = find_classes(cloud, table_, options_.pipeline.execution().parallel);
+    report_.counts.dropped_class += classes.dropped;
+    for (const auto& [value, clusters] : classes.kept)
+      add_clusters(ClassPoints(cloud, value).view(), clusters, value);
+    set_dropped_counts(remaining, classes.valid, report_);
   }
 
   // Adds the objects of points without classes.
@@ -97,32 +80,13 @@ class TiledObjects {
     set_dropped_counts(remaining, remaining.points.count - invalid, report_);
   }
 
+  ObjectList& list() { return list_; }
   double fit_seconds() const { return fit_seconds_; }
-
-  void write_report() {
-    report_.clusters.clear();
-    for (Object& object : objects_) {
-      object.entry.id = report_.clusters.size();
-      if (options_.labels) {
-        std::vector<std::uint32_t>& id_of = ids_[object.clusters];
-        id_of.resize(object.clusters->size(), kLabelNone);
-        id_of[object.cluster] = static_cast<std::uint32_t>(object.entry.id);
-      }
-      report_.clusters.push_back(std::move(object.entry));
-    }
-  }
 
   // Returns the labels of points as labels_of() does.
   std::vector<std::uint32_t> labels(const RemainingPoints& remaining, std::size_t first,
                                     std::size_t count) const {
-    std::vector<std::uint32_t> labels(count, kLabelNone);
-    for (const auto& clusters : found_) {
-      if (!ids_.contains(clusters.get())) continue;  // no object
-      const std::vector<std::uint32_t>& id_of = ids_.at(clusters.get());
-      const std::vector<std::uint32_t> found = clusters->labels(first, count);
-      for (std::size_t i = 0; i < count; ++i)
-        if (found[i] != StoredClusters::kNoCluster) labels[i] = id_of[found[i]];
-    }
+    std::vector<std::uint32_t> labels = list_.labels(first, count);
     if (remaining.ground.owner == nullptr) return labels;
     const LoadedPoints before(remaining.filtered.points, first, count), after(remaining.points, first, count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -130,14 +94,6 @@ class TiledObjects {
       if (ground) labels[i] = kLabelGround;
     }
     return labels;
-  }
-
-  // Writes the points of each object to a file.
-  Status write_points(const std::filesystem::path& folder) const {
-    return write_objects(
-        folder, objects_.size(), options_.pipeline.execution().parallel, [&](std::size_t id) {
-          write_object(folder, id, objects_[id].clusters->points(objects_[id].cluster).view());
-        });
   }
 
  private:
@@ -149,49 +105,27 @@ class TiledObjects {
     store.visit = [&](std::size_t brick, const std::vector<PointView>& found, const Execution& execution) {
       fitter.visit(brick, found, execution);
     };
-    found_.push_back(std::make_unique<StoredClusters>(points, options, store, options_.pipeline.execution()));
-    const StoredClusters& clusters = *found_.back();
-    Counts& counts = report_.counts;
-    counts.small += clusters.counts().small;
-    counts.large += clusters.counts().large;
-    counts.noise += clusters.counts().noise;
-    const Clock::time_point begin = Clock::now();
-    std::vector<Object> objects = fitter.fit(clusters);
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-      const ExtentVerdict verdict = objects[i].verdict;
-      if (verdict == ExtentVerdict::small) counts.small += clusters.point_count(i);
-      if (verdict == ExtentVerdict::large) counts.large += clusters.point_count(i);
-      if (verdict == ExtentVerdict::keep) objects_.push_back(std::move(objects[i]));
-    }
-    fit_seconds_ += seconds_since(begin);
-    const std::size_t invalid = clusters.counts().nonfinite;
-    if (!options_.objects && !options_.labels) found_.pop_back();
+    auto clusters = std::make_unique<StoredClusters>(points, options, store, options_.pipeline.execution());
+    const std::size_t invalid = clusters->counts().nonfinite;
+    const Stopwatch watch;
+    std::vector<Object> objects = fitter.fit(*clusters);
+    fit_seconds_ += watch.seconds();
+    list_.add(std::move(clusters), std::move(objects));
     return invalid;
-  }
-
-  // Sorts the objects of several classes: the largest first, then by their first point.
-  void sort() {
-    std::sort(objects_.begin(), objects_.end(), [](const Object& a, const Object& b) {
-      return a.entry.points != b.entry.points ? a.entry.points > b.entry.points
-                                              : a.first_number < b.first_number;
-    });
   }
 
   const Options& options_;
   Report& report_;
+  ObjectList list_;
   ClassTable table_;
   StoredClusterOptions store_;
-  std::vector<std::unique_ptr<StoredClusters>> found_;  // of each class, if points are to be written
-  std::vector<Object> objects_;
-  // For each cluster, the id of its object, or kLabelNone. If labels are to be written.
-  std::unordered_map<const StoredClusters*, std::vector<std::uint32_t>> ids_;
   double fit_seconds_ = 0;
 };
 
 // Finds the clusters of a cloud, whose points may be in files, fits the volumes and writes the points of
 // objects.
 Status add_objects_of(const PointView& cloud, const Job& job, const Options& options, Report& report) {
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch watch;
   const PipelineConfig& config = options.pipeline;
   report.points = cloud.count;
   report.counts = Counts();
@@ -202,10 +136,10 @@ Status add_objects_of(const PointView& cloud, const Job& job, const Options& opt
   } else {
     objects.add_all(remaining);
   }
-  objects.write_report();
-  const double all = seconds_since(begin);
+  objects.list().write_report();
+  const double all = watch.seconds();
   if (options.timings) report.seconds = {0, all - objects.fit_seconds(), objects.fit_seconds()};
-  const Status written = job.objects ? objects.write_points(*job.objects) : Status::done;
+  const Status written = job.objects ? objects.list().write_points(*job.objects) : Status::done;
   return worse(written, write_tile_labels(job, [&](std::size_t first, std::size_t count) {
                  return objects.labels(remaining, first, count);
                }));

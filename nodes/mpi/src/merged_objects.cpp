@@ -121,7 +121,7 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
       problem = error.what();
     }
   });
-  if (!options.check) messages.end();
+  if (!needs_all_records(options)) messages.end();
   for (const std::string& each : ranks.all_gather(problem))
     if (!each.empty()) throw IoError(each);
   return first_failure(ranks, failure);
@@ -129,7 +129,8 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
 
 }  // namespace
 
-Status detail::find_merged_objects(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
+Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& options, Report& report) {
+  Tiles& tiles = *job.tiles;
   Status status = ranks.first() ? report_excluded_inputs(tiles) : Status::done;
   const CommonFolder folder(ranks);
   for (;;) {
@@ -149,7 +150,7 @@ Status detail::find_merged_objects(Ranks& ranks, Tiles& tiles, const Options& op
         files.push_back(folder.file(rank));
       Options merging = options;
       merging.pipeline.threads *= static_cast<decltype(merging.pipeline.threads)>(ranks_here);
-      status = worse(status, merge_object_files(files, merging, report));
+      status = worse(status, merge_object_files(job, files, merging, report));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {

@@ -16,6 +16,6 @@ namespace pcl_bv::detail {
 /// them and sets the report. Ranks pass files in a folder that the first rank makes in its folder of
 /// temporary files ($TMPDIR), which all ranks must be able to access. An input that fails on any rank is
 /// reported once and left out. Throws IoError on all ranks if no input is left or a file cannot be written.
-Status find_merged_objects(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
+Status find_merged_objects(Ranks& ranks, const Job& job, const Options& options, Report& report);
 
 }  // namespace pcl_bv::detail

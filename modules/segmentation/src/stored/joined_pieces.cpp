@@ -4,6 +4,7 @@
 #include "joined_pieces.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <queue>
@@ -16,6 +17,9 @@ namespace {
 constexpr std::size_t kReadBytes = 64U << 10U;     // of a piece at a time
 constexpr std::size_t kAllReadBytes = 64U << 20U;  // of all pieces of a cluster
 constexpr std::size_t kWriteBytes = 1U << 20U;
+// Pieces that are merged at a time. More of them are first sorted in memory to pieces of this many points.
+constexpr std::size_t kMaxPieces = kAllReadBytes / kReadBytes;
+constexpr std::size_t kSortedPoints = 1U << 20U;
 
 std::vector<SharedPoint> read(const SpillFile& file, const Extent& extent) {
   std::vector<SharedPoint> points(extent.bytes / sizeof(SharedPoint));
@@ -62,7 +66,69 @@ std::vector<std::uint32_t> order_by_root(const std::vector<std::uint32_t>& roots
   return order;
 }
 
+namespace {
+
+std::uint64_t points_of(const std::vector<Piece>& pieces) {
+  return std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Piece& piece) { return sum + piece.points; });
+}
+
+void discard(const std::vector<Piece>& pieces, ScalarType scalar, SpillFile& file) {
+  for (const Piece& piece : pieces)
+    if (piece.from.share == nullptr) file.discard({piece.offset, piece.points * record_bytes(scalar)});
+}
+
+// Writes records with the numbers of the merged cloud, in their order.
+class PieceSorter {
+ public:
+  PieceSorter(ScalarType scalar, SpillFile& file) : scalar_(scalar), file_(file) {}
+
+  void add(const Piece& piece) {
+    const std::size_t step = record_bytes(scalar_);
+    for (PieceReader reader(file_, piece, scalar_, kWriteBytes); !reader.done(); reader.next()) {
+      order_.emplace_back(reader.number(), static_cast<std::uint32_t>(order_.size()));
+      records_.insert(records_.end(), reader.record(), reader.record() + step);
+      if (order_.size() == kSortedPoints) write();
+    }
+  }
+
+  // Returns the sorted pieces.
+  std::vector<Piece> finish() {
+    if (!order_.empty()) write();
+    return std::move(sorted_);
+  }
+
+ private:
+  void write() {
+    const std::size_t step = record_bytes(scalar_);
+    std::sort(order_.begin(), order_.end());
+    written_.resize(records_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      std::memcpy(&written_[i * step], &records_[order_[i].second * step], point_bytes(scalar_));
+      std::memcpy(&written_[i * step + point_bytes(scalar_)], &order_[i].first, kNumberBytes);
+    }
+    sorted_.push_back({file_.append(written_.data(), written_.size()).offset, order_.size()});
+    order_.clear();
+    records_.clear();
+  }
+
+  ScalarType scalar_;
+  SpillFile& file_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  // numbers, and positions in records_
+  std::vector<std::byte> records_, written_;
+  std::vector<Piece> sorted_;
+};
+
+}  // namespace
+
 StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, SpillFile& file) {
+  if (pieces.size() > kMaxPieces && pieces.size() * kSortedPoints > points_of(pieces) * 2) {
+    PieceSorter sorter(scalar, file);
+    for (const Piece& piece : pieces)
+      sorter.add(piece);
+    discard(pieces, scalar, file);
+    return merge_pieces(sorter.finish(), scalar, file);
+  }
   std::vector<PieceReader> readers;
   readers.reserve(pieces.size());
   for (const Piece& piece : pieces)
@@ -88,8 +154,7 @@ StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, 
     if (!reader.done()) next.emplace(reader.number(), number);
   }
   if (!points.empty()) write();
-  for (const Piece& piece : pieces)
-    if (piece.from.share == nullptr) file.discard({piece.offset, piece.points * record_bytes(scalar)});
+  discard(pieces, scalar, file);
   return cluster;
 }
 

@@ -26,6 +26,16 @@ struct ObjectFileHeader {
   std::string clusters;       ///< The options of the clustering. Shares with other options do not merge.
   std::string volumes;        ///< The options of the volumes. Volumes with other options are fitted again.
   std::size_t nonfinite = 0;  ///< Number of points of the share that are not valid.
+  /// With classes, a share is a share of the cloud for each class. The first one has the counts of all.
+  std::optional<std::int64_t> class_value{};
+  std::size_t dropped_class = 0;  ///< Number of points of the share whose class is dropped.
+
+  /// Removes points and counts, for the next class of the same points.
+  void without_points() {
+    cloud.shares.clear();
+    cloud.counts = Counts();
+    nonfinite = dropped_class = 0;
+  }
 };
 
 /// Where the text of a component begins among all texts, and its CRC-32.
@@ -87,18 +97,20 @@ enum class FileLife : std::uint8_t {
 };
 
 /// Calls `make` with an empty file, to which it writes a share: its records from the byte
-/// first_record_of_object_file() on (RecordFile), and then the rest by complete_object_file(). Creates
+/// first_record_of_object_file() on (ShareRecords), and then the rest by complete_object_file(). Creates
 /// missing folders of a lasting file. Throws IoError, and what `make` throws.
 void write_object_file(const std::filesystem::path& path, FileLife life,
                        const std::function<void(const std::filesystem::path& file)>& make);
 
+/// Returns where the records of a share begin, from its own begin on.
 std::uint64_t first_record_of_object_file();
 
-/// Writes all but the records of a share behind them. `text` is called for each component in their order, and
-/// returns its text; an empty text is none. Throws IoError.
-void complete_object_file(const std::filesystem::path& file, const ObjectFileHeader& header,
-                          const ClusterShare& share,
-                          const std::function<std::string(std::uint32_t component)>& text);
+/// Writes all but the records of a share that begins at a byte of a file. `text` is called for each component
+/// in their order, and returns its text; an empty text is none. Returns where the next share begins. Throws
+/// IoError.
+std::uint64_t complete_object_file(const std::filesystem::path& file, std::uint64_t begin,
+                                   const ObjectFileHeader& header, const ClusterShare& share,
+                                   const std::function<std::string(std::uint32_t component)>& text);
 
 /// Writes several shares to one file, atomically.
 void join_object_files(const std::filesystem::path& path,

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Merges files of objects.
+
+#include <algorithm>
+#include <map>
+#include <new>
+#include <utility>
+
+#include "class_points.h"
+#include "commands/shared/interruption.h"
+#include "commands/shared/messages.h"
+#include "object_fitter.h"
+#include "object_list.h"
+#include "object_shares.h"
+#include "object_texts.h"
+#include "pcl_bv/io/raw_cloud.h"
+#include "process.h"
+#include "stopwatch.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// Clouds of files that were made independently. They are parts of one cloud in the order of the files.
+class MergedClouds {
+ public:
+  /// Throws std::invalid_argument if the share does not belong to the others.
+  void add(const ObjectFileHeader& header) {
+    const PartialFile& cloud = header.cloud;
+    if (!clouds_.empty() && cloud.origin != clouds_.front().origin)
+      throw std::invalid_argument("is a share with another --origin");
+    if (!clouds_.empty() && cloud.filter != clouds_.front().filter)
+      throw std::invalid_argument("is a share with another --range or other regions");
+    const auto same = std::find_if(clouds_.begin(), clouds_.end(), [&](const PartialFile& other) {
+      return other.inputs_hash == cloud.inputs_hash && other.cloud_points == cloud.cloud_points;
+    });
+    if (same == clouds_.end())
+      clouds_.push_back(cloud);
+    else
+      same->merge(cloud);
+  }
+
+  /// Returns the number of points of all clouds before that of a share.
+  std::size_t points_before(const ObjectFileHeader& header) const {
+    std::size_t points = 0;
+    for (const PartialFile& cloud : clouds_) {
+      if (cloud.inputs_hash == header.cloud.inputs_hash && cloud.cloud_points == header.cloud.cloud_points)
+        return points;
+      points += cloud.cloud_points;
+    }
+    return points;
+  }
+
+  const std::vector<PartialFile>& clouds() const { return clouds_; }
+
+ private:
+  std::vector<PartialFile> clouds_;
+};
+
+struct OpenShares {
+  std::vector<std::unique_ptr<ObjectFile>> shares;
+  std::vector<std::string> names;  // of the files of the shares
+  MergedClouds clouds;
+};
+
+// Opens the files. Reports each that cannot be opened or does not belong to the others; then returns false.
+bool open_files(const std::vector<std::string>& files, const Options& options, OpenShares& open) {
+  bool good = true;
+  const std::string clusters = clusters_text(options.pipeline);
+  for (const std::string& name : files) {
+    try {
+      for (auto& share : open_object_file(name)) {
+        if (share->header().clusters != clusters)
+          throw IoError("was made with " + share->header().clusters + ": give the same options");
+        if (!open.shares.empty() && open.shares.front()->scalar() != share->scalar())
+          throw IoError("has points of another type (float32, float64) than the files before");
+        open.clouds.add(share->header());
+        open.shares.push_back(std::move(share));
+        open.names.push_back(name);
+      }
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      report_problem(name + ": " + error.what());
+      good = false;
+    }
+  }
+  return good;
+}
+
+void describe(const OpenShares& open, Report& report) {
+  report.parts = 0;
+  for (const PartialFile& cloud : open.clouds.clouds()) {
+    if (!cloud.is_whole()) throw IoError("shares are missing: " + cloud.missing());
+    *report.parts += cloud.inputs;
+    report.points += cloud.cloud_points;
+    report.counts.range += cloud.counts.range;
+    report.counts.inside += cloud.counts.inside;
+    report.origin = cloud.origin;
+  }
+  for (const auto& share : open.shares) {
+    report.counts.nonfinite += share->header().nonfinite;
+    report.counts.dropped_class += share->header().dropped_class;
+  }
+}
+
+// Merges the shares of one class, or all shares without classes.
+class ClassMerger {
+ public:
+  ClassMerger(const Options& options, const ClassTable& table, std::optional<std::int64_t> value)
+      : options_(options),
+        table_(table),
+        value_(value),
+        volumes_(volumes_text(options.pipeline, table, value)) {}
+
+  void add(const ObjectFile& share, const std::string& name) {
+    shares_.push_back(&share);
+    names_.push_back(&name);
+  }
+
+  // Adds the objects to the list. Adds the time for their volumes to `fit_seconds`.
+  void merge(ObjectList& list, double& fit_seconds) const {
+    StoredClusterOptions store = store_options(options_, shares_.front()->scalar());
+    store.has_labels = false;
+    store.is_known = [&](const ComponentOfShare& component) {
+      return !options_.objects && has_volumes(component);
+    };
+    try {
+      auto clusters = std::make_unique<StoredClusters>(
+          std::vector<const ClusterShare*>(shares_.begin(), shares_.end()), options_of_class(table_, value_),
+          store, options_.pipeline.execution());
+      const Stopwatch watch;
+      std::vector<Object> objects = find_objects(*clusters);
+      fit_seconds += watch.seconds();
+      list.add(std::move(clusters), std::move(objects));
+    } catch (const ShareError& error) {
+      throw IoError(*names_[error.share()] + ": " + error.what());
+    }
+  }
+
+ private:
+  bool has_volumes(const ComponentOfShare& component) const {
+    const ObjectFile& share = *shares_[component.share];
+    return !options_.check && share.header().volumes == volumes_ && share.has_text(component.number);
+  }
+
+  std::vector<Object> find_objects(const StoredClusters& clusters) const {
+    const ObjectFitter fitter(options_, table_, value_);
+    std::vector<Object> objects(clusters.size());
+    for_each_cluster(clusters, options_.pipeline.execution(), [&](std::size_t i, const Execution& execution) {
+      const auto component = clusters.component(i);
+      objects[i] = component && has_volumes(*component) ? read_object(*component)
+                                                        : fitter.fit(clusters.points(i).view(), execution);
+    });
+    return objects;
+  }
+
+  Object read_object(const ComponentOfShare& component) const {
+    try {
+      return object_of(shares_[component.share]->text(component.number).value());
+    } catch (const IoError& error) {
+      throw ShareError(component.share, error.what());
+    }
+  }
+
+  const Options& options_;
+  const ClassTable& table_;
+  std::optional<std::int64_t> value_;
+  std::string volumes_;
+  std::vector<const ObjectFile*> shares_;
+  std::vector<const std::string*> names_;
+};
+
+}  // namespace
+
+bool join_object_files(const std::vector<std::string>& files, const Options& options) {
+  OpenShares open;
+  if (!open_files(files, options, open)) return false;
+  join_object_files(*options.partial, open.shares);
+  return true;
+}
+
+Status merge_object_files(const Job& job, const std::vector<std::string>& files, const Options& options,
+                          Report& report) {
+  const Stopwatch watch;
+  OpenShares open;
+  if (!open_files(files, options, open)) {
+    report.error = "some partial results cannot be merged";
+    return Status::failed;
+  }
+  describe(open, report);
+  const ClassTable table(options.pipeline);
+  std::map<std::optional<std::int64_t>, ClassMerger> classes;
+  for (std::size_t i = 0; i < open.shares.size(); ++i) {
+    ObjectFile& share = *open.shares[i];
+    share.first_number = open.clouds.points_before(share.header());
+    const auto value = share.header().class_value;
+    classes.try_emplace(value, options, table, value).first->second.add(share, open.names[i]);
+  }
+  ObjectList list(options, report);
+  double fit_seconds = 0;
+  for (const auto& [value, merger] : classes)
+    merger.merge(list, fit_seconds);
+  list.write_report();
+  if (options.timings) report.seconds = {0, watch.seconds() - fit_seconds, fit_seconds};
+  const Status written = job.objects ? list.write_points(*job.objects) : Status::done;
+  return worse(written, report_failures(report));
+}
+
+}  // namespace pcl_bv::detail
