@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <set>
 
 #include "tiled_objects.h"
 
@@ -146,14 +147,36 @@ TEST_F(PcdBvObjectShares, NameFilesThatCannotBeMerged) {
   expect_error(damaged, "damaged/0: is damaged");
   const std::string volume = shares("volume", 2, options, {folder});
   damage(volume + "/1", from_end_of(volume + "/1", R"("volumes":)"));
-  expect_error(volume, "volume/1: is damaged: a volume has changed");
-  const std::string points = shares("points", 1, options, {folder});
-  damage_all_points(points + "/0");
-  const Result checked = objects(options, {"--merge", "--check"}, points);
-  EXPECT_EQ(checked.status, 1);
-  EXPECT_THAT(checked.err, HasSubstr("points/0: its points are damaged"));
+  const Result fitted = objects(options, {"--merge"}, volume);
+  EXPECT_EQ(fitted.status, 1);
+  EXPECT_THAT(fitted.err, HasSubstr("volume/1: is damaged: a volume has changed: it is fitted again"));
+  EXPECT_TRUE(fitted.out == objects(options, {"--together"}, folder).out);
   for (const std::string& parts : {truncated, twice, damaged, volume})
     EXPECT_EQ(objects(options, {"--merge"}, parts).error_lines(), 1U);
+}
+
+TEST_F(PcdBvObjectShares, ThatAreDamagedLeaveObjectsThatAreRightOrIncomplete) {
+  const std::string folder = tiles("tiles", yard(1), 6);
+  const std::vector<std::string> options = {"--cluster", "0.4", "--volume", "aabb"};
+  const Json expected = objects(options, {"--together"}, folder).json();
+  const std::string points = shares("points", 3, options, {folder});
+  damage_all_points(points + "/1");
+  const Result result = objects(options, {"--merge"}, points);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("points/1: its points are damaged: "));
+  EXPECT_EQ(result.error_lines(), 1U) << result.err;
+  std::set<std::string> right;
+  for (const Json& object : expected["clusters"])
+    right.insert(object["volumes"].dump());
+  std::size_t complete = 0, incomplete = 0;
+  const Json report = result.json();
+  for (const Json& object : report["clusters"]) {
+    const bool lacks = object.contains("incomplete");
+    EXPECT_TRUE(lacks || right.contains(object["volumes"].dump())) << object;
+    ++(lacks ? incomplete : complete);
+  }
+  EXPECT_GT(complete, 10U);
+  EXPECT_GT(incomplete, 0U);
 }
 
 TEST_F(PcdBvObjectShares, RefuseWhatTheyDoNotHave) {

@@ -165,6 +165,7 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
     const ClusterEntry& cluster = clusters.at(i);
     json.begin('{').add("id", cluster.id);
     if (cluster.class_value) json.add("class", *cluster.class_value);
+    if (cluster.incomplete) json.add("incomplete", true);
     add_refinement(json, cluster.refinement);
     add_volumes(cluster, json);
     take_if_long(text, take);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <new>
+#include <set>
 #include <utility>
 
 #include "class_points.h"
@@ -119,30 +120,54 @@ class ClassMerger {
     names_.push_back(&name);
   }
 
-  // Adds the objects to the list. Adds the time for their volumes to `fit_seconds`.
-  void merge(ObjectList& list, double& fit_seconds) const {
+  // Adds the objects to the list, and the time for their volumes to `fit_seconds`. Returns Status::failed if
+  // a share is damaged, after that is reported.
+  Status merge(ObjectList& list, double& fit_seconds) {
+    for (Status status = Status::done;; status = Status::failed) {
+      try {
+        return worse(status, attempt(list, fit_seconds));
+      } catch (const BadText& bad) {
+        report_problem(*names_[bad.component.share] + ": " + bad.reason + ": it is fitted again");
+        bad_texts_.emplace(bad.component.share, bad.component.number);
+      } catch (const ShareError& error) {
+        throw IoError(*names_[error.share()] + ": " + error.what());
+      }
+    }
+  }
+
+ private:
+  // Thrown if the text of a component is damaged.
+  struct BadText {
+    ComponentOfShare component;
+    std::string reason;
+  };
+
+  Status attempt(ObjectList& list, double& fit_seconds) const {
+    Status status = Status::done;
     StoredClusterOptions store = store_options(options_, shares_.front()->scalar());
     store.has_labels = false;
     store.is_known = [&](const ComponentOfShare& component) {
       return !options_.objects && has_volumes(component);
     };
-    try {
-      auto clusters = std::make_unique<StoredClusters>(
-          std::vector<const ClusterShare*>(shares_.begin(), shares_.end()), options_of_class(table_, value_),
-          store, options_.pipeline.execution());
-      const Stopwatch watch;
-      std::vector<Object> objects = find_objects(*clusters);
-      fit_seconds += watch.seconds();
-      list.add(std::move(clusters), std::move(objects));
-    } catch (const ShareError& error) {
-      throw IoError(*names_[error.share()] + ": " + error.what());
-    }
+    store.on_lost = [&](const ShareError& error, std::uint64_t points) {
+      report_problem(*names_[error.share()] + ": " + error.what() + ": " + std::to_string(points) +
+                     " points are left out; objects near them are marked \"incomplete\"");
+      status = Status::failed;
+    };
+    auto clusters = std::make_unique<StoredClusters>(
+        std::vector<const ClusterShare*>(shares_.begin(), shares_.end()), options_of_class(table_, value_),
+        store, options_.pipeline.execution());
+    const Stopwatch watch;
+    std::vector<Object> objects = find_objects(*clusters);
+    fit_seconds += watch.seconds();
+    list.add(std::move(clusters), std::move(objects));
+    return status;
   }
 
- private:
   bool has_volumes(const ComponentOfShare& component) const {
     const ObjectFile& share = *shares_[component.share];
-    return !options_.check && share.header().volumes == volumes_ && share.has_text(component.number);
+    return !options_.check && share.header().volumes == volumes_ && share.has_text(component.number) &&
+           !bad_texts_.contains({component.share, component.number});
   }
 
   std::vector<Object> find_objects(const StoredClusters& clusters) const {
@@ -152,6 +177,7 @@ class ClassMerger {
       const auto component = clusters.component(i);
       objects[i] = component && has_volumes(*component) ? read_object(*component)
                                                         : fitter.fit(clusters.points(i).view(), execution);
+      objects[i].entry.incomplete = clusters.is_incomplete(i);
     });
     return objects;
   }
@@ -160,7 +186,7 @@ class ClassMerger {
     try {
       return object_of(shares_[component.share]->text(component.number).value());
     } catch (const IoError& error) {
-      throw ShareError(component.share, error.what());
+      throw BadText{component, error.what()};
     }
   }
 
@@ -170,6 +196,7 @@ class ClassMerger {
   std::string volumes_;
   std::vector<const ObjectFile*> shares_;
   std::vector<const std::string*> names_;
+  std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_;  // shares and numbers of components
 };
 
 }  // namespace
@@ -200,12 +227,13 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
   }
   ObjectList list(options, report);
   double fit_seconds = 0;
-  for (const auto& [value, merger] : classes)
-    merger.merge(list, fit_seconds);
+  Status status = Status::done;
+  for (auto& [value, merger] : classes)
+    status = worse(status, merger.merge(list, fit_seconds));
   list.write_report();
   if (options.timings) report.seconds = {0, watch.seconds() - fit_seconds, fit_seconds};
-  const Status written = job.objects ? list.write_points(*job.objects) : Status::done;
-  return worse(written, report_failures(report));
+  if (job.objects) status = worse(status, list.write_points(*job.objects));
+  return worse(status, report_failures(report));
 }
 
 }  // namespace pcl_bv::detail

@@ -39,6 +39,7 @@ struct StoredCluster {
   std::uint32_t label = 0;                      ///< Label of its points (LabelFile), if it is in one brick.
   std::uint32_t number = 0;                     ///< Position before sorting.
   std::optional<ComponentOfShare> component{};  ///< If it is a component of a share.
+  bool incomplete = false;                      ///< Whether it may lack points that are lost.
 };
 
 /// A run of a share.

@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::size_t kRunBytes = 1U << 20U;  // of a run at a time
 constexpr std::uint32_t kNoComponent = ActiveBrick::kMixed;
+constexpr std::uint32_t kUnset = kNoComponent - 1;
+constexpr std::uint32_t kNoiseNearLost = kNoComponent - 2;  // as the component of a record
 
 // Returns the list that has an item, and the position of the item in it. Items are numbered over all lists;
 // `firsts` has the number of the first item of each list.
@@ -75,8 +77,8 @@ class ActiveWorker {
   // A core point of a share is a core point of the cloud. So its component in the share and its piece in the
   // brick belong to one cluster.
   void add_links(const std::vector<std::byte>& records, std::size_t step, ActiveBrick& brick) {
-    constexpr std::uint32_t unset = kNoComponent - 1;
-    brick.component.assign(components_.piece_count(), unset);
+    brick.component.assign(components_.piece_count(), kUnset);
+    brick.is_near_lost.assign(components_.piece_count(), 0);
     for (std::size_t i = 0; i * step < records.size(); ++i) {
       const std::uint32_t c = components_.component_of(i);
       if (c == BrickComponents::kNoise) continue;
@@ -84,10 +86,11 @@ class ActiveWorker {
       if (piece == BrickComponents::kNoPiece) continue;
       const std::byte* const record = &records[i * step];
       const std::uint64_t number = number_of_record(record, components_.scalar());
-      const std::uint32_t component = component_of_record(record, components_.scalar());
+      std::uint32_t component = component_of_record(record, components_.scalar());
+      if (component == kNoiseNearLost) brick.is_near_lost[piece] = 1, component = kNoComponent;
       if ((number & kOfOtherBrick) == 0) {
         std::uint32_t& all = brick.component[piece];
-        all = all == unset || all == component ? component : ActiveBrick::kMixed;
+        all = all == kUnset || all == component ? component : ActiveBrick::kMixed;
       }
       const std::pair<std::uint32_t, std::uint32_t> link{component, piece};
       const bool linked = component != kNoComponent && (number & kCore) != 0 && components_.is_core(i);
@@ -105,18 +108,25 @@ class ActiveWorker {
 
 }  // namespace
 
-MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const ClusterOptions& options,
-                           const StoredClusterOptions& store, const Execution& execution, SpillFile& file)
-    : shares_(shares), options_(options), store_(store), file_(file), scalar_(ScalarType::float32) {
+MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
+                           const ClusterOptions& options, const StoredClusterOptions& store,
+                           const Execution& execution, SpillFile& file)
+    : shares_(shares),
+      lost_(lost),
+      options_(options),
+      store_(store),
+      file_(file),
+      scalar_(ScalarType::float32) {
   if (!shares.empty()) scalar_ = shares.front()->scalar();
   std::size_t components = 0;
   for (const ClusterShare* share : shares) {
     if (share->scalar() != scalar_) throw std::invalid_argument("shares have float and double points");
     first_component_.push_back(static_cast<std::uint32_t>(components));
     components += share->components().size();
-    if (components >= kNoComponent - 1) throw std::length_error("too many clusters in the shares");
+    if (components >= kNoiseNearLost) throw std::length_error("too many clusters in the shares");
   }
   passive_points_.assign(components, 0);
+  is_near_lost_.assign(components, 0);
   Bricks bricks(grid_of_runs(options, scalar_));
   cells_ = find_active_cells(shares);
   count_runs(execution.parallel, bricks);
@@ -135,7 +145,11 @@ void MergedShares::count_runs(const ParallelPolicy& policy, Bricks& bricks) {
     return found == cells_.end() ? CellKind::passive : found->second;
   };
   for (std::size_t s = 0; s < shares_.size(); ++s) {
-    for (const ShareRun& run : shares_[s]->runs()) {
+    for (std::size_t r = 0; r < shares_[s]->runs().size(); ++r) {
+      const ShareRun& run = shares_[s]->runs()[r];
+      if (run.component != ShareRun::kNoise && lost_.is_near(run.cell))
+        is_near_lost_[component_number(s, run.component)] = 1;
+      if (lost_.contains(s, r)) continue;
       if (kind_of(run) == CellKind::active) {
         bricks.count(run.cell, run.points);
         active_points += run.points;
@@ -156,7 +170,7 @@ void MergedShares::count_runs(const ParallelPolicy& policy, Bricks& bricks) {
     std::uint64_t offset = 0;
     for (std::uint32_t r = 0; r < shares_[s]->runs().size(); ++r) {
       const ShareRun& run = shares_[s]->runs()[r];
-      if (run.component != ShareRun::kNoise && kind_of(run) != CellKind::active)
+      if (run.component != ShareRun::kNoise && kind_of(run) != CellKind::active && !lost_.contains(s, r))
         passive_runs_[next[component_number(s, run.component)]++] = {s, r, offset};
       offset += run.points * record_bytes(scalar_);
     }
@@ -170,7 +184,7 @@ void MergedShares::distribute(const Bricks& bricks, std::vector<SpillList>& list
     for (std::uint32_t r = 0; r < shares_[s]->runs().size(); ++r) {
       const ShareRun& run = shares_[s]->runs()[r];
       const auto kind = cells_.find(run.cell);
-      if (kind != cells_.end())
+      if (kind != cells_.end() && !lost_.contains(s, r))
         add_points_of_run({s, r, offset}, kind->second == CellKind::active, bricks, block, lists);
       offset += run.points * record_bytes(scalar_);
     }
@@ -183,8 +197,9 @@ void MergedShares::add_points_of_run(const RunPlace& place, bool active, const B
                                      std::size_t block, std::vector<SpillList>& lists) {
   const ClusterShare& share = *shares_[place.share];
   const ShareRun& run = share.runs()[place.run];
+  const std::uint32_t noise = lost_.is_near(run.cell) ? kNoiseNearLost : kNoComponent;
   const std::uint32_t component =
-      run.component == ShareRun::kNoise ? kNoComponent : component_number(place.share, run.component);
+      run.component == ShareRun::kNoise ? noise : component_number(place.share, run.component);
   PieceReader reader(file_, {place.offset, run.points, {&share, place.share, run.check_sum}}, scalar_,
                      kRunBytes);
   std::byte record[record_bytes(ScalarType::float64) + sizeof component];
@@ -253,7 +268,7 @@ void MergedShares::join() {
 // Adds the cluster of components and pieces, or counts its points. Components of a group come first.
 void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
   std::uint64_t points = 0;
-  std::uint32_t only = kNoComponent - 1;  // the component that has all points so far
+  std::uint32_t only = kUnset;  // the component that has all points so far
   const auto add = [&](std::uint32_t component, std::uint64_t count) {
     if (count == 0) return;
     only = points == 0 || only == component ? component : kNoComponent;
@@ -269,24 +284,36 @@ void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
   }
   if (points == 0) return;
   if (!is_size_allowed(options_, points)) return count_dropped(options_, points, points, counts_);
-  if (only < passive_points_.size()) {
-    const auto [share, number] = place_in_lists(first_component_, only);
-    const ShareComponent& component = shares_[share]->components()[number];
-    if (component.points == points) {
-      const ComponentOfShare of_share{share, number};
-      const bool known = store_.is_known && store_.is_known(of_share);
-      StoredCluster cluster{StoredCluster::kNoPoints, points,
-                            component.first_number + shares_[share]->first_number};
-      if (!known) cluster = gather(group);
-      cluster.component = of_share;
-      clusters_.push_back(cluster);
-      return;
-    }
-  }
-  clusters_.push_back(gather(group));
+  add_cluster(group, only, points);
 }
 
-StoredCluster MergedShares::gather(const std::vector<std::uint32_t>& group) {
+// `only` is the component that has all points of the cluster, if it is a component.
+void MergedShares::add_cluster(const std::vector<std::uint32_t>& group, std::uint32_t only,
+                               std::uint64_t points) {
+  std::optional<ComponentOfShare> component;
+  StoredCluster cluster{StoredCluster::kNoPoints, points, 0};
+  if (only < passive_points_.size()) {
+    const auto [share, number] = place_in_lists(first_component_, only);
+    const ShareComponent& whole = shares_[share]->components()[number];
+    if (whole.points == points) component = {share, number};
+    cluster.first_number = whole.first_number + shares_[share]->first_number;
+  }
+  const bool known = component && store_.is_known && store_.is_known(*component);
+  if (!known) cluster = merge_pieces(pieces_of(group), scalar_, file_);
+  cluster.component = component;
+  cluster.incomplete = is_incomplete(group);
+  clusters_.push_back(cluster);
+}
+
+bool MergedShares::is_incomplete(const std::vector<std::uint32_t>& group) const {
+  return std::any_of(group.begin(), group.end(), [&](std::uint32_t set) {
+    if (set < is_near_lost_.size()) return is_near_lost_[set] != 0;
+    const auto [brick, piece] = place_in_lists(first_piece_, set);
+    return bricks_[brick].is_near_lost[piece] != 0;
+  });
+}
+
+std::vector<Piece> MergedShares::pieces_of(const std::vector<std::uint32_t>& group) const {
   std::vector<Piece> pieces;
   for (const std::uint32_t set : group) {
     if (set >= passive_points_.size()) {
@@ -300,7 +327,7 @@ StoredCluster MergedShares::gather(const std::vector<std::uint32_t>& group) {
       pieces.push_back({place.offset, run.points, {shares_[place.share], place.share, run.check_sum}});
     }
   }
-  return merge_pieces(pieces, scalar_, file_);
+  return pieces;
 }
 
 }  // namespace pcl_bv::detail

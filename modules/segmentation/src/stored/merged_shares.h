@@ -12,6 +12,7 @@
 #include "active_cells.h"
 #include "brick_clusters.h"
 #include "distributed_points.h"
+#include "lost_runs.h"
 #include "pcl_bv/segmentation/cluster_share.h"
 #include "union_find.h"
 
@@ -24,6 +25,8 @@ struct ActiveBrick {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
   /// For each piece, the component of all its points in their shares, or kMixed.
   std::vector<std::uint32_t> component;
+  std::vector<std::uint8_t>
+      is_near_lost;  ///< For each piece, whether noise of a share in it is near lost points.
   static constexpr std::uint32_t kMixed = ~std::uint32_t{0};
 };
 
@@ -33,8 +36,10 @@ struct ActiveBrick {
 /// clusters that have a core point in common.
 class MergedShares {
  public:
-  MergedShares(const std::vector<const ClusterShare*>& shares, const ClusterOptions& options,
-               const StoredClusterOptions& store, const Execution& execution, SpillFile& file);
+  /// Leaves out lost runs. Clusters near them may lack points and are incomplete.
+  MergedShares(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
+               const ClusterOptions& options, const StoredClusterOptions& store, const Execution& execution,
+               SpillFile& file);
 
   /// Clusters of allowed sizes.
   std::vector<StoredCluster> take_clusters() { return std::move(clusters_); }
@@ -56,12 +61,15 @@ class MergedShares {
   void cluster_active(const Bricks& bricks, const std::vector<SpillList>& lists, const Execution& execution);
   void join();
   void add_group(const std::vector<std::uint32_t>& group);
-  StoredCluster gather(const std::vector<std::uint32_t>& group);
+  void add_cluster(const std::vector<std::uint32_t>& group, std::uint32_t only, std::uint64_t points);
+  bool is_incomplete(const std::vector<std::uint32_t>& group) const;
+  std::vector<Piece> pieces_of(const std::vector<std::uint32_t>& group) const;
   std::uint32_t component_number(std::size_t share, std::uint32_t component) const {
     return first_component_[share] + component;
   }
 
   const std::vector<const ClusterShare*>& shares_;
+  const LostRuns& lost_;
   ClusterOptions options_;
   const StoredClusterOptions& store_;
   SpillFile& file_;
@@ -69,6 +77,7 @@ class MergedShares {
   std::unordered_map<std::uint64_t, CellKind> cells_;
   std::vector<std::uint32_t> first_component_;  // of each share, among all components
   std::vector<std::uint64_t> passive_points_;   // of each component
+  std::vector<std::uint8_t> is_near_lost_;      // for each component, whether it has points near lost ones
   std::vector<RunPlace> passive_runs_;          // by component
   std::vector<std::uint64_t> first_run_;        // of each component, in passive_runs_; then their number
   std::vector<ActiveBrick> bricks_;

@@ -13,6 +13,7 @@
 #include "brick_workers.h"
 #include "distributed_points.h"
 #include "joined_pieces.h"
+#include "lost_runs.h"
 #include "merged_shares.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "spill_file.h"
@@ -77,6 +78,8 @@ struct StoredClusters::State {
   std::size_t brick_count = 0;
 
   void add(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
+  void merge(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
+             const ClusterOptions& options, const StoredClusterOptions& store, const Execution& execution);
   void add_pieces(const std::vector<BrickResult>& bricks, const ClusterOptions& options);
   void label(const std::vector<std::uint32_t>& piece_labels, const std::vector<std::uint32_t>& order,
              std::size_t first, std::size_t count);
@@ -180,14 +183,29 @@ StoredClusters::StoredClusters(const std::vector<const ClusterShare*>& shares, c
                                const StoredClusterOptions& store, const Execution& execution) {
   const FloatEnvironment environment;
   check_stored(options);
-  state_ = std::make_unique<State>(store.folder);
-  State& state = *state_;
-  MergedShares merged(shares, options, store, execution, state.file);
-  if (!shares.empty()) state.scalar = shares.front()->scalar();
-  state.clusters = merged.take_clusters();
-  state.counts = merged.counts();
-  state.brick_count = merged.brick_count();
-  state.sort();
+  LostRuns lost(shares.size());
+  for (;;) {
+    state_ = std::make_unique<State>(store.folder);
+    try {
+      state_->merge(shares, lost, options, store, execution);
+      return;
+    } catch (const ShareError& error) {
+      const std::uint64_t points = store.on_lost ? lost.find(shares, error.share(), state_->file) : 0;
+      if (points == 0) throw;
+      store.on_lost(error, points);
+    }
+  }
+}
+
+void StoredClusters::State::merge(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
+                                  const ClusterOptions& options, const StoredClusterOptions& store,
+                                  const Execution& execution) {
+  MergedShares merged(shares, lost, options, store, execution, file);
+  if (!shares.empty()) scalar = shares.front()->scalar();
+  clusters = merged.take_clusters();
+  counts = merged.counts();
+  brick_count = merged.brick_count();
+  sort();
 }
 
 StoredClusters::~StoredClusters() = default;
@@ -224,6 +242,10 @@ std::vector<std::uint32_t> StoredClusters::labels(std::size_t first, std::size_t
 
 std::optional<ComponentOfShare> StoredClusters::component(std::size_t cluster) const {
   return state_->clusters[cluster].component;
+}
+
+bool StoredClusters::is_incomplete(std::size_t cluster) const {
+  return state_->clusters[cluster].incomplete;
 }
 
 const Counts& StoredClusters::counts() const {

@@ -63,6 +63,7 @@ struct ClusterEntry {
   std::size_t points = 0;  ///< Number of valid points.
   std::vector<VolumeEntry> volumes;
   std::optional<std::int64_t> class_value{};  ///< Class of the points, if points are segmented by class.
+  bool incomplete = false;  ///< Whether it may lack points, because an input near it is damaged.
   Refinement refinement = Refinement::none;
   std::optional<TrackEntry> track{};  ///< Track, if tracking is on and the track is confirmed.
 };

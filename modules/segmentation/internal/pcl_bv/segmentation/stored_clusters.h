@@ -20,6 +20,7 @@ namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
 class ClusterShare;
+class ShareError;
 
 /// Identifies a component of a share.
 struct ComponentOfShare {
@@ -51,6 +52,9 @@ struct StoredClusterOptions {
   bool has_labels = false;
   /// If set, tells which components of shares need no points(). See StoredClusters::component().
   std::function<bool(const ComponentOfShare& component)> is_known{};
+  /// If set, is called with the error of each share that has points that cannot be read, and their number.
+  /// These points are left out: see StoredClusters::is_incomplete(). If not set, the error is thrown.
+  std::function<void(const ShareError& error, std::uint64_t points)> on_lost{};
 };
 
 /// The clusters of EuclideanClusterer for a cloud of any size. Their points are in a temporary file, which
@@ -109,6 +113,10 @@ class StoredClusters {
 
   /// The component of a share that has exactly the points of the cluster, or nothing.
   std::optional<ComponentOfShare> component(std::size_t cluster) const;
+
+  /// Whether the cluster may lack points, because points of a share near it cannot be read. Clusters of lost
+  /// points only do not exist.
+  bool is_incomplete(std::size_t cluster) const;
 
   /// The points of a cluster in the order of the cloud, in memory or in the temporary file.
   class Points {
