@@ -6,10 +6,10 @@ import pathlib
 
 
 class Parser(argparse.ArgumentParser):
-    """Has the usage line of the script's docstring, and the argument BUILD_DIR with the commands that are needed."""
+    """Has the usage of the script's docstring, and the argument BUILD_DIR with the commands that are needed."""
 
     def __init__(self, doc, commands):
-        super().__init__(usage=doc.split("usage: ")[1].split("\n", maxsplit=1)[0], allow_abbrev=False)
+        super().__init__(usage=doc.split("usage: ")[1].split("\n\n", maxsplit=1)[0], allow_abbrev=False)
         self.commands = commands
         self.add_argument("build", type=self.build_folder)
 
@@ -45,19 +45,29 @@ class Section:
     """The part of a page between the markers of a script, which the script writes."""
 
     def __init__(self, script, page):
-        self.page = pathlib.Path(page)
+        self.page, self.script = pathlib.Path(page), script
         self.begin, self.end = f"<!-- {script}: begin -->\n", f"<!-- {script}: end -->"
+        self.around()
+
+    def around(self):
+        """The texts before and behind the section."""
         try:
             before, rest = self.page.read_text().split(self.begin)
-            self.around = before, rest.split(self.end)[1]
+            return before, rest.split(self.end)[1]
         except (OSError, ValueError, IndexError) as error:
-            raise argparse.ArgumentTypeError(f"'{page}' has no section of {script}") from error
+            raise argparse.ArgumentTypeError(f"'{self.page}' has no section of {self.script}") from error
 
     def write(self, text):
-        before, after = self.around
+        before, after = self.around()
         self.page.write_text(before + self.begin + text + "\n" + self.end + after)
 
 
-def section_of(script):
-    """The type of an argument that is a page."""
-    return lambda page: Section(script, page)
+def page_with(*scripts):
+    """The type of an argument that is a page with the sections of scripts."""
+
+    def page(text):
+        for script in scripts:
+            Section(script, text)
+        return text
+
+    return page

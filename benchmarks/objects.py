@@ -4,7 +4,8 @@
 """Compares whole processes that find the objects of a map: pcd_bv on tiles and on one file, and peers on one file.
 The map is a generated town without its ground. Writes the table of docs/many-machines.md.
 
-usage: benchmarks/objects.py BUILD_DIR [--tiles N] [--points N] [--turns N] [--limit S] [--folder DIR] [--no-peers] [--page FILE] [--dry]
+usage: benchmarks/objects.py BUILD_DIR [--tiles N] [--points N] [--turns N] [--limit S] [--folder DIR]
+                             [--no-peers] [--page FILE] [--dry]
 
 N tiles (default 64) of N points on average, with the ground (default 200000), need 3.6 MB of disk for each. A peer that fails, needs more than the memory or more than S seconds
 (default 300) is tried again on a square of a quarter of the tiles. --page writes the section of another page than
@@ -24,7 +25,7 @@ import sys
 import tempfile
 import time
 
-from arguments import Parser, count, existing_folder, section_of
+from arguments import Parser, Section, count, existing_folder, page_with
 from scale import PAGE, processor
 
 TOLERANCE, MIN_SIZE = 0.5, 10
@@ -222,7 +223,7 @@ def main():
     parser.add_argument("--limit", type=float, default=300)
     parser.add_argument("--folder", type=existing_folder, help="where the tiles are made, and removed")
     parser.add_argument("--no-peers", dest="peers", action="store_false")
-    parser.add_argument("--page", type=section_of("objects.py"), default=str(PAGE))
+    parser.add_argument("--page", type=page_with("objects.py"), default=str(PAGE))
     parser.add_argument("--dry", action="store_true")
     options = parser.parse_args()
     known = programs(options.build)[: None if options.peers else OWN]
@@ -244,7 +245,7 @@ def main():
     page = page_part(runs, absent, options.turns)
     print(page)
     if not options.dry:
-        options.page.write(page)
+        Section("objects.py", options.page).write(page)
 
 
 if __name__ == "__main__":

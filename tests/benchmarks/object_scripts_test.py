@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts that measure and draw objects, on small towns. The argument is the build folder."""
+"""The scripts that measure, model and draw objects, on small towns. The argument is the build folder."""
 import importlib.util
 import pathlib
+import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -78,6 +80,57 @@ class Objects(InFolder):
         self.assert_refused(run("objects.py", BUILD, "--folder", self.folder / "none"), "none' is no folder")
         for page in (self.folder / "none.md", BENCHMARKS / "misses.md"):
             self.assert_refused(run("objects.py", BUILD, "--page", page), "has no section of objects.py")
+
+
+@unittest.skipUnless(shutil.which("mpirun") and pathlib.Path(BUILD, "bin/pcd_bv_mpi").exists(), "MPI is not here")
+class Scale(InFolder):
+    arguments = [BUILD, "--only", "objects", "--tiles", "4", "--tile-points", "20000", "--turns", "1"]
+
+    def test_the_model_of_objects_is_written_between_its_markers(self):
+        self.page.write_text("<!-- scale.py: begin -->\nvolumes\n<!-- scale.py: end -->\n"
+                             "<!-- scale.py objects: begin -->\nold\n<!-- scale.py objects: end -->\n")
+        done = run("scale.py", *self.arguments, "--page", self.page)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.page.read_text(),
+                         "<!-- scale.py: begin -->\nvolumes\n<!-- scale.py: end -->\n"
+                         f"<!-- scale.py objects: begin -->\n{done.stdout}<!-- scale.py objects: end -->\n")
+        checks = re.findall(r"^\| [\d.]+ M \| (\d) \| ([\d.]+) \| ([\d.]+) \|$", done.stdout, re.MULTILINE)
+        self.assertEqual([ranks for ranks, _, _ in checks], ["1", "2"])
+        self.assertTrue(all(float(model) > 0 for _, _, model in checks), checks)
+        rows = [line for line in done.stdout.splitlines() if line.startswith("| 10^")]
+        self.assertEqual(len(rows), 4)
+        self.assertEqual({row.count("|") for row in rows}, {9})
+
+    def test_wrong_arguments_are_one_line(self):
+        self.assert_refused(run("scale.py", BUILD, "--page", self.page), "has no section of scale.py")
+        self.assert_refused(run("scale.py", BUILD, "--only", "boxes"), "--only")
+        self.assert_refused(run("scale.py", BUILD, "--tiles", "0"), "--tiles: '0' is not an integer from 1 on")
+
+
+class Index(InFolder):
+    """What the model of scale.py counts in the files of two shares."""
+
+    def test_counts_agree_with_the_points_and_borders_of_the_shares(self):
+        sys.path.insert(0, str(BENCHMARKS))
+        import object_index  # pylint: disable=import-outside-toplevel
+
+        tiles = self.folder / "tiles"
+        subprocess.run([f"{BUILD}/bin/synth", "town-objects:4:1:20000", tiles], check=True)
+
+        def shares(count):
+            for number in range(count):
+                command = [f"{BUILD}/bin/pcd_bv", "--partial", self.folder / f"{number}", "--part", f"{number}/{count}"]
+                subprocess.run([*command, "--cluster", "0.5", tiles], check=True)
+            return object_index.Counts([object_index.Index(self.folder / f"{number}") for number in range(count)])
+
+        points = sum(int(re.search(rb"POINTS (\d+)", path.read_bytes())[1]) for path in tiles.iterdir())
+        one, two = shares(1), shares(2)
+        self.assertEqual((one.points, two.points), (points, points))
+        self.assertEqual((one.written, one.active, one.candidates), (0, 0, 0))
+        self.assertEqual(one.runs, one.components, "a component that no other share is near is one run")
+        self.assertLess(0, two.active)
+        self.assertLess(two.active, two.written)
+        self.assertLess(two.written, points)
 
 
 @unittest.skipUnless(importlib.util.find_spec("numpy"), "numpy is not here")
