@@ -88,7 +88,7 @@ def sides(tiles, ranks):
 
 
 def by_sides_and_cuts(rows):
-    """Factors of the sides between shares and of the cuts through tiles, which are least squares of (sides, cuts, y)."""
+    """Factors of the sides between shares and of the cuts through tiles: least squares of (sides, cuts, y)."""
     ss = sum(s * s for s, _, _ in rows)
     cc = sum(c * c for _, c, _ in rows)
     sc = sum(s * c for s, c, _ in rows)
@@ -145,9 +145,10 @@ class Model:
 
     def seconds(self, points, ranks, latency, bandwidth, threads=THREADS):
         files = self.index_bytes(points) + RECORD * self.near_points("written", points, ranks)
-        messages = 2 * 2 * math.ceil(math.log2(ranks)) * latency if ranks > 1 else 0
-        if ranks > 1:
-            messages += self.message_bytes(points, ranks) / bandwidth
+        messages = 0
+        if ranks > 1:  # two times the lengths, by a tree, and the cells, by a ring
+            steps = 2 * (math.ceil(math.log2(ranks)) + ranks - 1)
+            messages = steps * latency + self.message_bytes(points, ranks) / bandwidth
         share = points / ranks * self.read + files / ranks / bandwidth
         return share + messages + files / bandwidth + self.merging(points, ranks, min(threads, ranks))
 
@@ -188,13 +189,14 @@ def size(count):
 def constants(model, tiles, points):
     rows = [
         ("reading, clustering and fitting a share", f"{1e-6 / model.read:.2f} M points/s a rank"),
-        ("clusters, and objects of 10 points or more", f"{model.components:.4f} and {model.objects:.4f} a point"),
+        ("sizes", f"{1 / model.components:.0f} points a cluster; {1 / model.objects:.0f} for each object (10 or more)"),
         ("merging", f"{model.join * 1e6:.2f} us a cluster, {model.read_text * 1e6:.1f} us to read an object, "
                     f"{model.output * 1e6:.1f} us to write it, {model.again * 1e6:.2f} us a point near other shares"),
-        ("files", f"{model.index_bytes(1) / model.objects:.0f} B an object, {RECORD} B a point of objects near other shares"),
+        ("files", f"{model.index_bytes(1) / model.objects:.0f} B an object, "
+                  f"{RECORD} B a point of clusters near other shares"),
         ("points near other shares", "{:.0f} a side of a tile, {:.0f} a share".format(*model.near["active"])),
-        ("points of objects there", "{:.0f} a side of a tile, {:.0f} a share".format(*model.near["written"])),
-        ("messages", f"8 B for each of {model.cells:.5f} cells a point near other shares"),
+        ("points of clusters there", "{:.0f} a side of a tile, {:.0f} a share".format(*model.near["written"])),
+        ("messages", f"8 B a cell near other shares, which has {1 / model.cells:.0f} points"),
         ("memory of the first rank", f"{model.memory:.0f} B an object"),
     ]
     return [f"Measured on {tiles} tiles with {points / 1e6:.2f} M points:", "", "| what | how much |", "|---|---|",
@@ -211,7 +213,7 @@ def checked_rows(model, checks):
 
 def modelled_rows(model, duration, latency, bandwidth):
     ranks = (1, 8, 64, 512, 1024)
-    rows = ["| points | " + " | ".join(f"{n} ranks" for n in ranks) + " | of them merging | memory of the first rank |"]
+    rows = ["| points | " + " | ".join(f"{n} ranks" for n in ranks) + " | merging of 1024 | memory of the first rank |"]
     rows.append("|---" * (len(ranks) + 3) + "|")
     for power in (9, 10, 11, 12):
         points = 10**power
@@ -227,7 +229,7 @@ def page_part(model, checks, tiles, duration, network):
     text = [
         *constants(model, tiles, model.tile * tiles),
         "",
-        f"Runs on {4 * tiles} tiles, to which the model was not fitted, without the start of the ranks:",
+        f"Runs on {4 * tiles} tiles, to which the times of the model were not fitted, without the start of the ranks:",
         "",
         *checked_rows(model, checks),
         "",

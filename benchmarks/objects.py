@@ -7,13 +7,12 @@ The map is a generated town without its ground. Writes the table of docs/many-ma
 usage: benchmarks/objects.py BUILD_DIR [--tiles N] [--points N] [--turns N] [--limit S] [--folder DIR]
                              [--no-peers] [--page FILE] [--dry]
 
-N tiles (default 64) of N points on average, with the ground (default 200000), need 3.6 MB of disk for each. A peer that fails, needs more than the memory or more than S seconds
-(default 300) is tried again on a square of a quarter of the tiles. --page writes the section of another page than
-docs/many-machines.md, --dry none.
+N tiles (default 64) of N points on average, with the ground (default 200000), need 3.6 MB of disk for each. A peer that
+fails, needs more than the memory or more than S seconds (default 300) is tried again on a square of a quarter of the
+tiles. --page writes the section of another page than docs/many-machines.md, --dry none.
 
 Peers: PCL (the target pcl_load of this build), Open3D (Debian's python3-open3d), CloudCompare (cloudcompare; 0.1 GB)
-and PDAL (pdal, which Debian 12 lacks). Missing ones are named and left out; --no-peers leaves
-out all.
+and PDAL (pdal, which Debian 12 lacks). Missing ones are named and left out; --no-peers leaves out all.
 """
 import os
 import pathlib

@@ -213,8 +213,8 @@ def measure_objects(asked):
         model, checks = object_scale.measure(
             asked.build, pathlib.Path(work), asked.tiles, asked.tile_points, asked.turns
         )
-    part = f"{processor()}, {os.cpu_count()} processors, `{' '.join(object_scale.OPTIONS)}`, one thread a rank, files in "
-    part += f"the page cache, medians of {asked.turns} runs in turns.\n\n"
+    part = f"{processor()}, {os.cpu_count()} processors, `{' '.join(object_scale.OPTIONS)}`, one thread a rank, files "
+    part += f"in the page cache, medians of {asked.turns} runs in turns.\n\n"
     part += object_scale.page_part(model, checks, asked.tiles, duration, (LATENCY, BANDWIDTH))
     print(part)
     if not asked.dry:
