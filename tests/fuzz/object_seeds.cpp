@@ -33,18 +33,15 @@ std::vector<T> points_in_a_row(std::size_t count) {
   return xyz;
 }
 
-// Writes the points as shares, one behind the other.
-template <typename T>
-std::string shares_of(const std::vector<T>& xyz, std::size_t count, const ObjectChoices& choices,
-                      const fs::path& file) {
-  const std::size_t points = xyz.size() / 3;
-  const auto* const bytes = reinterpret_cast<const std::byte*>(xyz.data());
-  const PointView all = packed_points(bytes, choices.scalar, points);
+// Writes the points as shares, one behind the other. A cloud says that it has more points than it has.
+std::string shares_of(const PointView& all, std::size_t count, const ObjectChoices& choices,
+                      const fs::path& file, std::size_t more = 0) {
+  const std::size_t points = all.count;
   std::string shares;
   for (std::size_t s = 0; s < count; ++s) {
     const std::size_t first = points * s / count, end = points * (s + 1) / count;
     ObjectFileHeader header{{}, "c", "v"};
-    header.cloud.cloud_points = points;
+    header.cloud.cloud_points = points + more;
     header.cloud.shares = {{first, end}};
     write_object_file(file, FileLife::temporary, [&](const fs::path& empty) {
       const MadeClusterShare share(all.slice(first, end - first), fuzzed_options(choices), {},
@@ -64,21 +61,30 @@ std::string shares_of(const std::vector<T>& xyz, std::size_t count, const Object
 }  // namespace
 
 void write_objects(const fs::path& folder) {
-  const fs::path objects = folder / "objects";
-  const auto write = [&](unsigned char byte, const std::string& shares) {
-    std::ofstream(objects / std::to_string(byte), std::ios::binary) << static_cast<char>(byte) << shares;
+  const fs::path objects = folder / "objects", file = folder / "share";
+  const auto write = [&](const std::string& name, unsigned byte, const std::string& shares) {
+    std::ofstream(objects / name, std::ios::binary) << static_cast<char>(byte) << shares;
   };
+  const std::vector<float> floats = points_in_a_row<float>(30);
+  const std::vector<double> doubles = points_in_a_row<double>(30);
+  const auto points = [&](ScalarType scalar, std::size_t count) {
+    const auto* const bytes = scalar == ScalarType::float32
+                                  ? reinterpret_cast<const std::byte*>(floats.data())
+                                  : reinterpret_cast<const std::byte*>(doubles.data());
+    return packed_points(bytes, scalar, count);
+  };
+  std::string both_types;
   for (unsigned byte = 0; byte < 256; byte += 4) {
     const ObjectChoices choices(static_cast<unsigned char>(byte));
-    const bool floats = choices.scalar == ScalarType::float32;
-    const fs::path file = folder / "share";
-    const std::string one = floats ? shares_of(points_in_a_row<float>(9), 1, choices, file)
-                                   : shares_of(points_in_a_row<double>(9), 1, choices, file);
-    const std::string three = floats ? shares_of(points_in_a_row<float>(30), 3, choices, file)
-                                     : shares_of(points_in_a_row<double>(30), 3, choices, file);
-    if (byte < 8) write(static_cast<unsigned char>(byte), one);
-    if (byte % 64 == 4) write(static_cast<unsigned char>(byte | ObjectChoices::kCheckSums), one);
-    if (byte % 64 == 0) write(static_cast<unsigned char>(byte | ObjectChoices::kCheckSums), three);
-    write(static_cast<unsigned char>(byte | 2U), without_headers(three));
+    const std::string one = shares_of(points(choices.scalar, 9), 1, choices, file);
+    const std::string three = shares_of(points(choices.scalar, 30), 3, choices, file);
+    write("repaired" + std::to_string(byte), byte | 2U, without_headers(three));
+    if (byte < 8) write("own" + std::to_string(byte), byte, one);
+    if (byte % 64 != 0) continue;
+    write("sums" + std::to_string(byte), byte | ObjectChoices::kCheckSums, three);
+    write("great" + std::to_string(byte), byte | ObjectChoices::kCheckSums,
+          shares_of(points(choices.scalar, 30), 3, choices, file, std::size_t{1} << 62U));
+    both_types += one;
   }
+  write("types", ObjectChoices::kCheckSums, both_types);
 }
