@@ -4,15 +4,16 @@
 """Compares whole processes that find the objects of a map: pcd_bv on tiles and on one file, and peers on one file.
 The map is a generated town without its ground. Writes the table of docs/many-machines.md.
 
-usage: benchmarks/objects.py BUILD_DIR [--tiles N] [--turns N] [--limit S] [--folder DIR] [--dry]
+usage: benchmarks/objects.py BUILD_DIR [--tiles N] [--points N] [--turns N] [--limit S] [--folder DIR]
+                             [--no-peers] [--page FILE] [--dry]
 
-N tiles (default 64) need 3.6 MB of disk for each. A peer that fails, needs more than the memory or more than S seconds
-(default 300) is tried again on a square of a quarter of the tiles. --dry writes no page.
+N tiles (default 64) of N points on average, with the ground (default 200000), need 3.6 MB of disk for each. A peer that
+fails, needs more than the memory or more than S seconds (default 300) is tried again on a square of a quarter of the
+tiles. --page writes the section of another page than docs/many-machines.md, --dry none.
 
 Peers: PCL (the target pcl_load of this build), Open3D (Debian's python3-open3d), CloudCompare (cloudcompare; 0.1 GB)
-and PDAL (pdal, which Debian 12 lacks). Missing ones are named and left out.
+and PDAL (pdal, which Debian 12 lacks). Missing ones are named and left out; --no-peers leaves out all.
 """
-import argparse
 import os
 import pathlib
 import re
@@ -23,10 +24,11 @@ import sys
 import tempfile
 import time
 
+from arguments import Parser, Section, count, existing_folder, page_with
 from scale import PAGE, processor
 
 TOLERANCE, MIN_SIZE = 0.5, 10
-BEGIN, END = "<!-- objects.py: begin -->\n", "<!-- objects.py: end -->"
+OWN = 2  # of the programs are no peers
 OPEN3D = """
 import sys
 import numpy, open3d
@@ -79,9 +81,9 @@ def memory_left():
 class Part:
     """The first `tiles` tiles of a town, in a folder, and as one file of each format."""
 
-    def __init__(self, build, folder, tiles):
+    def __init__(self, build, folder, tiles, points):
         self.tiles, self.folder = tiles, folder / f"tiles{tiles}"
-        subprocess.run([f"{build}/bin/synth", f"town-objects:{tiles}", self.folder], check=True)
+        subprocess.run([f"{build}/bin/synth", f"town-objects:{tiles}:1:{points}", self.folder], check=True)
         self.points, self.pcd, self.ply = 0, folder / f"{tiles}.pcd", folder / f"{tiles}.ply"
         self.side = 100 * max(int(name.stem[:3]) + 1 for name in self.folder.iterdir())
         records = [path.read_bytes().split(b"DATA binary\n", 1)[1] for path in sorted(self.folder.iterdir())]
@@ -213,21 +215,23 @@ def page_part(runs, absent, turns):
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n", maxsplit=1)[0])
-    parser.add_argument("build")
-    parser.add_argument("--tiles", type=int, default=64)
-    parser.add_argument("--turns", type=int, default=3)
+    parser = Parser(__doc__, ["synth", "pcd_bv"])
+    parser.add_argument("--tiles", type=count, default=64)
+    parser.add_argument("--points", type=count, default=200_000)
+    parser.add_argument("--turns", type=count, default=3)
     parser.add_argument("--limit", type=float, default=300)
-    parser.add_argument("--folder", help="where the tiles are made, and removed")
+    parser.add_argument("--folder", type=existing_folder, help="where the tiles are made, and removed")
+    parser.add_argument("--no-peers", dest="peers", action="store_false")
+    parser.add_argument("--page", type=page_with("objects.py"), default=str(PAGE))
     parser.add_argument("--dry", action="store_true")
     options = parser.parse_args()
-    known = programs(options.build)
+    known = programs(options.build)[: None if options.peers else OWN]
     absent = [f"{program.name} ({program.missing})" for program in known if program.missing]
-    with tempfile.TemporaryDirectory(dir=options.folder) as folder:
+    with tempfile.TemporaryDirectory(dir=options.folder) as work:
         parts = []
         tiles = options.tiles
         while tiles >= 1 and len(parts) < 4:
-            parts.append(Part(options.build, pathlib.Path(folder), tiles))
+            parts.append(Part(options.build, pathlib.Path(work), tiles, options.points))
             tiles //= 4
         jobs = {}
         for program in known:
@@ -239,10 +243,8 @@ def main():
         runs = measure(order, options.turns, options.limit)
     page = page_part(runs, absent, options.turns)
     print(page)
-    if options.dry:
-        return
-    before, rest = PAGE.read_text().split(BEGIN)
-    PAGE.write_text(before + BEGIN + page + "\n" + END + rest.split(END)[1])
+    if not options.dry:
+        Section("objects.py", options.page).write(page)
 
 
 if __name__ == "__main__":

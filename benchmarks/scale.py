@@ -3,12 +3,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures one cloud over 1, 2, 4 and 8 ranks of this machine, models up to 1 024 ranks and 10^12 points from what
 one rank, one merge and one message cost, and writes docs/benchmarks/scale.svg and the table of docs/many-machines.md.
+Then does the same for objects (object_scale.py).
 
-usage: benchmarks/scale.py BUILD_DIR [--points N] [--turns N] [--folder DIR] [--dry]
+usage: benchmarks/scale.py BUILD_DIR [--points N] [--tiles N] [--turns N] [--folder DIR]
+                           [--only volumes|objects] [--page FILE] [--dry]
 
-Needs 12 bytes of disk and of page cache for each point (default 64 million points in 64 tiles). --dry writes nothing.
+Needs 12 bytes of disk and of page cache for each point (default 64 million points in 64 tiles); for objects 30 MB for
+each of the tiles of a town (default 36). --page writes the sections of another page, --dry nothing.
 """
-import argparse
 import math
 import os
 import pathlib
@@ -19,9 +21,12 @@ import subprocess
 import tempfile
 import time
 
+import object_scale
+from arguments import Parser, Section, count, existing_folder, page_with
 from svg import SERIES, Chart
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+VOLUMES, OBJECTS = "scale.py", "scale.py objects"  # sections of the page
 PAGE, PLOT = ROOT / "docs/many-machines.md", ROOT / "docs/benchmarks/scale.svg"
 TILES = 64
 ONE_PASS, ROUNDS = "aabb,dop26,obb-pca,obb-yaw", "aabb,dop26,obb-pca,obb-yaw,sphere"
@@ -190,14 +195,7 @@ def page_part(runs, model, points):
     return "\n".join(text)
 
 
-def main():
-    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0])
-    parser.add_argument("build")
-    parser.add_argument("--points", type=int, default=64_000_000)
-    parser.add_argument("--turns", type=int, default=5)
-    parser.add_argument("--folder", help="where the tiles are made, and removed")
-    parser.add_argument("--dry", action="store_true")
-    asked = parser.parse_args()
+def measure_volumes(asked):
     with tempfile.TemporaryDirectory(dir=asked.folder) as tiles, tempfile.TemporaryDirectory() as work:
         make_tiles(asked.build, tiles, asked.points)
         runs = measure(asked.build, tiles, asked.turns)
@@ -205,12 +203,39 @@ def main():
     model = Model(runs, asked.points, size, merge)
     part = page_part(runs, model, asked.points)
     print(part)
-    if asked.dry:
-        return
-    PLOT.write_text(plot(runs, model, asked.points))
-    begin, end = "<!-- scale.py: begin -->\n", "<!-- scale.py: end -->"
-    before, rest = PAGE.read_text().split(begin)
-    PAGE.write_text(before + begin + part + "\n" + end + rest.split(end)[1])
+    if not asked.dry:
+        PLOT.write_text(plot(runs, model, asked.points))
+        Section(VOLUMES, asked.page).write(part)
+
+
+def measure_objects(asked):
+    with tempfile.TemporaryDirectory(dir=asked.folder) as work:
+        model, checks = object_scale.measure(
+            asked.build, pathlib.Path(work), asked.tiles, asked.tile_points, asked.turns
+        )
+    part = f"{processor()}, {os.cpu_count()} processors, `{' '.join(object_scale.OPTIONS)}`, one thread a rank, files "
+    part += f"in the page cache, medians of {asked.turns} runs in turns.\n\n"
+    part += object_scale.page_part(model, checks, asked.tiles, duration, (LATENCY, BANDWIDTH))
+    print(part)
+    if not asked.dry:
+        Section(OBJECTS, asked.page).write(part)
+
+
+def main():
+    parser = Parser(__doc__, ["synth", "pcd_bv", "pcd_bv_mpi"])
+    parser.add_argument("--points", type=count, default=64_000_000)
+    parser.add_argument("--tiles", type=count, default=36)
+    parser.add_argument("--tile-points", type=count, default=200_000, help="of the town, with the ground")
+    parser.add_argument("--turns", type=count, default=5)
+    parser.add_argument("--folder", type=existing_folder, help="where the tiles are made, and removed")
+    parser.add_argument("--only", choices=["volumes", "objects"])
+    parser.add_argument("--page", type=page_with(VOLUMES, OBJECTS), default=str(PAGE))
+    parser.add_argument("--dry", action="store_true")
+    asked = parser.parse_args()
+    if asked.only != "objects":
+        measure_volumes(asked)
+    if asked.only != "volumes":
+        measure_objects(asked)
 
 
 if __name__ == "__main__":

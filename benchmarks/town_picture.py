@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a generated town of 64 tiles from above: its points, the borders of its tiles, and the boxes that
+"""Draws a generated town from above: its points, the borders of its tiles, and the boxes that
 `pcd_bv --together --cluster` fits to its objects.
 
-usage: benchmarks/town_picture.py BUILD_DIR OUT.png
+usage: benchmarks/town_picture.py BUILD_DIR OUT.png [--tiles N] [--points N]
 
-Needs python3-numpy.
+N tiles (default 64) of N points on average, with the ground (default 200000). Needs python3-numpy.
 """
 import json
+import math
 import pathlib
 import struct
 import subprocess
@@ -16,9 +17,14 @@ import sys
 import tempfile
 import zlib
 
-import numpy
+try:
+    import numpy
+except ImportError:
+    sys.exit("town_picture.py: needs python3-numpy")
 
-TILES, SIDE = 64, 800  # metres
+from arguments import Parser, count
+
+TILE = 100  # metres
 SCALE, MARGIN = 1.25, 4  # pixels for a metre; pixels around the town
 BACKGROUND, BORDER, POINTS, BOXES = 0, 1, 2, 3  # of the palette; the colours of boxes follow
 PALETTE = [(13, 16, 28), (62, 72, 108), (84, 92, 112)]
@@ -32,20 +38,26 @@ def tile_points(path):
     return numpy.frombuffer(data, dtype="<f4").reshape(-1, 4)[:, :2]
 
 
-def pixels(xy):
-    """Rows and columns of positions in the picture; north is up."""
-    column = MARGIN + numpy.asarray(xy)[:, 0] * SCALE
-    row = MARGIN + (SIDE - numpy.asarray(xy)[:, 1]) * SCALE
-    size = int(SIDE * SCALE) + 2 * MARGIN
-    return tuple(numpy.clip(numpy.round(axis).astype(int), 0, size - 1) for axis in (row, column))
+class Picture:
+    """Colours of pixels of a square with sides of `side` metres; north is up."""
 
+    def __init__(self, side):
+        self.side = side
+        size = int(side * SCALE) + 2 * MARGIN
+        self.image = numpy.full((size, size), BACKGROUND, dtype=numpy.uint8)
 
-def draw_lines(image, corners, colour):
-    """A closed line through the corners, in pixels."""
-    for begin, end in zip(corners, numpy.roll(corners, -1, axis=0)):
-        steps = int(numpy.ceil(numpy.abs(end - begin).max() * SCALE)) + 1
-        t = numpy.linspace(0, 1, steps)[:, None]
-        image[pixels(begin + t * (end - begin))] = colour
+    def draw_points(self, xy, colour):
+        column = MARGIN + numpy.asarray(xy)[:, 0] * SCALE
+        row = MARGIN + (self.side - numpy.asarray(xy)[:, 1]) * SCALE
+        last = len(self.image) - 1
+        self.image[tuple(numpy.clip(numpy.round(axis).astype(int), 0, last) for axis in (row, column))] = colour
+
+    def draw_lines(self, corners, colour):
+        """A closed line through the corners."""
+        for begin, end in zip(corners, numpy.roll(corners, -1, axis=0)):
+            steps = int(numpy.ceil(numpy.abs(end - begin).max() * SCALE)) + 1
+            t = numpy.linspace(0, 1, steps)[:, None]
+            self.draw_points(begin + t * (end - begin), colour)
 
 
 def corners_of(box):
@@ -67,24 +79,29 @@ def write_png(path, image):
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    build, out = sys.argv[1:]
-    size = int(SIDE * SCALE) + 2 * MARGIN
-    image = numpy.full((size, size), BACKGROUND, dtype=numpy.uint8)
+    parser = Parser(__doc__, ["synth", "pcd_bv"])
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--tiles", type=count, default=64)
+    parser.add_argument("--points", type=count, default=200_000)
+    options = parser.parse_args()
+    if not options.out.absolute().parent.is_dir():
+        parser.error(f"no folder for '{options.out}'")
+    side = TILE * math.ceil(math.sqrt(options.tiles))
+    picture = Picture(side)
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([f"{build}/bin/synth", f"town-objects:{TILES}", folder], check=True)
-        command = [f"{build}/bin/pcd_bv", "--together", "--cluster", "0.5", "--volume", "obb-yaw", "--format", "json"]
-        report = json.loads(subprocess.run([*command, folder], check=True, capture_output=True).stdout)[0]
-        for metres in range(0, SIDE + 1, 100):
-            draw_lines(image, numpy.array([(0.0, metres), (SIDE, metres)]), BORDER)
-            draw_lines(image, numpy.array([(metres, 0.0), (metres, SIDE)]), BORDER)
+        town = f"town-objects:{options.tiles}:1:{options.points}"
+        subprocess.run([f"{options.build}/bin/synth", town, folder], check=True)
+        command = [f"{options.build}/bin/pcd_bv", "--together", "--cluster", "0.5", "--volume", "obb-yaw"]
+        done = subprocess.run([*command, "--format", "json", folder], check=True, capture_output=True)
+        for metres in range(0, side + 1, TILE):
+            picture.draw_lines(numpy.array([(0.0, metres), (side, metres)]), BORDER)
+            picture.draw_lines(numpy.array([(metres, 0.0), (metres, side)]), BORDER)
         for path in pathlib.Path(folder).iterdir():
-            image[pixels(tile_points(path))] = POINTS
-    for cluster in reversed(report["clusters"]):  # the largest last
+            picture.draw_points(tile_points(path), POINTS)
+    for cluster in reversed(json.loads(done.stdout)[0]["clusters"]):  # the largest last
         colour = BOXES + cluster["id"] % (len(PALETTE) - BOXES)
-        draw_lines(image, corners_of(cluster["volumes"][0]), colour)
-    write_png(pathlib.Path(out), image)
+        picture.draw_lines(corners_of(cluster["volumes"][0]), colour)
+    write_png(options.out, picture.image)
 
 
 if __name__ == "__main__":

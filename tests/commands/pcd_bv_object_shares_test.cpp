@@ -32,9 +32,13 @@ class PcdBvObjectShares : public TiledObjects {
     return at(name);
   }
 
+  static std::streamoff size_of(const std::string& path) {
+    return static_cast<std::streamoff>(std::filesystem::file_size(path));
+  }
+
   // Changes a byte in each 10 000 from the middle of a file on, which are points.
   void damage_all_points(const std::string& path) const {
-    const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path));
+    const std::streamoff size = size_of(path);
     for (std::streamoff at = size / 2; at > size / 3; at -= 10'000)
       damage(path, at);
   }
@@ -145,13 +149,20 @@ TEST_F(PcdBvObjectShares, NameFilesThatCannotBeMerged) {
   const std::string damaged = shares("damaged", 2, options, {folder});
   damage(damaged + "/0", 40);  // the index is last
   expect_error(damaged, "damaged/0: is damaged");
+  const std::string long_index = shares("long", 2, options, {folder}),
+                    huge_index = shares("huge", 2, options, {folder});
+  const std::streamoff runs = 56;                                    // byte of the number of runs
+  damage(long_index + "/0", size_of(long_index + "/0") - runs - 3);  // 2^30 more
+  expect_error(long_index, "long/0: is truncated");
+  damage(huge_index + "/0", size_of(huge_index + "/0") - runs - 5);  // 2^46 more
+  expect_error(huge_index, "huge/0: is damaged: its index is too large");
   const std::string volume = shares("volume", 2, options, {folder});
   damage(volume + "/1", from_end_of(volume + "/1", R"("volumes":)"));
   const Result fitted = objects(options, {"--merge"}, volume);
   EXPECT_EQ(fitted.status, 1);
   EXPECT_THAT(fitted.err, HasSubstr("volume/1: is damaged: a volume has changed: it is fitted again"));
   EXPECT_TRUE(fitted.out == objects(options, {"--together"}, folder).out);
-  for (const std::string& parts : {truncated, twice, damaged, volume})
+  for (const std::string& parts : {truncated, twice, damaged, long_index, huge_index, volume})
     EXPECT_EQ(objects(options, {"--merge"}, parts).error_lines(), 1U);
 }
 

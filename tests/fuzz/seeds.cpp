@@ -13,6 +13,7 @@
 #include "../recording/made_packets.h"
 #include "codecs.h"
 #include "message_bytes.h"
+#include "object_seeds.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/recording/mcap_writer.h"
@@ -287,8 +288,9 @@ void write_hesai(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "ouster",
-                           "hesai", "partial", "cloud", "compressed", "live", "nested", "transforms", "urdf"})
+  for (const char* name :
+       {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "ouster", "hesai", "partial",
+        "cloud", "compressed", "live", "nested", "transforms", "urdf", "objects"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -300,6 +302,7 @@ int main(int count, char** arguments) {
   write_ouster(folder);
   write_hesai(folder);
   write_partials(folder);
+  write_objects(folder);
   write_transforms(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");

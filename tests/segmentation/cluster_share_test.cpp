@@ -349,6 +349,24 @@ TEST(ClusterShares, ThatAreDamagedAreNamed) {
   }
 }
 
+TEST(ClusterShares, WithNumbersThatDoNotFitInARecordAreNamed) {
+  const test::TestCloud<float> cloud = two_clumps_and_a_line();
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  const MadeClusterShare good(cloud.view().slice(0, 150), options);
+  MadeClusterShare bad(cloud.view().slice(150, 150), options);
+  for (const unsigned bit : {61U, 62U, 63U}) {  // of marks in a record
+    bad.first_number = std::uint64_t{1} << bit;
+    try {
+      const StoredClusters joined({&good, &bad}, options);
+      FAIL() << "no error for bit " << bit;
+    } catch (const ShareError& error) {
+      EXPECT_EQ(error.share(), 1U);
+      EXPECT_STREQ(error.what(), "has numbers of points that are too large");
+    }
+  }
+}
+
 TEST(ClusterShares, OfNoPointAreNone) {
   ClusterOptions options;
   options.tolerance = 1;

@@ -22,7 +22,8 @@ static_assert(sizeof(std::size_t) == sizeof(unsigned long));
 
 int length(const std::string& text) {
   if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw std::length_error("message larger than 2 GiB: the hull of this cloud is too large for MPI");
+    throw std::length_error(
+        "a message would be larger than 2 GiB, the limit of MPI: use fewer ranks, or --partial and --merge");
   return static_cast<int>(text.size());
 }
 

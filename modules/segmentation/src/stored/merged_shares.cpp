@@ -211,6 +211,8 @@ void MergedShares::add_points_of_run(const RunPlace& place, bool active, const B
     view.data = reader.record();
     const Coordinates point = load_point(view, 0);
     if (!is_valid(point)) throw ShareError(place.share, "has points that are not finite");
+    if (reader.number() > kNumberMask)
+      throw ShareError(place.share, "has numbers of points that are too large");
     const Bricks::Place at = bricks.place(point, cursor);
     const std::uint64_t number = reader.number() | (number_of_record(reader.record(), scalar_) & kCore);
     const auto add = [&](std::uint32_t brick, std::uint64_t mark) {
