@@ -47,7 +47,7 @@ std::string shares_of(const PointView& all, std::size_t count, const ObjectChoic
       const MadeClusterShare share(all.slice(first, end - first), fuzzed_options(choices), {},
                                    {Serial{}, UsableIsa(Isa::automatic)},
                                    {empty, first_record_of_object_file()});
-      complete_object_file(empty, header, share, [&](std::uint32_t component) -> std::string {
+      complete_object_file(empty, 0, header, share, [&](std::uint32_t component) -> std::string {
         if (component % 3 == 2) return {};
         return R"({"id":0,"points":3,"volumes":[{"method":"a","shape":"sphere","center":[0,0,0],"radius":1}]})";
       });
