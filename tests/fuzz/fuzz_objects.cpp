@@ -88,6 +88,12 @@ void merge(const Shares& shares, const ObjectChoices& choices) {
     const StoredClusters clusters(pointers(shares), fuzzed_options(choices), store,
                                   {Serial{}, UsableIsa(Isa::automatic)});
     check_clusters(clusters, shares, choices.known, clusters.counts());
+  } catch (const ShareError&) {
+    store.on_lost = [](const ShareError&, std::uint64_t points) { require(points > 0, "points are lost"); };
+    const StoredClusters left(pointers(shares), fuzzed_options(choices), store,
+                              {Serial{}, UsableIsa(Isa::automatic)});
+    for (std::size_t i = 0; i < left.size() && !choices.known; ++i)
+      require(left.points(i).view().count == left.point_count(i), "a cluster has its points");
   } catch (const std::invalid_argument&) {
     bool same = true;
     for (const auto& share : shares)
