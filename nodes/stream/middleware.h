@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "pcl_bv/messages/serialize.h"
 #include "stream/remote_parameters.h"
 
 namespace pcl_bv {
@@ -23,6 +24,8 @@ struct MessageTopic {
   std::string type;              ///< "vision_msgs/msg/Detection3DArray".
   std::string encoding = "cdr";  ///< "cdr", or "json" for viewers.
   bool latched = false;          ///< Later receivers get the last message, too (Delivery::latched).
+  /// Number of messages that are sent again to receivers that missed them, or that wait for slow receivers.
+  std::size_t history = 5;
 };
 
 /// Sends the messages of several topics. Called by one thread.
@@ -34,11 +37,14 @@ class MessageSender {
   /// the other member functions.
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
+  /// Returns the encoding of the messages that send() takes.
+  virtual MessageEncoding encoding() const { return MessageEncoding::cdr; }
+
   /// Returns whether the next message of a topic has a receiver. Without a receiver, the caller need not make
   /// the message.
   virtual bool has_subscribers(std::size_t /*topic*/) const { return true; }
 
-  /// Sends a message, which is plain CDR with its encapsulation header, or JSON text. Throws as
+  /// Sends a message in encoding(), which is CDR with its encapsulation header, or JSON text. Throws as
   /// FrameSink::write().
   virtual void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) = 0;
 

@@ -13,6 +13,7 @@
 
 #include "dds_test.h"
 #include "pcl_bv/messages/livox.h"
+#include "pcl_bv/messages/moveit.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 #include "stream/middleware.h"
@@ -93,7 +94,15 @@ struct Diagnostics {
   using Message = msg::DiagnosticArray;
   static const dds_topic_descriptor_t& type() { return diagnostic_msgs_msg_dds__DiagnosticArray__desc; }
 };
-using Kinds = testing::Types<Cloud, Markers, Detections, Diagnostics>;
+struct CollisionObjects {
+  using Message = msg::CollisionObject;
+  static const dds_topic_descriptor_t& type() { return moveit_msgs_msg_dds__CollisionObject__desc; }
+};
+struct PlanningScenes {
+  using Message = msg::PlanningScene;
+  static const dds_topic_descriptor_t& type() { return moveit_msgs_msg_dds__PlanningScene__desc; }
+};
+using Kinds = testing::Types<Cloud, Markers, Detections, Diagnostics, CollisionObjects, PlanningScenes>;
 TYPED_TEST_SUITE(DdsTypes, Kinds);
 
 // Cyclone reads our bytes into its structures and writes those again, which we receive.

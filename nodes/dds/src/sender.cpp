@@ -35,10 +35,10 @@ std::string_view hash_of(const std::string& type) {
   return found == hashes.end() ? std::string_view() : found->second;
 }
 
-Qos writer_qos(const std::string& type, bool latched) {
+Qos writer_qos(const std::string& type, bool latched, std::size_t history) {
   Qos qos = make_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlockingTime);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, latched ? 1 : 5);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, latched ? 1 : static_cast<std::int32_t>(history));
   if (latched) dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (const std::string_view hash = hash_of(type); !hash.empty()) {
@@ -51,12 +51,12 @@ Qos writer_qos(const std::string& type, bool latched) {
 class Sender final : public MessageSender {
  public:
   std::size_t add_topic(const MessageTopic& added) override {
-    const auto& [name, type, encoding, latched] = added;
+    const auto& [name, type, encoding, latched, history] = added;
     if (encoding != "cdr") throw std::invalid_argument(name + ": DDS carries CDR only");
     const ddsi_sertype* known = nullptr;
     Entity topic(create_cdr_topic(participant_->get(), dds_topic(name), dds_type(type), &known), name);
-    Entity writer(
-        dds_create_writer(participant_->get(), topic.get(), writer_qos(type, latched).get(), nullptr), name);
+    const Qos qos = writer_qos(type, latched, history);
+    Entity writer(dds_create_writer(participant_->get(), topic.get(), qos.get(), nullptr), name);
     topics_.push_back({name, known, std::move(topic), std::move(writer)});
     return topics_.size() - 1;
   }

@@ -45,6 +45,7 @@ template <class Writer>
 std::unique_ptr<FrameSink> open_recording_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.points = description.points;
+  topics.adapters = description.adapters;
   return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.target)), topics);
 }
 
@@ -60,8 +61,8 @@ std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkOptions& description) {
 }  // namespace
 
 std::vector<SinkKind> recording_sinks() {
-  return {{"mcap", "FILE[,points]", "", open_mcap_sink},
-          {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink}};
+  return {{"mcap", "FILE[,points][,moveit]", "", open_mcap_sink},
+          {"rosbag2", "FOLDER[,points][,moveit]", "", open_rosbag2_sink}};
 }
 
 }  // namespace pcl_bv::detail
