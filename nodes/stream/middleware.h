@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/messages/serialize.h"
 #include "stream/remote_parameters.h"
 
 namespace pcl_bv {
@@ -37,14 +36,14 @@ class MessageSender {
   /// the other member functions.
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
-  /// Returns the encoding of the messages that send() takes.
-  virtual MessageEncoding encoding() const { return MessageEncoding::cdr; }
+  /// Returns whether send() takes messages of ROS 1 in its encoding instead of CDR.
+  virtual bool takes_ros1() const { return false; }
 
   /// Returns whether the next message of a topic has a receiver. Without a receiver, the caller need not make
   /// the message.
   virtual bool has_subscribers(std::size_t /*topic*/) const { return true; }
 
-  /// Sends a message in encoding(), which is CDR with its encapsulation header, or JSON text. Throws as
+  /// Sends a message: CDR with its encapsulation header, JSON text, or takes_ros1(). Throws as
   /// FrameSink::write().
   virtual void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) = 0;
 

@@ -20,7 +20,7 @@ class Sent final : public MessageSender {
     return topics.size() - 1;
   }
   bool has_subscribers(std::size_t topic) const override { return silent.count(topics[topic].name) == 0; }
-  MessageEncoding encoding() const override { return ros1 ? MessageEncoding::ros1 : MessageEncoding::cdr; }
+  bool takes_ros1() const override { return ros1; }
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override {
     stamps.push_back(stamp_ns);
     messages[topics[topic].name].push_back(message);
@@ -30,6 +30,9 @@ class Sent final : public MessageSender {
   template <class Message>
   std::vector<Message> take(const std::string& topic) {
     std::vector<Message> all;
+    const auto known =
+        std::find_if(topics.begin(), topics.end(), [&](const MessageTopic& t) { return t.name == topic; });
+    EXPECT_TRUE(known != topics.end() && known->type == Message::ros_type) << topic;
     kept_ = std::exchange(messages[topic], {});  // what msg::Bytes refer to
     for (const std::vector<std::byte>& bytes : kept_)
       all.push_back(read_message<Message>(bytes.data(), bytes.size(), ros1));

@@ -176,10 +176,11 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
       parse_sink(bad);
       FAIL() << bad;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(error.what(), "'" + std::string(bad) +
-                                  "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points][,moveit], "
-                                  "rosbag2:FOLDER[,points][,moveit], dds:PREFIX[,moveit], ws:[HOST:]PORT, "
-                                  "vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
+      EXPECT_EQ(error.what(),
+                "'" + std::string(bad) +
+                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points][,moveit][,nav2][,vision], "
+                    "rosbag2:FOLDER[,points][,moveit][,nav2][,vision], dds:PREFIX[,moveit][,nav2][,vision], "
+                    "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
     }
   }
 }

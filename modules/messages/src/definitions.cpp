@@ -26,6 +26,9 @@ constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
     {"geometry_msgs/Point32", "float32 x\nfloat32 y\nfloat32 z\n"},
     {"geometry_msgs/Polygon", "geometry_msgs/Point32[] points\n"},
     {"geometry_msgs/PolygonStamped", "std_msgs/Header header\ngeometry_msgs/Polygon polygon\n"},
+    {"geometry_msgs/PolygonInstance", "geometry_msgs/Polygon polygon\nint64 id\n"},
+    {"geometry_msgs/PolygonInstanceStamped",
+     "std_msgs/Header header\ngeometry_msgs/PolygonInstance polygon\n"},
     {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
     {"geometry_msgs/TransformStamped",
      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
@@ -73,6 +76,12 @@ constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
      "std_msgs/Header header\nvision_msgs/ObjectHypothesisWithPose[] results\n"
      "vision_msgs/BoundingBox3D bbox\nstring id\n"},
     {"vision_msgs/Detection3DArray", "std_msgs/Header header\nvision_msgs/Detection3D[] detections\n"},
+    {"unique_identifier_msgs/UUID", "uint8[16] uuid\n"},
+    {"nav2_dynamic_msgs/Obstacle",
+     "unique_identifier_msgs/UUID uuid\nfloat32 score\ngeometry_msgs/Point position\n"
+     "geometry_msgs/Vector3 velocity\ngeometry_msgs/Vector3 size\nfloat64[9] position_covariance\n"
+     "float64[9] velocity_covariance\n"},
+    {"nav2_dynamic_msgs/ObstacleArray", "std_msgs/Header header\nnav2_dynamic_msgs/Obstacle[] obstacles\n"},
     {"object_recognition_msgs/ObjectType", "string key\nstring db\n"},
     {"shape_msgs/SolidPrimitive",
      "uint8 BOX=1\nuint8 SPHERE=2\nuint8 CYLINDER=3\nuint8 CONE=4\nuint8 PRISM=5\nuint8 type\n"
@@ -124,6 +133,10 @@ constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
      "moveit_msgs/AllowedCollisionMatrix allowed_collision_matrix\n"
      "moveit_msgs/LinkPadding[] link_padding\nmoveit_msgs/LinkScale[] link_scale\n"
      "moveit_msgs/ObjectColor[] object_colors\nmoveit_msgs/PlanningSceneWorld world\nbool is_diff\n"},
+    {"vision_msgs/BoundingBox3DArray", "std_msgs/Header header\nvision_msgs/BoundingBox3D[] boxes\n"},
+    {"vision_msgs/VisionClass", "uint16 class_id\nstring class_name\n"},
+    {"vision_msgs/LabelInfo",
+     "std_msgs/Header header\nvision_msgs/VisionClass[] class_map\nfloat32 threshold\n"},
     {"visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"},
     {"visualization_msgs/MeshFile", "string filename\nuint8[] data\n"},
     {"visualization_msgs/Marker",

@@ -18,12 +18,20 @@ constexpr std::pair<std::string_view, std::string_view> kRos1Definitions[]{
      "uint8 BOX=1\nuint8 SPHERE=2\nuint8 CYLINDER=3\nuint8 CONE=4\nuint8 type\nfloat64[] dimensions\n"
      "uint8 BOX_X=0\nuint8 BOX_Y=1\nuint8 BOX_Z=2\nuint8 SPHERE_RADIUS=0\nuint8 CYLINDER_HEIGHT=0\n"
      "uint8 CYLINDER_RADIUS=1\nuint8 CONE_HEIGHT=0\nuint8 CONE_RADIUS=1\n"},
+    {"vision_msgs/ObjectHypothesisWithPose",
+     "int64 id\nfloat64 score\ngeometry_msgs/PoseWithCovariance pose\n"},
+    {"vision_msgs/Detection3D",
+     "std_msgs/Header header\nvision_msgs/ObjectHypothesisWithPose[] results\n"
+     "vision_msgs/BoundingBox3D bbox\nsensor_msgs/PointCloud2 source_cloud\n"},
 };
 
 // The MD5 sums of ROS 1's definitions (genmsg.compute_md5_text). Tests compare them with genmsg's.
 constexpr std::pair<std::string_view, const char*> kRos1Sums[]{
+    {"geometry_msgs/PolygonStamped", "c6be8f7dc3bee7fe9e8d296070f53340"},
     {"moveit_msgs/CollisionObject", "dbba710596087da521c07564160dfccb"},
     {"moveit_msgs/PlanningScene", "acfc50bcfd6c7b978066bfa7c786002c"},
+    {"vision_msgs/BoundingBox3DArray", "9e1a3932308592aa1b20232d818486db"},
+    {"vision_msgs/Detection3DArray", "05c51d9aea1fb4cfdc8effb94f197b6f"},
 };
 
 template <class Table>

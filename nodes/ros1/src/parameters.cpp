@@ -54,7 +54,7 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
 std::vector<std::string> names_in(const YAML::Node& list) {
   std::vector<std::string> names;
   if (list.IsScalar()) {
-    read_text(list.Scalar(), names);
+    if (!list.Scalar().empty()) read_text(list.Scalar(), names);
   } else {
     names = list.as<std::vector<std::string>>();
   }

@@ -29,7 +29,7 @@ class Ros1Sender final : public MessageSender {
   bool has_subscribers(std::size_t topic) const override {
     return publishers_.at(topic).getNumSubscribers() > 0;
   }
-  MessageEncoding encoding() const override { return MessageEncoding::ros1; }
+  bool takes_ros1() const override { return true; }
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override;
   /// Ends the publishers. `on_change` is not called afterwards.
   void close() override;

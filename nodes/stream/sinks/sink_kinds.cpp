@@ -58,7 +58,7 @@ const std::vector<SinkKind>& sink_kinds() {
   static const std::vector<SinkKind> kinds = [] {
     std::vector<SinkKind> all{{"jsonl", "FILE", "", open_jsonl},
                               {"csv", "FILE", "", open_csv},
-                              {"dds", "PREFIX[,moveit]", "", open_dds_sink, true},
+                              {"dds", "PREFIX[,moveit][,nav2][,vision]", "", open_dds_sink, true},
                               {"ws", "[HOST:]PORT", "", open_ws_sink, true},
                               {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                               {"image", "FOLDER", ".png", open_image},

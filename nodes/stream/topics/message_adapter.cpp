@@ -8,7 +8,8 @@
 namespace pcl_bv::detail {
 
 const std::vector<AdapterKind>& adapter_kinds() {
-  static const std::vector<AdapterKind> kinds{{"moveit", make_moveit_adapter}};
+  static const std::vector<AdapterKind> kinds{
+      {"moveit", make_moveit_adapter}, {"nav2", make_nav2_adapter}, {"vision", make_vision_adapter}};
   return kinds;
 }
 

@@ -51,6 +51,16 @@ MessageTopic topic_of_objects(const std::string& name);
 /// "/collision_object".
 std::unique_ptr<MessageAdapter> make_moveit_adapter(MessageSender& to, const std::string& prefix);
 
+/// nav2_dynamic_msgs/msg/ObstacleArray on "/obstacles", and the footprints of objects, one a message, as
+/// geometry_msgs/msg/PolygonInstanceStamped on "/polygons" and as geometry_msgs/msg/PolygonStamped on
+/// "/footprints". ROS 1: only "/footprints".
+std::unique_ptr<MessageAdapter> make_nav2_adapter(MessageSender& to, const std::string& prefix);
+
+/// vision_msgs/msg/BoundingBox3DArray on "/boxes", vision_msgs/msg/LabelInfo on "/label_info" if points have
+/// classes, and on "/detection_points" a sensor_msgs/msg/PointCloud2 with the points of all objects and the
+/// index of the detection of each. ROS 1: "/boxes", and detections with their points on "/objects".
+std::unique_ptr<MessageAdapter> make_vision_adapter(MessageSender& to, const std::string& prefix);
+
 /// A topic to which an adapter sends messages of one type.
 template <class Message>
 class AdapterTopic {
@@ -66,7 +76,7 @@ class AdapterTopic {
 
   void send(std::int64_t stamp_ns, const Message& message) {
     bytes_.clear();
-    if (to_.encoding() == MessageEncoding::ros1) {
+    if (to_.takes_ros1()) {
       write_ros1(message, bytes_);
     } else {
       write_cdr(message, bytes_);

@@ -89,7 +89,7 @@ struct SinkOptions {
   /// File ("-": standard output) or folder. For dds: prefix of the topics. For ws: [HOST:]PORT.
   std::filesystem::path target;
   bool points = false;  ///< Whether to write the points of each frame, too.
-  /// Programs whose messages are written, too: "moveit". Each is an option of the sink.
+  /// Programs whose messages are written, too: "moveit", "nav2", "vision". Each is an option of the sink.
   std::vector<std::string> adapters{};
 };
 
