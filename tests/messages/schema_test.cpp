@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "pcl_bv/messages/moveit.h"
+#include "pcl_bv/messages/obstacles.h"
 #include "pcl_bv/messages/polygon.h"
-#include "pcl_bv/messages/results.h"
+#include "pcl_bv/messages/vision.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -30,7 +31,9 @@ TEST(Schemas, AreThereForEveryMessage) {
   for (const char* type :
        {msg::PointCloud2::ros_type, msg::Detection3DArray::ros_type, msg::MarkerArray::ros_type,
         msg::SceneUpdate::ros_type, msg::DiagnosticArray::ros_type, msg::TFMessage::ros_type,
-        msg::PolygonStamped::ros_type, msg::CollisionObject::ros_type, msg::PlanningScene::ros_type})
+        msg::PolygonStamped::ros_type, msg::CollisionObject::ros_type, msg::PlanningScene::ros_type,
+        msg::ObstacleArray::ros_type, msg::PolygonInstanceStamped::ros_type,
+        msg::BoundingBox3DArray::ros_type, msg::LabelInfo::ros_type})
     EXPECT_GT(schema_of(type).size(), 100U) << type;
 }
 

@@ -152,8 +152,8 @@ TEST(StreamConfig, ClassesReadBackAsTheyArePrinted) {
   cluster.classes = {{-3, true}, {7, false, 0.3, std::size_t{4}, kUnlimited, {"obb", "sphere"}, "car"}, {9}};
   const std::string printed = to_yaml(config);
   EXPECT_THAT(printed, HasSubstr("classes: [{value: -3, drop: true}, {value: 7, drop: false, tolerance: 0.3, "
-                                 "min_size: 4, max_size: unlimited, volumes: [obb, sphere]}, {value: 9, "
-                                 "drop: false}]"));
+                                 "min_size: 4, max_size: unlimited, volumes: [obb, sphere], name: "
+                                 "\"car\"}, {value: 9, drop: false}]"));
   const StreamConfig read = parse_stream_config(printed, "");
   EXPECT_EQ(to_yaml(read), printed);
   ASSERT_EQ(read.pipeline.cluster.classes.size(), 3U);

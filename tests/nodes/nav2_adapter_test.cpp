@@ -206,7 +206,7 @@ TEST_F(Nav2, NearestPolygonIsTheLast) {
 }
 
 TEST(Nav2Footprints, ContainThePointsOfTiltedBoxesAndPrisms) {
-  for (const std::string& volume : {"obb-min", "sphere", "prism"}) {
+  for (const char* volume : {"obb-min", "sphere", "prism"}) {
     SCOPED_TRACE(volume);
     Cubes cubes({volume});
     Sent sent;

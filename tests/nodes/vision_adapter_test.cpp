@@ -158,7 +158,7 @@ TEST_F(Vision, LabelsAreSentOnceAndAgainWhenTheyChange) {
   };
   cubes.process({kCentres[0], kCentres[1]});
   give_classes();
-  for (const std::string& name : {"car", "bus"}) {
+  for (const char* name : {"car", "bus"}) {
     const auto infos = process(name);
     ASSERT_EQ(infos.size(), 1U);
     ASSERT_EQ(infos[0].class_map.size(), 1U);  // 70000 is no uint16, and 5 has no name

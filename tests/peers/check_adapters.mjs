@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// check_adapters.mjs FILE.mcap FRAMES.jsonl: decodes the messages for MoveIt, Nav2 and vision_msgs by the definitions in
+// check_adapters.mjs FILE.mcap FRAMES.jsonl [LABELS]: decodes the messages for MoveIt, Nav2 and vision_msgs by the definitions in
 // the file, and compares their numbers with those of the JSON that the same run, without poses, wrote. FILE has the
-// labelled points, too.
+// labelled points, too. LABELS is a JSON object with the names of classes.
 import assert from "node:assert";
 import { open, readFile } from "node:fs/promises";
 import { parse } from "@foxglove/rosmsg";
@@ -12,7 +12,7 @@ import { McapIndexedReader } from "@mcap/core";
 import { FileHandleReadable } from "@mcap/nodejs";
 import { loadDecompressHandlers } from "@mcap/support";
 
-const [recording, json] = process.argv.slice(2);
+const [recording, json, labels] = process.argv.slice(2);
 const frames = new Map(); // by stamp
 for (const line of (await readFile(json, "utf8")).trim().split("\n")) {
   const frame = JSON.parse(line);
@@ -226,6 +226,19 @@ function checkVision() {
   console.log(`vision_msgs: ${boxes} boxes and ${points} points of detections equal`);
 }
 
-checkMoveIt();
+function checkLabels(expected) {
+  const infos = messagesOf("/bv/label_info", "vision_msgs/msg/LabelInfo");
+  assert.equal(infos.length, 1);
+  const [{ header, class_map: classes, threshold }] = infos;
+  frameOf(header);
+  assert.equal(threshold, 0);
+  assert.deepEqual(Object.fromEntries(classes.map((known) => [known.class_id, known.class_name])), expected);
+  const channel = [...reader.channelsById.values()].find(({ topic }) => topic === "/bv/label_info");
+  assert.ok(channel.metadata.get("offered_qos_profiles").includes("durability: 1")); // transient local
+  console.log(`vision_msgs: names of ${classes.length} classes equal`);
+}
+
+if (topics.has("/bv/planning_scene")) checkMoveIt();
 if (topics.has("/bv/obstacles")) checkNav2();
-if (topics.has("/bv/boxes")) checkVision();
+if (topics.has("/bv/detection_points") && topics.has("/bv/points")) checkVision();
+if (labels) checkLabels(JSON.parse(labels));

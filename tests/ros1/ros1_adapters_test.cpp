@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 
 #include "pcl_bv/messages/moveit.h"
+#include "pcl_bv/messages/polygon.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/messages/vision.h"
 #include "ros1_test.h"
 
 namespace pcl_bv::test {
@@ -26,6 +28,9 @@ const char* published_sum() {
   const std::string type = Message::ros_type;
   if (type == msg::CollisionObject::ros_type) return "dbba710596087da521c07564160dfccb";
   if (type == msg::PlanningScene::ros_type) return "acfc50bcfd6c7b978066bfa7c786002c";
+  if (type == msg::PolygonStamped::ros_type) return "c6be8f7dc3bee7fe9e8d296070f53340";
+  if (type == msg::BoundingBox3DArray::ros_type) return "9e1a3932308592aa1b20232d818486db";
+  if (type == msg::Ros1Detection3DArray::ros_type) return "05c51d9aea1fb4cfdc8effb94f197b6f";
   return "unknown";
 }
 
@@ -106,6 +111,35 @@ TEST_F(Ros1Adapters, PublishCollisionObjectsOfMoveIt) {
   const auto object = first_of<msg::CollisionObject>("moveit", "collision_object");
   ASSERT_TRUE(object);
   expect_cube(*object);
+}
+
+TEST_F(Ros1Adapters, PublishFootprintsForCostmaps) {
+  const auto footprint = first_of<msg::PolygonStamped>("nav2", "footprints");
+  ASSERT_TRUE(footprint);
+  EXPECT_EQ(footprint->header.frame_id, "lidar");
+  ASSERT_EQ(footprint->polygon.points.size(), 4U);
+  for (const msg::Point32& corner : footprint->polygon.points)
+    EXPECT_NEAR(std::abs(corner.x - 10.45F), 0.45, 1e-5);
+}
+
+TEST_F(Ros1Adapters, PublishBoxesOfVisionMsgs) {
+  const auto boxes = first_of<msg::BoundingBox3DArray>("vision,moveit", "boxes");
+  ASSERT_TRUE(boxes);
+  ASSERT_EQ(boxes->boxes.size(), 1U);
+  EXPECT_NEAR(boxes->boxes[0].size.x, 0.9, 1e-6);
+}
+
+TEST_F(Ros1Adapters, PublishDetectionsWithTheirPoints) {
+  const auto array = first_of<msg::Ros1Detection3DArray>("vision", "objects");
+  ASSERT_TRUE(array);
+  ASSERT_EQ(array->detections.size(), 1U);
+  const msg::Ros1Detection3D& detection = array->detections[0];
+  EXPECT_NEAR(detection.bbox.center.position.x, 10.45, 1e-6);
+  EXPECT_EQ(detection.source_cloud.width, 1000U);
+  EXPECT_EQ(detection.source_cloud.data.size, 16'000U);
+  EXPECT_EQ(detection.source_cloud.header.frame_id, "lidar");
+  ASSERT_EQ(detection.results.size(), 1U);
+  EXPECT_EQ(detection.results[0].id, -1);  // points have no classes
 }
 
 TEST_F(Ros1Adapters, AreOnlyThoseOfTheParameter) {

@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,23 +51,19 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
   }
 }
 
-// Returns a list of names, which a command line gives as a text with commas.
-std::vector<std::string> names_in(const YAML::Node& list) {
-  std::vector<std::string> names;
-  if (list.IsScalar()) {
-    if (!list.Scalar().empty()) read_text(list.Scalar(), names);
-  } else {
-    names = list.as<std::vector<std::string>>();
-  }
-  return names;
-}
-
+// Returns the names of adapters, which a command line gives as a text with commas.
 std::vector<std::string> adapters_in(const YAML::Node& list) {
   std::vector<std::string> names;
-  try {
-    names = names_in(list);
-  } catch (const YAML::Exception&) {
-    throw std::invalid_argument("is not a list of names");
+  if (list.IsScalar()) {
+    std::istringstream text(list.Scalar());
+    for (std::string name; std::getline(text, name, ',');)
+      names.push_back(name);
+  } else {
+    try {
+      names = list.as<std::vector<std::string>>();
+    } catch (const YAML::Exception&) {
+      throw std::invalid_argument("is not a list of names");
+    }
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -97,7 +94,11 @@ NodeConfig config_of(const ros::NodeHandle& parameters) {
   }
   if (const std::string file = take("config"); !file.empty())
     static_cast<StreamConfig&>(config) = read_stream_config(file, config);
-  if (tree["volumes"] && tree["volumes"].IsScalar()) tree["volumes"] = names_in(tree["volumes"]);
+  if (tree["volumes"] && tree["volumes"].IsScalar()) {  // on a command line: _volumes:=aabb,sphere
+    std::vector<std::string> methods;
+    read_text(tree["volumes"].Scalar(), methods);
+    tree["volumes"] = methods;
+  }
   try {
     if (tree["publish"]) config.publish = adapters_in(tree["publish"]);
   } catch (const std::invalid_argument& error) {
