@@ -354,6 +354,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   state_->fit(*now, used.points, result);
   result.ms.fit = watch.lap();
   result.tracks.clear();
+  result.active_tracks.clear();
   result.track_time = TrackTime::stamps;
   // An empty cluster has no position to track.
   const bool nothing = result.clusters.size() == 1 && result.clusters.list_size(0) == 0;

@@ -147,6 +147,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   if (predicted_) know_objects(clusters, result);
   predicted_ = false;
   result.track_time = clock_.source();
+  tracker_.list_active(result.active_tracks);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].track);
     filter_boxes(assignments_[i], config, i, clusters[i], result);

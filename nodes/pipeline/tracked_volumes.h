@@ -32,9 +32,9 @@ class TrackClock {
 /// The tracker of a stream and the filters of its boxes.
 class TrackedVolumes {
  public:
-  /// Fills result.tracks. Gives the axes of each oriented box the order and directions of the object's last
-  /// box. If requested, smooths the yaw of upright boxes and grows their sizes. `clusters` holds the points
-  /// of each cluster.
+  /// Fills result.tracks and result.active_tracks. Gives the axes of each oriented box the order and
+  /// directions of the object's last box. If requested, smooths the yaw of upright boxes and grows their
+  /// sizes. `clusters` holds the points of each cluster.
   void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
               FrameResult& result);
 

@@ -23,6 +23,8 @@ struct MessageTopic {
   std::string type;              ///< "vision_msgs/msg/Detection3DArray".
   std::string encoding = "cdr";  ///< "cdr", or "json" for viewers.
   bool latched = false;          ///< Later receivers get the last message, too (Delivery::latched).
+  /// Number of messages that are sent again to receivers that missed them, or that wait for slow receivers.
+  std::size_t history = 5;
 };
 
 /// Sends the messages of several topics. Called by one thread.
@@ -34,11 +36,14 @@ class MessageSender {
   /// the other member functions.
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
+  /// Returns whether send() takes messages of ROS 1 in its encoding instead of CDR.
+  virtual bool takes_ros1() const { return false; }
+
   /// Returns whether the next message of a topic has a receiver. Without a receiver, the caller need not make
   /// the message.
   virtual bool has_subscribers(std::size_t /*topic*/) const { return true; }
 
-  /// Sends a message, which is plain CDR with its encapsulation header, or JSON text. Throws as
+  /// Sends a message: CDR with its encapsulation header, JSON text, or takes_ros1(). Throws as
   /// FrameSink::write().
   virtual void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) = 0;
 

@@ -13,8 +13,12 @@
 
 #include "dds_test.h"
 #include "pcl_bv/messages/livox.h"
+#include "pcl_bv/messages/moveit.h"
+#include "pcl_bv/messages/obstacles.h"
+#include "pcl_bv/messages/polygon.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/messages/vision.h"
 #include "stream/middleware.h"
 
 namespace pcl_bv::test {
@@ -93,7 +97,32 @@ struct Diagnostics {
   using Message = msg::DiagnosticArray;
   static const dds_topic_descriptor_t& type() { return diagnostic_msgs_msg_dds__DiagnosticArray__desc; }
 };
-using Kinds = testing::Types<Cloud, Markers, Detections, Diagnostics>;
+struct CollisionObjects {
+  using Message = msg::CollisionObject;
+  static const dds_topic_descriptor_t& type() { return moveit_msgs_msg_dds__CollisionObject__desc; }
+};
+struct PlanningScenes {
+  using Message = msg::PlanningScene;
+  static const dds_topic_descriptor_t& type() { return moveit_msgs_msg_dds__PlanningScene__desc; }
+};
+struct Obstacles {
+  using Message = msg::ObstacleArray;
+  static const dds_topic_descriptor_t& type() { return nav2_dynamic_msgs_msg_dds__ObstacleArray__desc; }
+};
+struct Polygons {
+  using Message = msg::PolygonInstanceStamped;
+  static const dds_topic_descriptor_t& type() { return geometry_msgs_msg_dds__PolygonInstanceStamped__desc; }
+};
+struct Boxes {
+  using Message = msg::BoundingBox3DArray;
+  static const dds_topic_descriptor_t& type() { return vision_msgs_msg_dds__BoundingBox3DArray__desc; }
+};
+struct Labels {
+  using Message = msg::LabelInfo;
+  static const dds_topic_descriptor_t& type() { return vision_msgs_msg_dds__LabelInfo__desc; }
+};
+using Kinds = testing::Types<Cloud, Markers, Detections, Diagnostics, CollisionObjects, PlanningScenes,
+                             Obstacles, Polygons, Boxes, Labels>;
 TYPED_TEST_SUITE(DdsTypes, Kinds);
 
 // Cyclone reads our bytes into its structures and writes those again, which we receive.

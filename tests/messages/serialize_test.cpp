@@ -8,6 +8,8 @@
 
 #include <string_view>
 
+#include "pcl_bv/messages/finite.h"
+#include "pcl_bv/messages/moveit.h"
 #include "pcl_bv/messages/results.h"
 
 namespace pcl_bv::detail {
@@ -68,6 +70,20 @@ msg::SceneUpdate scene() {
   return {{{{1, 2}, msg::SceneEntityDeletion::ALL, "x"}}, {entity}};
 }
 
+msg::PlanningScene planning_scene() {
+  msg::CollisionObject object;
+  object.id = "bv_7";
+  object.primitives = {{msg::ShapePrimitive::SPHERE, {0.5}, {}}};
+  object.primitive_poses.resize(1);
+  object.meshes = {{{{{0, 1, 2}}}, {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}}}};
+  object.mesh_poses.resize(1);
+  msg::PlanningScene scene;
+  scene.object_colors = {{"bv_7", {1, 0, 0, 1}}};
+  scene.collision_objects = {object, msg::CollisionObject()};
+  scene.is_diff = true;
+  return scene;
+}
+
 template <class Message>
 void expect_round_trip(const Message& message) {
   const Buffer cdr = cdr_of(message);
@@ -87,6 +103,7 @@ TEST(Messages, ReadBackAsTheyAreWritten) {
   expect_round_trip(msg::Detection3DArray{
       {{1, 2}, "lidar"}, {{{}, {{{"3", 0.5}, {{}, {1, 2, 3}}}}, {{}, {1, 2, 3}}, "17"}, {}}});
   expect_round_trip(msg::TFMessage{{{{{}, "map"}, "lidar", {{1, 2, 3}, {0, 0, 1, 0}}}}});
+  expect_round_trip(planning_scene());
   expect_round_trip(msg::DiagnosticArray{{}, {{msg::DiagnosticStatus::WARN, "n", "m", "", {{"k", "v"}}}}});
 }
 
@@ -115,6 +132,20 @@ TEST(Messages, InBigEndianAreRead) {
   EXPECT_EQ(header.stamp.sec, 1);
   EXPECT_EQ(header.stamp.nanosec, 0x01020304U);
   EXPECT_EQ(header.frame_id, "ab");
+}
+
+TEST(Messages, AreFiniteIfEachOfTheirNumbersIs) {
+  EXPECT_TRUE(is_finite(planning_scene()));
+  EXPECT_TRUE(is_finite(markers()));
+  for (const double bad :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    msg::PlanningScene scene = planning_scene();
+    scene.collision_objects[0].meshes[0].vertices[2].z = bad;
+    EXPECT_FALSE(is_finite(scene));
+    msg::PoseWithCovariance pose;
+    pose.covariance[35] = bad;
+    EXPECT_FALSE(is_finite(pose));
+  }
 }
 
 template <class Message>

@@ -149,11 +149,11 @@ TEST(StreamConfig, ClassesReadBackAsTheyArePrinted) {
   StreamConfig config;
   ClusterConfig& cluster = config.pipeline.cluster;
   cluster.class_field = FieldName{"label"};
-  cluster.classes = {{-3, true}, {7, false, 0.3, std::size_t{4}, kUnlimited, {"obb", "sphere"}}, {9}};
+  cluster.classes = {{-3, true}, {7, false, 0.3, std::size_t{4}, kUnlimited, {"obb", "sphere"}, "car"}, {9}};
   const std::string printed = to_yaml(config);
   EXPECT_THAT(printed, HasSubstr("classes: [{value: -3, drop: true}, {value: 7, drop: false, tolerance: 0.3, "
-                                 "min_size: 4, max_size: unlimited, volumes: [obb, sphere]}, {value: 9, "
-                                 "drop: false}]"));
+                                 "min_size: 4, max_size: unlimited, volumes: [obb, sphere], name: "
+                                 "\"car\"}, {value: 9, drop: false}]"));
   const StreamConfig read = parse_stream_config(printed, "");
   EXPECT_EQ(to_yaml(read), printed);
   ASSERT_EQ(read.pipeline.cluster.classes.size(), 3U);
@@ -161,6 +161,7 @@ TEST(StreamConfig, ClassesReadBackAsTheyArePrinted) {
   EXPECT_EQ(read.pipeline.cluster.classes[1].value, 7);
   EXPECT_EQ(read.pipeline.cluster.classes[1].max_size, kUnlimited);
   EXPECT_EQ(read.pipeline.cluster.classes[1].volumes, (std::vector<std::string>{"obb", "sphere"}));
+  EXPECT_EQ(read.pipeline.cluster.classes[1].name, "car");
   EXPECT_FALSE(read.pipeline.cluster.classes[2].tolerance);
 }
 

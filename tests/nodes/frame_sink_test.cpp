@@ -166,6 +166,11 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
   EXPECT_TRUE(parse_sink("vtp:a,points").points);
   EXPECT_EQ(parse_sink("csv:a,points").target, "a,points");
   EXPECT_EQ(parse_sink("jsonl:a:b").target, "a:b");
+  const SinkOptions both = parse_sink("mcap:a,b.mcap,moveit,points,moveit");
+  EXPECT_EQ(both.target, "a,b.mcap");
+  EXPECT_TRUE(both.points);
+  EXPECT_THAT(both.adapters, testing::ElementsAre("moveit"));
+  EXPECT_EQ(parse_sink("vtp:a,moveit").target, "a,moveit");
   for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "vtp:-", "image:-", "xml:a", "json:a", ":a"}) {
     try {
       parse_sink(bad);
@@ -173,7 +178,8 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(),
                 "'" + std::string(bad) +
-                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points], rosbag2:FOLDER[,points], dds:PREFIX, "
+                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points][,moveit][,nav2][,vision], "
+                    "rosbag2:FOLDER[,points][,moveit][,nav2][,vision], dds:PREFIX[,moveit][,nav2][,vision], "
                     "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
     }
   }

@@ -11,154 +11,103 @@
 namespace pcl_bv {
 namespace {
 
-// Definitions by type name. In a definition, each type is written with its package, which ROS allows
-// everywhere.
-constexpr std::pair<std::string_view, std::string_view> kDefinitions[]{
-    {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
-    {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
-    {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
-    {"std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"},
-    {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
-    {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
-    {"geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
-    {"geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
-    {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
-    {"geometry_msgs/Point32", "float32 x\nfloat32 y\nfloat32 z\n"},
-    {"geometry_msgs/Polygon", "geometry_msgs/Point32[] points\n"},
-    {"geometry_msgs/PolygonStamped", "std_msgs/Header header\ngeometry_msgs/Polygon polygon\n"},
-    {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
-    {"geometry_msgs/TransformStamped",
-     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
-    {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
-    {"geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
-    {"nav_msgs/Odometry",
-     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
-     "geometry_msgs/TwistWithCovariance twist\n"},
-    {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
-    {"sensor_msgs/PointField",
-     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
-     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
-    {"sensor_msgs/PointCloud2",
-     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
-     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
-    {"livox_ros_driver/CustomPoint",
-     "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 line\n"},
-    {"livox_ros_driver/CustomMsg",
-     "std_msgs/Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\n"
-     "livox_ros_driver/CustomPoint[] points\n"},
-    {"livox_ros_driver2/CustomPoint",
-     "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 line\n"},
-    {"livox_ros_driver2/CustomMsg",
-     "std_msgs/Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\n"
-     "livox_ros_driver2/CustomPoint[] points\n"},
-    {"point_cloud_interfaces/CompressedPointCloud2",
-     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
-     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] compressed_data\nbool is_dense\nstring "
-     "format\n"},
-    {"draco_point_cloud_transport/CompressedPointCloud2",
-     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
-     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] compressed_data\nbool is_dense\n"},
-    {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
-    {"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
-    {"diagnostic_msgs/DiagnosticStatus",
-     "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\nstring message\n"
-     "string hardware_id\ndiagnostic_msgs/KeyValue[] values\n"},
-    {"diagnostic_msgs/DiagnosticArray",
-     "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n"},
-    {"vision_msgs/ObjectHypothesis", "string class_id\nfloat64 score\n"},
+// What ROS 1 (Noetic) publishes, where more differs than the names of times and default values.
+constexpr std::pair<std::string_view, std::string_view> kRos1Definitions[]{
+    {"std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n"},
+    {"shape_msgs/SolidPrimitive",
+     "uint8 BOX=1\nuint8 SPHERE=2\nuint8 CYLINDER=3\nuint8 CONE=4\nuint8 type\nfloat64[] dimensions\n"
+     "uint8 BOX_X=0\nuint8 BOX_Y=1\nuint8 BOX_Z=2\nuint8 SPHERE_RADIUS=0\nuint8 CYLINDER_HEIGHT=0\n"
+     "uint8 CYLINDER_RADIUS=1\nuint8 CONE_HEIGHT=0\nuint8 CONE_RADIUS=1\n"},
     {"vision_msgs/ObjectHypothesisWithPose",
-     "vision_msgs/ObjectHypothesis hypothesis\ngeometry_msgs/PoseWithCovariance pose\n"},
-    {"vision_msgs/BoundingBox3D", "geometry_msgs/Pose center\ngeometry_msgs/Vector3 size\n"},
+     "int64 id\nfloat64 score\ngeometry_msgs/PoseWithCovariance pose\n"},
     {"vision_msgs/Detection3D",
      "std_msgs/Header header\nvision_msgs/ObjectHypothesisWithPose[] results\n"
-     "vision_msgs/BoundingBox3D bbox\nstring id\n"},
-    {"vision_msgs/Detection3DArray", "std_msgs/Header header\nvision_msgs/Detection3D[] detections\n"},
-    {"visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"},
-    {"visualization_msgs/MeshFile", "string filename\nuint8[] data\n"},
-    {"visualization_msgs/Marker",
-     "int32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\n"
-     "int32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\n"
-     "int32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\n"
-     "int32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\n"
-     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\n"
-     "builtin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\n"
-     "std_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\n"
-     "visualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\n"
-     "visualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n"},
-    {"visualization_msgs/MarkerArray", "visualization_msgs/Marker[] markers\n"},
-    {"foxglove_msgs/Color", "float64 r\nfloat64 g\nfloat64 b\nfloat64 a\n"},
-    {"foxglove_msgs/KeyValuePair", "string key\nstring value\n"},
-    {"foxglove_msgs/ArrowPrimitive",
-     "geometry_msgs/Pose pose\nfloat64 shaft_length\nfloat64 shaft_diameter\nfloat64 head_length\n"
-     "float64 head_diameter\nfoxglove_msgs/Color color\n"},
-    {"foxglove_msgs/CubePrimitive",
-     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n"},
-    {"foxglove_msgs/SpherePrimitive",
-     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n"},
-    {"foxglove_msgs/CylinderPrimitive",
-     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfloat64 bottom_scale\nfloat64 top_scale\n"
-     "foxglove_msgs/Color color\n"},
-    {"foxglove_msgs/LinePrimitive",
-     "uint8 LINE_STRIP=0\nuint8 LINE_LOOP=1\nuint8 LINE_LIST=2\nuint8 type\ngeometry_msgs/Pose pose\n"
-     "float64 thickness\nbool scale_invariant\ngeometry_msgs/Point[] points\nfoxglove_msgs/Color color\n"
-     "foxglove_msgs/Color[] colors\nuint32[] indices\n"},
-    {"foxglove_msgs/TriangleListPrimitive",
-     "geometry_msgs/Pose pose\ngeometry_msgs/Point[] points\nfoxglove_msgs/Color color\n"
-     "foxglove_msgs/Color[] colors\nuint32[] indices\n"},
-    {"foxglove_msgs/TextPrimitive",
-     "geometry_msgs/Pose pose\nbool billboard\nfloat64 font_size\nbool scale_invariant\n"
-     "foxglove_msgs/Color color\nstring text\n"},
-    {"foxglove_msgs/ModelPrimitive",
-     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nfoxglove_msgs/Color color\nbool override_color\n"
-     "string url\nstring media_type\nuint8[] data\n"},
-    {"foxglove_msgs/SceneEntityDeletion",
-     "uint8 MATCHING_ID=0\nuint8 ALL=1\nbuiltin_interfaces/Time timestamp\nuint8 type\nstring id\n"},
-    {"foxglove_msgs/SceneEntity",
-     "builtin_interfaces/Time timestamp\nstring frame_id\nstring id\nbuiltin_interfaces/Duration lifetime\n"
-     "bool frame_locked\nfoxglove_msgs/KeyValuePair[] metadata\nfoxglove_msgs/ArrowPrimitive[] arrows\n"
-     "foxglove_msgs/CubePrimitive[] cubes\nfoxglove_msgs/SpherePrimitive[] spheres\n"
-     "foxglove_msgs/CylinderPrimitive[] cylinders\nfoxglove_msgs/LinePrimitive[] lines\n"
-     "foxglove_msgs/TriangleListPrimitive[] triangles\nfoxglove_msgs/TextPrimitive[] texts\n"
-     "foxglove_msgs/ModelPrimitive[] models\n"},
-    {"foxglove_msgs/SceneUpdate",
-     "foxglove_msgs/SceneEntityDeletion[] deletions\nfoxglove_msgs/SceneEntity[] entities\n"},
+     "vision_msgs/BoundingBox3D bbox\nsensor_msgs/PointCloud2 source_cloud\n"},
 };
 
-std::string_view definition(std::string_view name) {
-  const auto* const found = std::find_if(std::begin(kDefinitions), std::end(kDefinitions),
-                                         [&](const auto& entry) { return entry.first == name; });
-  if (found == std::end(kDefinitions))
-    throw std::invalid_argument("unknown message type '" + std::string(name) + "'");
-  return found->second;
+// The MD5 sums of ROS 1's definitions (genmsg.compute_md5_text). Tests compare them with genmsg's.
+constexpr std::pair<std::string_view, const char*> kRos1Sums[]{
+    {"geometry_msgs/PolygonStamped", "c6be8f7dc3bee7fe9e8d296070f53340"},
+    {"moveit_msgs/CollisionObject", "dbba710596087da521c07564160dfccb"},
+    {"moveit_msgs/PlanningScene", "acfc50bcfd6c7b978066bfa7c786002c"},
+    {"vision_msgs/BoundingBox3DArray", "9e1a3932308592aa1b20232d818486db"},
+    {"vision_msgs/Detection3DArray", "05c51d9aea1fb4cfdc8effb94f197b6f"},
+};
+
+template <class Table>
+auto find_in(const Table& table, std::string_view name) {
+  return std::find_if(std::begin(table), std::end(table),
+                      [&](const auto& entry) { return entry.first == name; });
 }
 
-// Appends the types that a definition uses, directly or indirectly. Each type is appended once.
-void collect(std::string_view name, std::vector<std::string_view>& names) {
-  std::string_view text = definition(name);
+// Returns "std_msgs/Header" of "std_msgs/msg/Header".
+std::string without_msg(std::string_view type) {
+  constexpr std::string_view middle = "/msg/";
+  std::string name(type);
+  if (const std::size_t at = name.find(middle); at != std::string::npos) name.replace(at, middle.size(), "/");
+  return name;
+}
+
+// Calls on_line(type, rest) for each line. `rest` begins with a space.
+template <class OnLine>
+void each_line(std::string_view text, const OnLine& on_line) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(line.size() + 1);
-    const std::string_view type = line.substr(0, line.find_first_of(" ["));
-    if (type.find('/') == std::string_view::npos ||
-        std::find(names.begin(), names.end(), type) != names.end())
-      continue;
-    names.push_back(type);
-    collect(type, names);
+    const std::size_t space = line.find(' ');
+    on_line(line.substr(0, space), line.substr(space));
   }
+}
+
+std::string ros2_definition(std::string_view name) {
+  return std::string(definition_of(name));
+}
+
+std::string ros1_definition(std::string_view name) {
+  if (const auto* const own = find_in(kRos1Definitions, name); own != std::end(kRos1Definitions))
+    return std::string(own->second);
+  std::string text;
+  each_line(definition_of(name), [&](std::string_view type, std::string_view rest) {
+    if (type == "builtin_interfaces/Time") type = "time";
+    if (type == "builtin_interfaces/Duration") type = "duration";
+    const std::string_view field = rest.substr(0, rest.find(' ', 1));  // without a default value
+    text.append(type).append(field).append("\n");
+  });
+  return text;
+}
+
+// Appends the types that a definition uses, directly or indirectly. Each type is appended once.
+void collect(const std::string& name, std::string (*definition)(std::string_view),
+             std::vector<std::string>& names) {
+  each_line(definition(name), [&](std::string_view field_type, std::string_view) {
+    const std::string type(field_type.substr(0, field_type.find('[')));
+    if (type.find('/') == std::string::npos || std::find(names.begin(), names.end(), type) != names.end())
+      return;
+    names.push_back(type);
+    collect(type, definition, names);
+  });
+}
+
+std::string with_used_types(const std::string& name, std::string (*definition)(std::string_view)) {
+  std::vector<std::string> others;
+  collect(name, definition, others);
+  std::string text = definition(name);
+  for (const std::string& other : others)
+    text.append(80, '=').append("\nMSG: ").append(other).append("\n").append(definition(other));
+  return text;
 }
 
 }  // namespace
 
 std::string schema_of(std::string_view type) {
-  constexpr std::string_view middle = "/msg/";
-  std::string name(type);
-  if (const std::size_t at = name.find(middle); at != std::string::npos) name.replace(at, middle.size(), "/");
-  std::vector<std::string_view> others;
-  collect(name, others);
-  std::string text(definition(name));
-  for (const std::string_view other : others)
-    text.append(80, '=').append("\nMSG: ").append(other).append("\n").append(definition(other));
-  return text;
+  return with_used_types(without_msg(type), ros2_definition);
+}
+
+Ros1Type ros1_type_of(std::string_view type) {
+  const std::string name = without_msg(type);
+  const auto* const sum = find_in(kRos1Sums, name);
+  if (sum == std::end(kRos1Sums)) throw std::invalid_argument("no message type of ROS 1: '" + name + "'");
+  return {name, sum->second, with_used_types(name, ros1_definition)};
 }
 
 }  // namespace pcl_bv

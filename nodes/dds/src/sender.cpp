@@ -30,15 +30,26 @@ std::string_view hash_of(const std::string& type) {
       {"vision_msgs/msg/Detection3DArray",
        "793f5eab9595ac1c0da07873cc859db42eae51f0ee76056db8562515d830e018"},
       {"diagnostic_msgs/msg/DiagnosticArray",
-       "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"}};
+       "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"},
+      {"moveit_msgs/msg/PlanningScene", "0f58540ad5eab4b9ea827d53b763c793d8cabd202b3b301fcee25afa4ce1bd80"},
+      {"moveit_msgs/msg/CollisionObject", "74b0acd6d56be032bf4f764b2c2633f50588b5fb2bd71e97206c59052747cf7e"},
+      {"nav2_dynamic_msgs/msg/ObstacleArray",
+       "30bef8eb1da85ccb8d8fd860be402b7710dd81b368d1622325aa617436b0cb2a"},
+      {"geometry_msgs/msg/PolygonInstanceStamped",
+       "802f37ea4398d7ce547936aab1fd278923716a13c63373887cd896957434ce2f"},
+      {"geometry_msgs/msg/PolygonStamped",
+       "b7cf07932f1523d4b4088075945c1a0141f7cd21da87cc940fc61652e9138b46"},
+      {"vision_msgs/msg/BoundingBox3DArray",
+       "a81938db9576b10c2eecd7c5a5da3eac496efd00221b25ed051dfbc81fb56da6"},
+      {"vision_msgs/msg/LabelInfo", "3d37df4015cdf660cc851c51897f2acd957e1ca6205ba0a99aebffb9406b0783"}};
   const auto found = hashes.find(type);
   return found == hashes.end() ? std::string_view() : found->second;
 }
 
-Qos writer_qos(const std::string& type, bool latched) {
+Qos writer_qos(const std::string& type, bool latched, std::size_t history) {
   Qos qos = make_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlockingTime);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, latched ? 1 : 5);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, latched ? 1 : static_cast<std::int32_t>(history));
   if (latched) dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (const std::string_view hash = hash_of(type); !hash.empty()) {
@@ -51,12 +62,12 @@ Qos writer_qos(const std::string& type, bool latched) {
 class Sender final : public MessageSender {
  public:
   std::size_t add_topic(const MessageTopic& added) override {
-    const auto& [name, type, encoding, latched] = added;
+    const auto& [name, type, encoding, latched, history] = added;
     if (encoding != "cdr") throw std::invalid_argument(name + ": DDS carries CDR only");
     const ddsi_sertype* known = nullptr;
     Entity topic(create_cdr_topic(participant_->get(), dds_topic(name), dds_type(type), &known), name);
-    Entity writer(
-        dds_create_writer(participant_->get(), topic.get(), writer_qos(type, latched).get(), nullptr), name);
+    const Qos qos = writer_qos(type, latched, history);
+    Entity writer(dds_create_writer(participant_->get(), topic.get(), qos.get(), nullptr), name);
     topics_.push_back({name, known, std::move(topic), std::move(writer)});
     return topics_.size() - 1;
   }

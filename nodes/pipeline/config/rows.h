@@ -50,6 +50,7 @@ void visit_row(Row& row, Visit&& visit) {
     visit(S{"min_size", "points", "", {0, kNoLimit}}, row.min_size);
     visit(S{"max_size", "points", "", {1, kNoLimit}}, row.max_size);
     visit(S{"volumes", "methods", ""}, row.volumes);
+    visit(S{"name", "", ""}, row.name);
   }
 }
 

@@ -120,7 +120,7 @@ void visit_cluster(Cluster& c, Visit&& visit) {
           "Integer field with the classes of points; an object has one class",
           {}, "none", "--class", "FIELD"}, c.class_field);
   visit(S{"cluster.classes",
-          "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
+          "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 9, max_size: 99, volumes: [obb], name: car}]",
           "Classes that differ from the others"}, c.classes);
 }
 

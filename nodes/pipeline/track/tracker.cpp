@@ -316,6 +316,14 @@ void Tracker::know(std::size_t slot, const Eigen::AlignedBox3d& box, Refinement 
   state_->tracks[slot].known.add(box, refinement);
 }
 
+void Tracker::list_active(std::vector<std::uint32_t>& ids) const {
+  ids.clear();
+  ids.reserve(state_->tracks.capacity());
+  for (const Track& track : state_->tracks)
+    if (track.active && track.id) ids.push_back(*track.id);
+  std::sort(ids.begin(), ids.end());
+}
+
 const Pose& Tracker::sensor() const {
   return state_->sensor;
 }

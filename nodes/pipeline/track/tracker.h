@@ -86,6 +86,9 @@ class Tracker {
   /// pose.
   const Pose& sensor() const;
 
+  /// Replaces `ids` by the ids of the active tracks that have one, ascending.
+  void list_active(std::vector<std::uint32_t>& ids) const;
+
   /// Deletes all tracks. The ids of deleted tracks are not reused.
   void reset();
 

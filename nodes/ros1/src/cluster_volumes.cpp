@@ -18,8 +18,8 @@ namespace pcl_bv {
 using namespace detail;
 
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
-    : name_(parameters.getNamespace()), topics_(topics) {
-  StreamConfig config = config_of(parameters);
+    : name_(parameters.getNamespace()), topics_(topics), sender_(topics, [this] { update_subscription(); }) {
+  NodeConfig config = config_of(parameters);
   std::vector<std::string> warnings = config.pipeline.ineffective_settings();
   if (std::optional<RegionConfig> body = robot_body(config.rig, warnings))
     config.pipeline.filter.regions.push_back(*std::move(body));
@@ -34,14 +34,23 @@ ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHan
   markers_ = topics_.advertise<visualization_msgs::MarkerArray>("markers", 5, changed, changed);
   labels_ = topics_.advertise<sensor_msgs::PointCloud2>("labels", 2, changed, changed);
   diagnostics_ = topics_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 5);
+  for (const std::string& name : config.publish)
+    adapters_.push_back(adapter_kind(name).make(sender_, ""));
 }
 
 ClusterVolumes::~ClusterVolumes() {
+  {
+    const std::lock_guard lock(subscription_mutex_);
+    ended_ = true;
+  }
   markers_.shutdown();
   labels_.shutdown();
   points_.shutdown();
   rig_.reset();
   runner_.reset();
+  for (const auto& adapter : adapters_)
+    adapter->close();
+  sender_.close();
 }
 
 void ClusterVolumes::open_rig(const StreamConfig& config) {
@@ -70,8 +79,9 @@ StreamRunner::Callbacks ClusterVolumes::callbacks() {
 
 void ClusterVolumes::update_subscription() {
   const std::lock_guard lock(subscription_mutex_);
-  const bool wanted = markers_.getNumSubscribers() + labels_.getNumSubscribers() > 0;
-  if (wanted == subscribed_) return;
+  const bool wanted =
+      markers_.getNumSubscribers() + labels_.getNumSubscribers() > 0 || sender_.is_subscribed();
+  if (wanted == subscribed_ || ended_) return;
   subscribed_ = wanted;
   if (rig_) {
     rig_->subscribe(wanted);
@@ -111,11 +121,18 @@ void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
     fill_markers(frame, result, viewer_shapes(result), lifetime, shown_, *markers);
     markers_.publish(markers);
   }
+  publish_adapters(frame, result);
   if (!health_.record_frame(frame, result)) return;
   const auto array = boost::make_shared<diagnostic_msgs::DiagnosticArray>();
   health_.fill(frame, *array);
   array->status.front().name = name_ + ": objects in clouds";
   diagnostics_.publish(array);
+}
+
+void ClusterVolumes::publish_adapters(Frame frame, const FrameResult& result) {
+  if (frame.header.frame_id.empty()) frame.header.frame_id = "lidar";
+  for (const auto& adapter : adapters_)
+    adapter->write(frame, result);
 }
 
 }  // namespace pcl_bv

@@ -13,21 +13,25 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/stream_runner.h"
 #include "pcl_bv/nodes/topics.h"
 #include "rig_reader.h"
+#include "ros1_sender.h"
+#include "stream/topics/message_adapter.h"
 
 namespace pcl_bv {
 using namespace detail;
 
-/// Subscribes to clouds on `points` while `markers` or `labels` has subscribers. If the parameters have a
-/// rig, merges the clouds of its topics instead (RigReader). Publishes:
+/// Subscribes to clouds on `points` while any topic but `/diagnostics` has subscribers. If the parameters
+/// have a rig, merges the clouds of its topics instead (RigReader). Publishes:
 ///
 /// - `markers`: the objects of each cloud (visualization_msgs/MarkerArray);
 /// - `labels`: the points of each cloud with the ids of their objects;
-/// - `/diagnostics`: the node's state, once a second.
+/// - `/diagnostics`: the node's state, once a second;
+/// - the messages of the adapters that the parameter `publish` names.
 ///
 /// Counts the clouds that cannot be read, and logs a warning about them at most every ten seconds.
 class ClusterVolumes {
@@ -44,6 +48,7 @@ class ClusterVolumes {
   void open_rig(const StreamConfig& config);
   void receive(const sensor_msgs::PointCloud2ConstPtr& cloud);
   void publish(const Frame& frame, const FrameResult& result);
+  void publish_adapters(Frame frame, const FrameResult& result);
   StreamRunner::Callbacks callbacks();
 
   std::string name_, class_field_;
@@ -51,8 +56,11 @@ class ClusterVolumes {
   FramePipeline pipeline_;
   std::mutex subscription_mutex_;
   std::atomic<bool> subscribed_{false};
+  bool ended_ = false;  // under subscription_mutex_
   ros::Publisher markers_, labels_, diagnostics_;
   ros::Subscriber points_;
+  Ros1Sender sender_;
+  std::vector<std::unique_ptr<MessageAdapter>> adapters_;
   ShownObjects shown_;
   MarkerLifetime lifetime_;
   StreamHealth health_;

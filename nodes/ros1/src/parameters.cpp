@@ -5,12 +5,15 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "pcl_bv/io/untrusted_text.h"
 #include "pipeline/config/settings.h"
+#include "stream/topics/message_adapter.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -48,11 +51,32 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
   }
 }
 
+// Returns the names of adapters, which a command line gives as a text with commas.
+std::vector<std::string> adapters_in(const YAML::Node& list) {
+  std::vector<std::string> names;
+  if (list.IsScalar()) {
+    std::istringstream text(list.Scalar());
+    for (std::string name; std::getline(text, name, ',');)
+      names.push_back(name);
+  } else {
+    try {
+      names = list.as<std::vector<std::string>>();
+    } catch (const YAML::Exception&) {
+      throw std::invalid_argument("is not a list of names");
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (const std::string& adapter : names)
+    adapter_kind(adapter);
+  return names;
+}
+
 }  // namespace
 
-StreamConfig config_of(const ros::NodeHandle& parameters) {
+NodeConfig config_of(const ros::NodeHandle& parameters) {
   const std::string& name = parameters.getNamespace();
-  StreamConfig config;
+  NodeConfig config;
   config.pipeline.threads = 0;
   XmlRpc::XmlRpcValue all;
   if (!parameters.getParam("", all) || all.getType() != XmlRpc::XmlRpcValue::TypeStruct) return config;
@@ -68,14 +92,23 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
   } catch (const std::invalid_argument& error) {
     throw ConfigError(printable(name + ": preset: " + error.what()));
   }
-  if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
+  if (const std::string file = take("config"); !file.empty())
+    static_cast<StreamConfig&>(config) = read_stream_config(file, config);
   if (tree["volumes"] && tree["volumes"].IsScalar()) {  // on a command line: _volumes:=aabb,sphere
     std::vector<std::string> methods;
     read_text(tree["volumes"].Scalar(), methods);
     tree["volumes"] = methods;
   }
   try {
-    return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), "", config);
+    if (tree["publish"]) config.publish = adapters_in(tree["publish"]);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(printable(name + ": publish: " + error.what()));
+  }
+  tree.remove("publish");
+  try {
+    if (tree.size() > 0)
+      static_cast<StreamConfig&>(config) = parse_stream_config(YAML::Dump(tree), "", config);
+    return config;
   } catch (const ConfigError& error) {
     throw ConfigError(name + ": " + error.what());
   }

@@ -22,12 +22,16 @@ constexpr const char* kQos =
     "liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n  "
     "avoid_ros_namespace_conventions: false";
 
+constexpr std::string_view kVolatile = "durability: 2";
+
 class Recorder final : public MessageSender {
  public:
   explicit Recorder(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
   std::size_t add_topic(const MessageTopic& topic) override {
+    std::string qos = kQos;
+    if (topic.latched) qos.replace(qos.find(kVolatile), kVolatile.size(), "durability: 1");
     return writer_->add_topic(
-        {topic.name, topic.type, schema_of(topic.type), {{"offered_qos_profiles", kQos}}});
+        {topic.name, topic.type, schema_of(topic.type), {{"offered_qos_profiles", qos}}});
   }
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& cdr) override {
     writer_->write(topic, stamp_ns, stamp_ns, cdr.data(), cdr.size());
@@ -45,6 +49,7 @@ template <class Writer>
 std::unique_ptr<FrameSink> open_recording_sink(const SinkOptions& description) {
   MessageTopics topics;
   topics.points = description.points;
+  topics.adapters = description.adapters;
   return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.target)), topics);
 }
 
@@ -60,8 +65,8 @@ std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkOptions& description) {
 }  // namespace
 
 std::vector<SinkKind> recording_sinks() {
-  return {{"mcap", "FILE[,points]", "", open_mcap_sink},
-          {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink}};
+  return {{"mcap", "FILE[,points][,moveit][,nav2][,vision]", "", open_mcap_sink},
+          {"rosbag2", "FOLDER[,points][,moveit][,nav2][,vision]", "", open_rosbag2_sink}};
 }
 
 }  // namespace pcl_bv::detail

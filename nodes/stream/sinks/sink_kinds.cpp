@@ -14,7 +14,16 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-constexpr std::string_view kPoints = ",points";
+// Removes an option of the kind from the end of the target, and returns it without its comma. Returns an
+// empty text if there is none.
+std::string take_option(const SinkKind& kind, std::string& target) {
+  const std::size_t comma = target.rfind(',');
+  if (comma == std::string::npos) return {};
+  const std::string option = target.substr(comma);
+  if (option.size() == 1 || kind.target.find('[' + option + ']') == std::string_view::npos) return {};
+  target.resize(comma);
+  return option.substr(1);
+}
 
 class FunctionSink : public FrameSink {
  public:
@@ -35,6 +44,7 @@ std::unique_ptr<FrameSink> detail::open_dds_sink(const SinkOptions& description)
   topics.prefix = description.target.string();
   topics.points = true;
   topics.scene = topics.poses = false;
+  topics.adapters = description.adapters;
   return make_message_sink(middleware("dds").carrier(""), topics);
 }
 
@@ -48,7 +58,7 @@ const std::vector<SinkKind>& sink_kinds() {
   static const std::vector<SinkKind> kinds = [] {
     std::vector<SinkKind> all{{"jsonl", "FILE", "", open_jsonl},
                               {"csv", "FILE", "", open_csv},
-                              {"dds", "PREFIX", "", open_dds_sink, true},
+                              {"dds", "PREFIX[,moveit][,nav2][,vision]", "", open_dds_sink, true},
                               {"ws", "[HOST:]PORT", "", open_ws_sink, true},
                               {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                               {"image", "FOLDER", ".png", open_image},
@@ -74,10 +84,19 @@ SinkOptions parse_sink(const std::string& description) {
   for (const SinkKind& kind : sink_kinds()) {
     if (description.compare(0, colon, kind.name) != 0) continue;
     std::string target = description.substr(std::min(colon + 1, description.size()));
-    const bool points = kind.target.ends_with("[,points]") && target.ends_with(kPoints);
-    if (points) target.resize(target.size() - kPoints.size());
+    SinkOptions options{&kind, {}};
+    for (std::string option = take_option(kind, target); !option.empty();
+         option = take_option(kind, target)) {
+      if (option == "points") {
+        options.points = true;
+      } else if (std::find(options.adapters.begin(), options.adapters.end(), option) ==
+                 options.adapters.end()) {
+        options.adapters.insert(options.adapters.begin(), option);
+      }
+    }
+    options.target = target;
     const bool may_be_printed = kind.files.empty() && !kind.live;
-    if (!target.empty() && (may_be_printed || target != "-")) return {&kind, target, points};
+    if (!target.empty() && (may_be_printed || target != "-")) return options;
   }
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
 }

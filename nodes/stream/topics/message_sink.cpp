@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "message_adapter.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pipeline/config/settings.h"
 #include "scene.h"
@@ -27,6 +28,8 @@ class MessageSink final : public FrameSink {
     diagnostics_topic_ = carrier_->add_topic({"/diagnostics", msg::DiagnosticArray::ros_type});
     if (topics.points)
       points_topic_ = carrier_->add_topic({topics.prefix + "/points", msg::PointCloud2::ros_type});
+    for (const std::string& name : topics.adapters)
+      adapters_.push_back(adapter_kind(name).make(*carrier_, topics.prefix));
     if (topics.frames) frames_topic_ = carrier_->add_topic({topics.prefix + "/frames", kFrameType, "json"});
   }
 
@@ -47,6 +50,8 @@ class MessageSink final : public FrameSink {
       send(*objects_topic_, frame, objects_);
     }
     draw(frame, result, lifetime);
+    for (const auto& adapter : adapters_)
+      adapter->write(frame, result);
     if (has_subscribers(frames_topic_))
       send_frame(report_without_clusters(frame, result), cluster_source(result));
     if (frame.pose && sends_poses_) send_pose(frame);
@@ -68,7 +73,11 @@ class MessageSink final : public FrameSink {
     carrier_->offer_settings(settings);
   }
   std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }
-  void close() override { carrier_->close(); }
+  void close() override {
+    for (const auto& adapter : adapters_)
+      adapter->close();
+    carrier_->close();
+  }
 
  private:
   using Topic = std::optional<std::size_t>;
@@ -139,6 +148,7 @@ class MessageSink final : public FrameSink {
   msg::SceneUpdate scene_;
   msg::PointCloud2 cloud_;
   std::vector<std::byte> cloud_bytes_, bytes_;
+  std::vector<std::unique_ptr<MessageAdapter>> adapters_;
   ShownObjects shown_markers_, shown_entities_;
   MarkerLifetime lifetime_;
   StreamHealth health_;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "pcl_bv/nodes/frame_sink.h"
 #include "stream/middleware.h"
@@ -20,6 +21,7 @@ struct MessageTopics {
   /// Each frame, also if it was lost, as a line of the sink `jsonl` on "/frames", for viewers.
   bool frames = false;
   bool poses = true;  ///< Poses of the sensor in "map", if known, on "/tf".
+  std::vector<std::string> adapters;  ///< Names of adapter_kinds() whose messages are sent, too.
 };
 
 /// Creates a sink that sends these messages:
@@ -28,7 +30,7 @@ struct MessageTopics {
 /// - "/diagnostics", once per second of stream time.
 ///
 /// A frame without a frame_id gets "lidar", because viewers need a frame_id. Throws std::invalid_argument if
-/// `carrier` is null.
+/// `carrier` is null, and for an unknown adapter.
 std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carrier,
                                              const MessageTopics& topics = {});
 

@@ -148,6 +148,9 @@ struct FrameResult {
   TrackTime track_time = TrackTime::stamps;  ///< Meaningful only with tracking.
   /// Track of each cluster; nullopt until the track has its id. Empty without tracking.
   std::vector<std::optional<TrackEntry>> tracks;
+  /// Ids of all tracks that have not ended, ascending, also of those without a cluster in this frame. Empty
+  /// without tracking.
+  std::vector<std::uint32_t> active_tracks;
 
   /// The requested methods of all classes, in the order of PipelineConfig::methods().
   std::vector<const Method*> methods;

@@ -69,7 +69,8 @@ struct SinkOptions;
 /// An entry of the table of sinks.
 struct SinkKind {
   std::string_view name;    ///< Text before the colon: "vtp".
-  std::string_view target;  ///< Syntax of the text after the colon, for help: "FOLDER[,points]".
+  /// Syntax of the text after the colon, for help: "FOLDER[,points]". "[,WORD]" is an option of the sink.
+  std::string_view target;
   /// Extension of the files if `target` is a folder with a file per frame; otherwise empty.
   std::string_view files;
   std::unique_ptr<FrameSink> (*open)(const SinkOptions&);
@@ -88,6 +89,8 @@ struct SinkOptions {
   /// File ("-": standard output) or folder. For dds: prefix of the topics. For ws: [HOST:]PORT.
   std::filesystem::path target;
   bool points = false;  ///< Whether to write the points of each frame, too.
+  /// Programs whose messages are written, too: "moveit", "nav2", "vision". Each is an option of the sink.
+  std::vector<std::string> adapters{};
 };
 
 /// Parses a description in the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any

@@ -88,6 +88,7 @@ struct ClassConfig {
   std::optional<double> tolerance{};  ///< As ClusterConfig::tolerance, above 0.
   std::optional<std::size_t> min_size{}, max_size{};
   std::vector<std::string> volumes{};  ///< Methods. If empty: PipelineConfig::volumes.
+  std::string name{};                  ///< Such as "car", for programs that show names; may be empty.
 };
 
 /// How the objects of clusters are separated, and parts of objects are joined, after the clustering.

@@ -38,5 +38,26 @@ struct PolygonStamped {
   }
 };
 
+/// geometry_msgs/msg/PolygonInstance.
+struct PolygonInstance {
+  Polygon polygon;
+  std::int64_t id = 0;
+  template <class Self, class Visit>
+  static void each_field(Self& m, Visit& visit) {
+    visit(m.polygon, m.id);
+  }
+};
+
+/// geometry_msgs/msg/PolygonInstanceStamped, of Jazzy and later.
+struct PolygonInstanceStamped {
+  static constexpr const char* ros_type = "geometry_msgs/msg/PolygonInstanceStamped";
+  Header header;
+  PolygonInstance polygon;
+  template <class Self, class Visit>
+  static void each_field(Self& m, Visit& visit) {
+    visit(m.header, m.polygon);
+  }
+};
+
 }  // namespace msg
 }  // namespace pcl_bv
