@@ -111,7 +111,7 @@ class Model:
         more = max(0.0, larger["memory"] - merged["memory"])
         self.memory = more / (larger["objects"] - merged["objects"])
         rest = alone["wall"] - times["start1"]["wall"] - self.merging(one.points, 1, 1)
-        self.read = rest / one.points
+        self.read = max(rest / one.points, 1e-9)  # a small town takes less than what the start of ranks varies
 
     def near_points(self, what, points, ranks):
         return min(points, self.near[what] * sides(points / self.tile, ranks)) if ranks > 1 else 0
@@ -163,7 +163,9 @@ def measure(build, folder, tiles, points, turns):
     commands["merge_larger"] = large.merging(large.shares(1))
     commands |= {n: large.on_ranks(n) for n in CHECK_RANKS}
     times = medians(commands, turns)
-    checks = [(times[n]["points"], n, times[n]["wall"] - times[f"start{n}"]["wall"]) for n in CHECK_RANKS]
+    checks = []
+    for n in CHECK_RANKS:
+        checks.append((times[n]["points"], n, max(0.0, times[n]["wall"] - times[f"start{n}"]["wall"])))
     return Model(small, counts, times), checks
 
 
