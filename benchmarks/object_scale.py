@@ -18,7 +18,7 @@ OPTIONS = ["--cluster", "0.5", "--volume", "obb-pca"]
 RECORD = 20  # bytes of a point in a file, of floats
 THREADS = 8  # of the first rank: the ranks of its machine
 LIMIT = 2**31  # bytes of the cells of all ranks, in a message
-FIT_SHARES, CHECK_RANKS = (2, 4, 8), (1, 2)
+FIT_SHARES, CHECK_RANKS = (2, 4, 8, 16), (1, 2)
 
 
 def peak_of(pid):
@@ -87,17 +87,6 @@ def sides(tiles, ranks):
     return (min(ranks, columns) - 1) * columns + max(0, ranks - columns)
 
 
-def by_sides_and_cuts(rows):
-    """Factors of the sides between shares and of the cuts through tiles: least squares of (sides, cuts, y)."""
-    ss = sum(s * s for s, _, _ in rows)
-    cc = sum(c * c for _, c, _ in rows)
-    sc = sum(s * c for s, c, _ in rows)
-    sy = sum(s * y for s, _, y in rows)
-    cy = sum(c * y for _, c, y in rows)
-    cut = max(0.0, (cy * ss - sy * sc) / (ss * cc - sc * sc))
-    return max(0.0, (sy - cut * sc) / ss), cut
-
-
 class Model:
     """Seconds and bytes of a run on a town of any size."""
 
@@ -107,26 +96,25 @@ class Model:
         self.objects, self.components = one.objects / one.points, one.components / one.points
         self.text, self.cells = one.text_bytes / one.objects, one.cells / one.points
         self.cubes = one.cubes / one.points
-        self.near = {what: self.fit(town.tiles, counts, what) for what in ("written", "active")}
-        alone, two, merged = times["mpi1"], times["merge2"], times["merge1"]
+        borders = sum(sides(town.tiles, n) for n in FIT_SHARES)
+        # Where a border lies between houses matters, so it takes several to know what a side has.
+        self.near = {}
+        for what in ("written", "active"):
+            self.near[what] = sum(getattr(counts[n], what) for n in FIT_SHARES) / borders
+        alone, shared, merged = times["mpi1"], times["merge_shares"], times["merge1"]
         self.join = alone["segment"] / one.components  # a component that is one run
         self.read_text = merged["fit"] / one.objects
         output = merged["wall"] - times["start"]["wall"] - merged["segment"] - merged["fit"]
         self.output = max(0.0, output) / one.objects
-        self.again = max(0.0, two["segment"] - merged["segment"]) / counts[2].active
+        self.again = max(0.0, shared["segment"] - merged["segment"]) / counts[FIT_SHARES[-1]].active
         larger = times["merge_larger"]
         more = max(0.0, larger["memory"] - merged["memory"])
         self.memory = more / (larger["objects"] - merged["objects"])
         rest = alone["wall"] - times["start1"]["wall"] - self.merging(one.points, 1, 1)
-        self.read = rest / one.points
-
-    @staticmethod
-    def fit(tiles, counts, what):
-        return by_sides_and_cuts([(sides(tiles, n), n - 1, getattr(counts[n], what)) for n in FIT_SHARES])
+        self.read = max(rest / one.points, 1e-9)  # a small town takes less than what the start of ranks varies
 
     def near_points(self, what, points, ranks):
-        side, cut = self.near[what]
-        return min(points, side * sides(points / self.tile, ranks) + cut * (ranks - 1)) if ranks > 1 else 0
+        return min(points, self.near[what] * sides(points / self.tile, ranks)) if ranks > 1 else 0
 
     def merging(self, points, ranks, threads):
         objects = points * self.objects
@@ -165,17 +153,19 @@ def version(build, ranks):
 def measure(build, folder, tiles, points, turns):
     """The model, and the times of runs on the larger town: (town's points, ranks, seconds)."""
     small, large = Town(build, folder, tiles, points), Town(build, folder, 4 * tiles, points)
-    files = {count: small.shares(count) for count in sorted({1, 2, *FIT_SHARES})}
+    files = {count: small.shares(count) for count in (1, *FIT_SHARES)}
     counts = {count: Counts([Index(file) for file in of_count]) for count, of_count in files.items()}
-    if counts[1].objects == 0 or counts[2].active == 0:
+    if counts[1].objects == 0 or counts[FIT_SHARES[-1]].active == 0:
         raise SystemExit("the town has no objects near other shares: give more tiles or points")
     commands = {"start": version(build, 0), "mpi1": small.on_ranks(1)}
     commands |= {f"start{n}": version(build, n) for n in CHECK_RANKS}
-    commands |= {f"merge{n}": small.merging(files[n]) for n in (1, 2)}
+    commands |= {"merge1": small.merging(files[1]), "merge_shares": small.merging(files[FIT_SHARES[-1]])}
     commands["merge_larger"] = large.merging(large.shares(1))
     commands |= {n: large.on_ranks(n) for n in CHECK_RANKS}
     times = medians(commands, turns)
-    checks = [(times[n]["points"], n, times[n]["wall"] - times[f"start{n}"]["wall"]) for n in CHECK_RANKS]
+    checks = []
+    for n in CHECK_RANKS:
+        checks.append((times[n]["points"], n, max(0.0, times[n]["wall"] - times[f"start{n}"]["wall"])))
     return Model(small, counts, times), checks
 
 
@@ -193,9 +183,9 @@ def constants(model, tiles, points):
         ("merging", f"{model.join * 1e6:.2f} us a cluster, {model.read_text * 1e6:.1f} us to read an object, "
                     f"{model.output * 1e6:.1f} us to write it, {model.again * 1e6:.2f} us a point near other shares"),
         ("files", f"{model.index_bytes(1) / model.objects:.0f} B an object, "
-                  f"{RECORD} B a point of clusters near other shares"),
-        ("points near other shares", "{:.0f} a side of a tile, {:.0f} a share".format(*model.near["active"])),
-        ("points of clusters there", "{:.0f} a side of a tile, {:.0f} a share".format(*model.near["written"])),
+                  f"{RECORD} B a point of a cluster near other shares"),
+        ("near other shares", f"{model.near['active']:.0f} points a side of a tile between shares, and "
+                              f"{model.near['written']:.0f} points of clusters that are written"),
         ("messages", f"8 B a cell near other shares, which has {1 / model.cells:.0f} points"),
         ("memory of the first rank", f"{model.memory:.0f} B an object"),
     ]
