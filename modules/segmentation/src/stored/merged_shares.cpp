@@ -16,9 +16,6 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kRunBytes = 1U << 20U;  // of a run at a time
-constexpr std::uint32_t kNoComponent = ActiveBrick::kMixed;
-constexpr std::uint32_t kUnset = kNoComponent - 1;
-constexpr std::uint32_t kNoiseNearLost = kNoComponent - 2;  // as the component of a record
 
 // Returns the list that has an item, and the position of the item in it. Items are numbered over all lists;
 // `firsts` has the number of the first item of each list.
@@ -28,83 +25,6 @@ std::pair<std::size_t, std::uint32_t> place_in_lists(const std::vector<std::uint
   const auto list = static_cast<std::size_t>(after - firsts.begin()) - 1;
   return {list, item - firsts[list]};
 }
-
-// A record near other shares: a record as in bricks, and the component of the point in its share.
-std::size_t active_record_bytes(ScalarType scalar) {
-  return record_bytes(scalar) + sizeof(std::uint32_t);
-}
-
-std::uint32_t component_of_record(const std::byte* record, ScalarType scalar) {
-  std::uint32_t component;
-  std::memcpy(&component, record + record_bytes(scalar), sizeof component);
-  return component;
-}
-
-std::vector<std::byte> sorted_by_number(const std::vector<std::byte>& records, ScalarType scalar) {
-  const std::size_t step = active_record_bytes(scalar);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(records.size() / step);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = {number_of_record(&records[i * step], scalar) & kNumberMask, static_cast<std::uint32_t>(i)};
-  std::sort(order.begin(), order.end());
-  std::vector<std::byte> sorted(records.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    std::memcpy(&sorted[i * step], &records[order[i].second * step], step);
-  return sorted;
-}
-
-// Clusters the points of bricks near other shares. Cannot be copied or moved.
-class ActiveWorker {
- public:
-  ActiveWorker(const Bricks& bricks, ScalarType scalar, const ClusterOptions& options,
-               const Execution& execution, SpillFile& file, std::vector<ActiveBrick>& results)
-      : components_(bricks, scalar, options, PieceRule::all, execution, file),
-        clusters_(components_, options, store_, execution, file),
-        results_(results) {}
-  ActiveWorker(const ActiveWorker&) = delete;
-  ActiveWorker& operator=(const ActiveWorker&) = delete;
-
-  void operator()(std::uint32_t number, const std::vector<std::byte>& unsorted) {
-    const ScalarType scalar = components_.scalar();
-    const std::size_t step = active_record_bytes(scalar);
-    const std::vector<std::byte> records = sorted_by_number(unsorted, scalar);
-    components_.find(number, records, step);
-    ActiveBrick& brick = results_[number];
-    brick.result = clusters_.write(number, records, step);
-    add_links(records, step, brick);
-  }
-
- private:
-  // A core point of a share is a core point of the cloud. So its component in the share and its piece in the
-  // brick belong to one cluster.
-  void add_links(const std::vector<std::byte>& records, std::size_t step, ActiveBrick& brick) {
-    brick.component.assign(components_.piece_count(), kUnset);
-    brick.is_near_lost.assign(components_.piece_count(), 0);
-    for (std::size_t i = 0; i * step < records.size(); ++i) {
-      const std::uint32_t c = components_.component_of(i);
-      if (c == BrickComponents::kNoise) continue;
-      const std::uint32_t piece = components_.components()[c].piece;
-      if (piece == BrickComponents::kNoPiece) continue;
-      const std::byte* const record = &records[i * step];
-      const std::uint64_t number = number_of_record(record, components_.scalar());
-      std::uint32_t component = component_of_record(record, components_.scalar());
-      if (component == kNoiseNearLost) brick.is_near_lost[piece] = 1, component = kNoComponent;
-      if ((number & kOfOtherBrick) == 0) {
-        std::uint32_t& all = brick.component[piece];
-        all = all == kUnset || all == component ? component : ActiveBrick::kMixed;
-      }
-      const std::pair<std::uint32_t, std::uint32_t> link{component, piece};
-      const bool linked = component != kNoComponent && (number & kCore) != 0 && components_.is_core(i);
-      if (linked && (brick.links.empty() || brick.links.back() != link)) brick.links.push_back(link);
-    }
-    std::sort(brick.links.begin(), brick.links.end());
-    brick.links.erase(std::unique(brick.links.begin(), brick.links.end()), brick.links.end());
-  }
-
-  StoredClusterOptions store_;
-  BrickComponents components_;
-  BrickClusters clusters_;
-  std::vector<ActiveBrick>& results_;
-};
 
 }  // namespace
 
@@ -270,7 +190,7 @@ void MergedShares::join() {
 // Adds the cluster of components and pieces, or counts its points. Components of a group come first.
 void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
   std::uint64_t points = 0;
-  std::uint32_t only = kUnset;  // the component that has all points so far
+  std::uint32_t only = kNoComponent;  // the component that has all points so far
   const auto add = [&](std::uint32_t component, std::uint64_t count) {
     if (count == 0) return;
     only = points == 0 || only == component ? component : kNoComponent;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "active_brick.h"
 #include "active_cells.h"
 #include "brick_clusters.h"
 #include "distributed_points.h"
@@ -17,18 +18,6 @@
 #include "union_find.h"
 
 namespace pcl_bv::detail {
-
-/// The result of a brick with points near other shares.
-struct ActiveBrick {
-  BrickResult result;
-  /// Components of shares that have a core point in common with a piece of the brick, and the piece.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
-  /// For each piece, the component of all its points in their shares, or kMixed.
-  std::vector<std::uint32_t> component;
-  std::vector<std::uint8_t>
-      is_near_lost;  ///< For each piece, whether noise of a share in it is near lost points.
-  static constexpr std::uint32_t kMixed = ~std::uint32_t{0};
-};
 
 /// Merges the components of shares. In a cell that has points of one share around it only, the components of
 /// that share are right. The points of all other cells ("active" cells) are clustered again, with those of

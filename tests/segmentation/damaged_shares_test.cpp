@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Shares whose points are damaged.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "share_scenes.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+template <typename T>
+class DamagedSharesOf : public testing::Test {};
+using ScalarTypes = testing::Types<float, double>;
+TYPED_TEST_SUITE(DamagedSharesOf, ScalarTypes);
+
+// A share of which every run with a number that has the remainder 3 has changed after it was made.
+class DamagedShare final : public ClusterShare {
+ public:
+  DamagedShare(const ClusterShare& good, std::size_t divisor) : good_(good) {
+    std::uint64_t at = 0;
+    for (std::size_t r = 0; r < good.runs().size(); ++r) {
+      if (r % divisor == 3) damaged_.push_back(at);
+      at += good.runs()[r].points * share_record_bytes(good.scalar());
+    }
+    first_number = good.first_number;
+  }
+  ScalarType scalar() const override { return good_.scalar(); }
+  const std::vector<ShareRun>& runs() const override { return good_.runs(); }
+  const std::vector<ShareComponent>& components() const override { return good_.components(); }
+  void read(std::uint64_t first_byte, std::byte* to, std::size_t count) const override {
+    good_.read(first_byte, to, count);
+    const auto bad = std::lower_bound(damaged_.begin(), damaged_.end(), first_byte);
+    if (bad != damaged_.end() && *bad < first_byte + count) to[*bad - first_byte] ^= std::byte{1};
+  }
+
+ private:
+  const ClusterShare& good_;
+  std::vector<std::uint64_t> damaged_;  // first bytes of runs
+};
+
+TYPED_TEST(DamagedSharesOf, LeaveClustersThatAreRightOrIncomplete) {
+  std::size_t complete = 0, incomplete = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    test::TestCloud<TypeParam> cloud = scene<TypeParam>(seed);
+    std::mt19937_64 random(seed);
+    const std::vector<std::size_t> ends = make_tiles(random, cloud);
+    const ClusterOptions options = random_options(random);
+    SCOPED_TRACE(cloud.name);
+    Shares shares;
+    std::vector<std::unique_ptr<DamagedShare>> damaged;
+    std::vector<const ClusterShare*> all;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      shares.push_back(
+          std::make_unique<MadeClusterShare>(cloud.view().slice(ends[i], ends[i + 1] - ends[i]), options));
+      damaged.push_back(std::make_unique<DamagedShare>(*shares.back(), 50));
+      all.push_back(damaged.back().get());
+    }
+    StoredClusterOptions store;
+    std::uint64_t lost = 0;
+    store.on_lost = [&](const ShareError&, std::uint64_t points) { lost += points; };
+    const StoredClusters joined(all, options, store);
+    const ClusterBytes found = bytes_of(joined),
+                       expected = bytes_of(cloud.view(), cluster(cloud.view(), options));
+    const std::set<std::vector<std::byte>> right(expected.begin(), expected.end());
+    EXPECT_TRUE(lost > 0 || found == expected);
+    for (std::size_t i = 0; i < joined.size(); ++i) {
+      EXPECT_TRUE(joined.is_incomplete(i) || right.contains(found[i])) << "cluster " << i;
+      ++(joined.is_incomplete(i) ? incomplete : complete);
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(incomplete, 100U);
+  EXPECT_GT(complete, incomplete);
+}
+
+TEST(DamagedShares, AreNamed) {
+  const test::TestCloud<float> cloud = two_clumps_and_a_line();
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  const MadeClusterShare good(cloud.view().slice(0, 150), options),
+      other(cloud.view().slice(150, 150), options);
+  const DamagedShare bad(other, 4);
+  try {
+    const StoredClusters joined({&good, &bad}, options);
+    FAIL() << "no error";
+  } catch (const ShareError& error) {
+    EXPECT_EQ(error.share(), 1U);
+    EXPECT_STREQ(error.what(), "its points are damaged");
+  }
+}
+
+TEST(DamagedShares, WithNumbersThatDoNotFitInARecordAreNamed) {
+  const test::TestCloud<float> cloud = two_clumps_and_a_line();
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  const MadeClusterShare good(cloud.view().slice(0, 150), options);
+  MadeClusterShare bad(cloud.view().slice(150, 150), options);
+  for (const unsigned bit : {61U, 62U, 63U}) {  // of marks in a record
+    bad.first_number = std::uint64_t{1} << bit;
+    try {
+      const StoredClusters joined({&good, &bad}, options);
+      FAIL() << "no error for bit " << bit;
+    } catch (const ShareError& error) {
+      EXPECT_EQ(error.share(), 1U);
+      EXPECT_STREQ(error.what(), "has numbers of points that are too large");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv::detail
