@@ -160,7 +160,8 @@ TEST_F(PcdBvObjectShares, NameFilesThatCannotBeMerged) {
   damage(volume + "/1", from_end_of(volume + "/1", R"("volumes":)"));
   const Result fitted = objects(options, {"--merge"}, volume);
   EXPECT_EQ(fitted.status, 1);
-  EXPECT_THAT(fitted.err, HasSubstr("volume/1: is damaged: a volume has changed: it is fitted again"));
+  EXPECT_THAT(fitted.err,
+              HasSubstr("volume/1: is damaged: a volume has changed: such volumes are fitted again"));
   EXPECT_TRUE(fitted.out == objects(options, {"--together"}, folder).out);
   for (const std::string& parts : {truncated, twice, damaged, long_index, huge_index, volume})
     EXPECT_EQ(objects(options, {"--merge"}, parts).error_lines(), 1U);

@@ -18,13 +18,13 @@ class DamagedSharesOf : public testing::Test {};
 using ScalarTypes = testing::Types<float, double>;
 TYPED_TEST_SUITE(DamagedSharesOf, ScalarTypes);
 
-// A share of which every run with a number that has the remainder 3 has changed after it was made.
+// A share of which the runs with numbers that have a remainder have changed after it was made.
 class DamagedShare final : public ClusterShare {
  public:
-  DamagedShare(const ClusterShare& good, std::size_t divisor) : good_(good) {
+  DamagedShare(const ClusterShare& good, std::size_t divisor, std::size_t remainder) : good_(good) {
     std::uint64_t at = 0;
     for (std::size_t r = 0; r < good.runs().size(); ++r) {
-      if (r % divisor == 3) damaged_.push_back(at);
+      if (r % divisor == remainder) damaged_.push_back(at);
       at += good.runs()[r].points * share_record_bytes(good.scalar());
     }
     first_number = good.first_number;
@@ -57,7 +57,7 @@ TYPED_TEST(DamagedSharesOf, LeaveClustersThatAreRightOrIncomplete) {
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       shares.push_back(
           std::make_unique<MadeClusterShare>(cloud.view().slice(ends[i], ends[i + 1] - ends[i]), options));
-      damaged.push_back(std::make_unique<DamagedShare>(*shares.back(), 50));
+      damaged.push_back(std::make_unique<DamagedShare>(*shares.back(), 50, 3));
       all.push_back(damaged.back().get());
     }
     StoredClusterOptions store;
@@ -78,13 +78,39 @@ TYPED_TEST(DamagedSharesOf, LeaveClustersThatAreRightOrIncomplete) {
   EXPECT_GT(complete, incomplete);
 }
 
+// The lost core point (7.5, 0, 0) is in the cell before its neighbour q, which only the other share's points
+// make a core point.
+TEST(DamagedShares, LeaveClustersOfBorderPointsNearLostOnesIncomplete) {
+  test::TestCloud<double> cloud{"border points", {6.7, 0, 0, 6.9, 0, 0, 7.5, 0, 0, 8.4, 0, 0}};
+  for (const auto& [y, z] : {std::pair{1, 0}, {-1, 0}, {0, 1}})
+    for (const double at : {0.9, 1.8, 2.6, 2.7})
+      cloud.xyz.insert(cloud.xyz.end(), {8.4, at * y, at * z});
+  ClusterOptions options;
+  options.tolerance = 1;
+  options.min_points = 4;
+  const MadeClusterShare own(cloud.view().slice(0, 4), options),
+      other(cloud.view().slice(4, cloud.size() - 4), options);
+  ASSERT_EQ(own.runs().size(), 2U);
+  const DamagedShare bad(own, 2, own.runs()[0].points == 3 ? 0 : 1);
+  StoredClusterOptions store;
+  std::uint64_t lost = 0;
+  store.on_lost = [&](const ShareError&, std::uint64_t points) { lost += points; };
+  const StoredClusters joined({&bad, &other}, options, store);
+  EXPECT_EQ(lost, 3U);
+  const ClusterBytes found = bytes_of(joined),
+                     expected = bytes_of(cloud.view(), cluster(cloud.view(), options));
+  ASSERT_NE(found, expected);
+  for (std::size_t i = 0; i < joined.size(); ++i)
+    EXPECT_TRUE(joined.is_incomplete(i) || std::count(expected.begin(), expected.end(), found[i]) == 1) << i;
+}
+
 TEST(DamagedShares, AreNamed) {
   const test::TestCloud<float> cloud = two_clumps_and_a_line();
   ClusterOptions options;
   options.tolerance = 0.5F;
   const MadeClusterShare good(cloud.view().slice(0, 150), options),
       other(cloud.view().slice(150, 150), options);
-  const DamagedShare bad(other, 4);
+  const DamagedShare bad(other, 4, 3);
   try {
     const StoredClusters joined({&good, &bad}, options);
     FAIL() << "no error";

@@ -23,7 +23,7 @@ constexpr char kObjectFormat[sizeof ObjectFilePreamble::format] = "pcl_bv object
 static_assert(sizeof(ObjectFilePreamble) == 72);
 static_assert(sizeof(ShareRun) == 24 && sizeof(ShareComponent) == 16);
 
-constexpr std::uint64_t kMaxHeader = 1U << 24U, kMaxItems = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kMaxHeader = 1U << 24U, kMaxItems = (std::uint64_t{1} << 32U) - 1;
 constexpr std::size_t kBlock = 1U << 22U;
 
 template <typename T>
@@ -85,8 +85,11 @@ void write_object_file(const std::filesystem::path& path, FileLife life,
   require_good(!std::filesystem::exists(path) || std::filesystem::is_regular_file(path),
                "is not a regular file");
   const auto make_new = [&](const std::filesystem::path& file) {
-    require_good(std::ofstream(file, std::ios::binary | std::ios::trunc).is_open(),
-                 "cannot be opened for writing");
+    if (std::filesystem::exists(file)) {
+      std::filesystem::resize_file(file, 0);
+    } else {
+      require_good(std::ofstream(file, std::ios::binary).is_open(), "cannot be opened for writing");
+    }
     make(file);
   };
   if (life == FileLife::temporary) return make_new(path);

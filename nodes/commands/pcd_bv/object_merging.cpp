@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <new>
 #include <set>
 #include <utility>
@@ -109,11 +110,13 @@ void describe(const OpenShares& open, Report& report) {
 // Merges the shares of one class, or all shares without classes.
 class ClassMerger {
  public:
-  ClassMerger(const Options& options, const ClassTable& table, std::optional<std::int64_t> value)
+  ClassMerger(const Options& options, const ClassTable& table, FileLife life,
+              std::optional<std::int64_t> value)
       : options_(options),
         table_(table),
         value_(value),
-        volumes_(volumes_text(options.pipeline, table, value)) {}
+        volumes_(volumes_text(options.pipeline, table, value)),
+        life_(life) {}
 
   void add(const ObjectFile& share, const std::string& name) {
     shares_.push_back(&share);
@@ -123,45 +126,43 @@ class ClassMerger {
   // Adds the objects to the list, and the time for their volumes to `fit_seconds`. Returns Status::failed if
   // a share is damaged, after that is reported.
   Status merge(ObjectList& list, double& fit_seconds) {
-    for (Status status = Status::done;; status = Status::failed) {
-      try {
-        return worse(status, attempt(list, fit_seconds));
-      } catch (const BadText& bad) {
-        report_problem(*names_[bad.component.share] + ": " + bad.reason + ": it is fitted again");
-        bad_texts_.emplace(bad.component.share, bad.component.number);
-      } catch (const ShareError& error) {
-        throw IoError(*names_[error.share()] + ": " + error.what());
+    try {
+      while (!attempt(list, fit_seconds)) {
       }
+      return status_;
+    } catch (const ShareError& error) {
+      throw IoError(*names_[error.share()] + ": " + error.what());
     }
   }
 
  private:
-  // Thrown if the text of a component is damaged.
-  struct BadText {
-    ComponentOfShare component;
-    std::string reason;
-  };
-
-  Status attempt(ObjectList& list, double& fit_seconds) const {
-    Status status = Status::done;
+  // Returns false if texts are damaged. They are not used in the next attempt.
+  bool attempt(ObjectList& list, double& fit_seconds) {
     StoredClusterOptions store = store_options(options_, shares_.front()->scalar());
     store.has_labels = false;
     store.is_known = [&](const ComponentOfShare& component) {
       return !options_.objects && has_volumes(component);
     };
-    store.on_lost = [&](const ShareError& error, std::uint64_t points) {
-      report_problem(*names_[error.share()] + ": " + error.what() + ": " + std::to_string(points) +
-                     " points are left out; objects near them are marked \"incomplete\"");
-      status = Status::failed;
-    };
+    if (life_ == FileLife::lasting)
+      store.on_lost = [&](const ShareError& error, std::uint64_t points) {
+        report_once(error.share(), std::string(error.what()) + ": " + std::to_string(points) +
+                                       " points are left out, so objects near them may be incomplete (JSON: "
+                                       "\"incomplete\")");
+      };
     auto clusters = std::make_unique<StoredClusters>(
         std::vector<const ClusterShare*>(shares_.begin(), shares_.end()), options_of_class(table_, value_),
         store, options_.pipeline.execution());
     const Stopwatch watch;
     std::vector<Object> objects = find_objects(*clusters);
     fit_seconds += watch.seconds();
+    if (std::exchange(has_new_bad_texts_, false)) return false;
     list.add(std::move(clusters), std::move(objects));
-    return status;
+    return true;
+  }
+
+  void report_once(std::size_t share, const std::string& problem) {
+    status_ = Status::failed;
+    if (reported_.emplace(share, problem).second) report_problem(*names_[share] + ": " + problem);
   }
 
   bool has_volumes(const ComponentOfShare& component) const {
@@ -170,7 +171,7 @@ class ClassMerger {
            !bad_texts_.contains({component.share, component.number});
   }
 
-  std::vector<Object> find_objects(const StoredClusters& clusters) const {
+  std::vector<Object> find_objects(const StoredClusters& clusters) {
     const ObjectFitter fitter(options_, table_, value_);
     std::vector<Object> objects(clusters.size());
     for_each_cluster(clusters, options_.pipeline.execution(), [&](std::size_t i, const Execution& execution) {
@@ -182,11 +183,16 @@ class ClassMerger {
     return objects;
   }
 
-  Object read_object(const ComponentOfShare& component) const {
+  // Several threads may call it at the same time.
+  Object read_object(const ComponentOfShare& component) {
     try {
       return object_of(shares_[component.share]->text(component.number).value());
     } catch (const IoError& error) {
-      throw BadText{component, error.what()};
+      const std::lock_guard lock(mutex_);
+      report_once(component.share, std::string(error.what()) + ": such volumes are fitted again");
+      bad_texts_.emplace(component.share, component.number);
+      has_new_bad_texts_ = true;
+      return {};
     }
   }
 
@@ -196,7 +202,12 @@ class ClassMerger {
   std::string volumes_;
   std::vector<const ObjectFile*> shares_;
   std::vector<const std::string*> names_;
+  FileLife life_;
+  Status status_ = Status::done;
+  std::set<std::pair<std::size_t, std::string>> reported_;  // problems of shares
+  std::mutex mutex_;
   std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_;  // shares and numbers of components
+  bool has_new_bad_texts_ = false;
 };
 
 }  // namespace
@@ -208,8 +219,8 @@ bool join_object_files(const std::vector<std::string>& files, const Options& opt
   return true;
 }
 
-Status merge_object_files(const Job& job, const std::vector<std::string>& files, const Options& options,
-                          Report& report) {
+Status merge_object_files(const Job& job, const std::vector<std::string>& files, FileLife life,
+                          const Options& options, Report& report) {
   const Stopwatch watch;
   OpenShares open;
   if (!open_files(files, options, open)) {
@@ -223,7 +234,7 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
     ObjectFile& share = *open.shares[i];
     share.first_number = open.clouds.points_before(share.header());
     const auto value = share.header().class_value;
-    classes.try_emplace(value, options, table, value).first->second.add(share, open.names[i]);
+    classes.try_emplace(value, options, table, life, value).first->second.add(share, open.names[i]);
   }
   ObjectList list(options, report);
   double fit_seconds = 0;

@@ -40,8 +40,9 @@ bool join_object_files(const std::vector<std::string>& files, const Options& opt
 
 /// Merges the clusters of the files. Volumes are those of the files if they have the requested methods, and
 /// are fitted if not. Writes the points of the objects if the job says so. Reports each file that cannot be
-/// merged; then the report has an error. Returns whether all volumes were fitted, as report_failures().
-Status merge_object_files(const Job& job, const std::vector<std::string>& files, const Options& options,
-                          Report& report);
+/// merged; then the report has an error. Damaged points of lasting files are left out, and reported. Returns
+/// whether all volumes were fitted, as report_failures().
+Status merge_object_files(const Job& job, const std::vector<std::string>& files, FileLife life,
+                          const Options& options, Report& report);
 
 }  // namespace pcl_bv::detail

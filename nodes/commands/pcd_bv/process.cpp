@@ -188,7 +188,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
 Status process_partials(const Job& job, const Options& options, Report& report) {
   if (options.clusters()) {
     report.file = kTiledName;
-    const Status status = merge_object_files(job, job.partials, options, report);
+    const Status status = merge_object_files(job, job.partials, FileLife::lasting, options, report);
     return report.error ? status : worse(status, write_mesh(job, report.clusters));
   }
   Stopwatch watch;

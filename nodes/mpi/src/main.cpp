@@ -61,8 +61,9 @@ Status process_merged(Ranks& ranks, const Job& job, const Options& options, Inte
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = options.clusters() ? find_merged_objects(ranks, job, options, outcome.report)
-                                        : fit_merged(ranks, *job.tiles, options, outcome.report);
+    outcome.status = options.clusters()
+                         ? find_merged_objects(ranks, job, options, outcome.report, interrupted)
+                         : fit_merged(ranks, *job.tiles, options, outcome.report);
   } catch (const IoError& error) {  // thrown on all ranks
     outcome.report.error = error.what();
     outcome.status = Status::failed;

@@ -25,43 +25,60 @@ namespace {
 // A folder for the files of all ranks. The first rank makes and removes it.
 class CommonFolder {
  public:
-  explicit CommonFolder(Ranks& ranks) : ranks_(ranks) {
-    std::string name;
-    if (ranks.first()) {
-      name = (std::filesystem::temp_directory_path() / "pcl_bv_mpi_XXXXXX").string();
-      if (mkdtemp(name.data()) == nullptr) name.clear();
-    }
-    path_ = ranks.broadcast(name);
-    if (path_.empty()) throw IoError("cannot make a folder for temporary files in $TMPDIR");
+  CommonFolder(Ranks& ranks, InterruptAction& interrupted) : ranks_(ranks), interrupted_(interrupted) {
+    std::string problem;
+    if (ranks.first()) problem = make();
+    problem = ranks.broadcast(problem);
+    if (!problem.empty()) throw IoError("cannot make a folder for temporary files in $TMPDIR: " + problem);
+    path_ = ranks.broadcast(path_.string());
     std::error_code unknown;
     const bool seen = std::filesystem::is_directory(path_, unknown);
     for (const std::string& each : ranks.all_gather(seen ? "yes" : "no"))
       if (each == "no") throw_for_folder();
   }
-  ~CommonFolder() {
-    std::error_code unknown;
-    if (ranks_.first()) std::filesystem::remove_all(path_, unknown);
-  }
+  ~CommonFolder() { remove(); }
   CommonFolder(const CommonFolder&) = delete;
   CommonFolder& operator=(const CommonFolder&) = delete;
 
   [[noreturn]] void throw_for_folder() {
-    std::error_code unknown;
-    if (ranks_.first()) std::filesystem::remove_all(path_, unknown);
+    remove();
     throw IoError("$TMPDIR must be a folder that all ranks can access: " + path_.parent_path().string());
   }
 
   std::string file(std::size_t rank) const { return (path_ / std::to_string(rank)).string(); }
 
  private:
+  // Makes the folder, which a signal removes, too. Returns the problem, or an empty text.
+  std::string make() {
+    std::error_code failure;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(failure);
+    if (failure) return system_reason(failure.value());
+    std::string name = (parent / "pcl_bv_mpi_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) return system_reason(errno);
+    path_ = name;
+    interrupted_.set([name] {
+      std::error_code unknown;
+      std::filesystem::remove_all(name, unknown);
+    });
+    return {};
+  }
+
+  void remove() {
+    if (!ranks_.first()) return;
+    std::error_code unknown;
+    std::filesystem::remove_all(path_, unknown);
+    interrupted_.set(nullptr);
+  }
+
   Ranks& ranks_;
+  InterruptAction& interrupted_;
   std::filesystem::path path_;
 };
 
 // Sends the cells of each rank to all others, while it writes its file.
-class CellMessages {
+class CellExchange {
  public:
-  explicit CellMessages(Ranks& ranks) : ranks_(ranks) {}
+  explicit CellExchange(Ranks& ranks) : ranks_(ranks) {}
 
   /// Thrown if another rank has failed.
   struct OtherRankFailed {};
@@ -82,9 +99,9 @@ class CellMessages {
     return others;
   }
 
-  /// Tells other ranks that wait for the cells of this rank that it has failed.
+  /// Tells the ranks that wait for cells of this rank that it has failed, if it did not make all calls.
   void end() {
-    if (calls_ < 2 && !failed_) exchange(kFailed);
+    if (calls_ < kGatherCalls && !failed_) exchange(kFailed);
   }
 
  private:
@@ -107,12 +124,12 @@ class CellMessages {
 std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
                                         const CommonFolder& folder) {
   std::string problem;
-  CellMessages messages(ranks);
+  CellExchange messages(ranks);
   const auto failure = run_and_catch([&] {
     try {
       write_temporary_object_share(tiles, {ranks.rank(), ranks.size()}, options, folder.file(ranks.rank()),
                                    [&](const auto& cells) { return messages.gather(cells); });
-    } catch (const CellMessages::OtherRankFailed&) {  // it says why
+    } catch (const CellExchange::OtherRankFailed&) {  // which reports the reason
     } catch (const TileError&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -129,10 +146,11 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
 
 }  // namespace
 
-Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& options, Report& report) {
+Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& options, Report& report,
+                                   InterruptAction& interrupted) {
   Tiles& tiles = *job.tiles;
   Status status = ranks.first() ? report_excluded_inputs(tiles) : Status::done;
-  const CommonFolder folder(ranks);
+  const CommonFolder folder(ranks, interrupted);
   for (;;) {
     if (tiles.included_count() == 0) throw IoError("no input could be read");
     const auto failure = write_shares(ranks, tiles, options, folder);
@@ -150,7 +168,7 @@ Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& 
         files.push_back(folder.file(rank));
       Options merging = options;
       merging.pipeline.threads *= static_cast<decltype(merging.pipeline.threads)>(ranks_here);
-      status = worse(status, merge_object_files(job, files, merging, report));
+      status = worse(status, merge_object_files(job, files, FileLife::temporary, merging, report));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {

@@ -11,7 +11,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::uint32_t kUnset = kNoComponent - 1;
+constexpr std::uint32_t kUnset = kMaxSets;  // as the component of a piece
 
 std::uint32_t component_of_record(const std::byte* record, ScalarType scalar) {
   std::uint32_t component;
@@ -55,11 +55,12 @@ void ActiveWorker::add_links(const std::vector<std::byte>& records, std::size_t 
     if (piece == BrickComponents::kNoPiece) continue;
     const std::byte* const record = &records[i * step];
     const std::uint64_t number = number_of_record(record, components_.scalar());
-    std::uint32_t component = component_of_record(record, components_.scalar());
-    if (component == kNoiseNearLost) brick.is_near_lost[piece] = 1, component = kNoComponent;
+    const std::uint32_t marked = component_of_record(record, components_.scalar());
+    const std::uint32_t component = marked & ~kNearLost;
+    brick.is_near_lost[piece] |= marked != component;
     if ((number & kOfOtherBrick) == 0) {
       std::uint32_t& all = brick.component[piece];
-      all = all == kUnset || all == component ? component : ActiveBrick::kMixed;
+      all = all == kUnset || all == component ? component : kNoComponent;
     }
     const std::pair<std::uint32_t, std::uint32_t> link{component, piece};
     const bool linked = component != kNoComponent && (number & kCore) != 0 && components_.is_core(i);

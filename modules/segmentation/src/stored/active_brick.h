@@ -19,18 +19,20 @@ struct ActiveBrick {
   BrickResult result;
   /// Components of shares that have a core point in common with a piece of the brick, and the piece.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> links;
-  /// For each piece, the component of all its points in their shares, or kMixed.
+  /// For each piece, the component of all its points in their shares, or kNoComponent.
   std::vector<std::uint32_t> component;
-  /// For each piece, whether noise of a share in it is near lost points.
-  std::vector<std::uint8_t> is_near_lost;
-  static constexpr std::uint32_t kMixed = ~std::uint32_t{0};
+  std::vector<std::uint8_t> is_near_lost;  ///< For each piece, whether it has points near lost ones.
 };
 
-/// As components of a record: none, and noise that is near lost points.
-inline constexpr std::uint32_t kNoComponent = ActiveBrick::kMixed, kNoiseNearLost = kNoComponent - 2;
+/// Components of shares, and pieces after them, have smaller numbers.
+inline constexpr std::uint32_t kMaxSets = (std::uint32_t{1} << 31) - 2;
+/// As a component: none, or several.
+inline constexpr std::uint32_t kNoComponent = kMaxSets + 1;
+/// Set in the component of a record that is near lost points.
+inline constexpr std::uint32_t kNearLost = std::uint32_t{1} << 31;
 
 /// Returns the size of a record near other shares: a record as in bricks, and the component of the point in
-/// its share, among the components of all shares.
+/// its share, among the components of all shares, or kNoComponent.
 constexpr std::size_t active_record_bytes(ScalarType scalar) {
   return record_bytes(scalar) + sizeof(std::uint32_t);
 }

@@ -12,12 +12,13 @@ using Keys = std::unordered_set<std::uint64_t>;
 using ShareOfKey = std::unordered_map<std::uint64_t, std::uint32_t>;
 constexpr std::uint32_t kSeveral = ~std::uint32_t{0};  // as a share
 
-// Cubes of 16 cells a side are searched first: few of them are near other shares.
+// Cubes of cells are searched first: few of them are near other shares.
 constexpr int kCubeSide = 16;
 
-std::uint64_t cube_of(std::uint64_t cell) {
+// Returns the key of the first cell of the cube that has a cell. The side is a power of 2.
+std::uint64_t cube_of(std::uint64_t cell, int side) {
   const auto [x, y, z] = BrickGrid::position(cell);
-  constexpr int in_cube = kCubeSide - 1;
+  const int in_cube = side - 1;
   return BrickGrid::neighbour(cell, -static_cast<int>(x & in_cube), -static_cast<int>(y & in_cube),
                               -static_cast<int>(z & in_cube));
 }
@@ -64,38 +65,39 @@ Keys keys_near_other_shares(const ShareOfKey& share_of_key, int side) {
 
 // Returns the keys that have others in or around them.
 Keys keys_near(const Keys& keys, const std::vector<std::uint64_t>& others, int side) {
-  const Keys all(others.begin(), others.end());
   Keys near;
-  for (const std::uint64_t key : keys)
-    for_each_around(key, side, [&](std::uint64_t around) {
-      if (all.contains(around)) near.insert(key);
+  for (const std::uint64_t other : others)
+    for_each_around(other, side, [&](std::uint64_t around) {
+      if (keys.contains(around)) near.insert(around);
     });
   return near;
 }
 
 }  // namespace
 
-Keys cells_near_others(const std::vector<std::uint64_t>& cells, const GatherCells& gather) {
+Keys cells_near_others(const std::vector<std::uint64_t>& cells, int side, const GatherCells& gather) {
+  const int cube_side = kCubeSide * side;
   Keys cubes, candidates;
   for (const std::uint64_t cell : cells)
-    cubes.insert(cube_of(cell));
-  const Keys near_cubes = keys_near(cubes, gather({cubes.begin(), cubes.end()}), kCubeSide);
+    cubes.insert(cube_of(cell, cube_side));
+  const Keys near_cubes = keys_near(cubes, gather({cubes.begin(), cubes.end()}), cube_side);
   for (const std::uint64_t cell : cells)
-    if (near_cubes.contains(cube_of(cell))) candidates.insert(cell);
-  return keys_near(candidates, gather({candidates.begin(), candidates.end()}), 1);
+    if (near_cubes.contains(cube_of(cell, cube_side))) candidates.insert(cell);
+  return keys_near(candidates, gather({candidates.begin(), candidates.end()}), side);
 }
 
 std::unordered_map<std::uint64_t, CellKind> find_active_cells(
     const std::vector<const ClusterShare*>& shares) {
   std::unordered_map<std::uint64_t, CellKind> kinds;
   if (shares.size() < 2) return kinds;
+  const auto cube = [](std::uint64_t cell) { return cube_of(cell, kCubeSide); };
   Keys cubes;  // with all active cells and all cells near them
   for (const std::uint64_t cube :
-       keys_near_other_shares(share_of_keys(shares, cube_of, [](std::uint64_t) { return true; }), kCubeSide))
+       keys_near_other_shares(share_of_keys(shares, cube, [](std::uint64_t) { return true; }), kCubeSide))
     for_each_around(cube, kCubeSide, [&](std::uint64_t around) { cubes.insert(around); });
   const ShareOfKey share_of_cell = share_of_keys(
       shares, [](std::uint64_t cell) { return cell; },
-      [&](std::uint64_t cell) { return cubes.contains(cube_of(cell)); });
+      [&](std::uint64_t cell) { return cubes.contains(cube(cell)); });
   const Keys active = keys_near_other_shares(share_of_cell, 1);
   for (const std::uint64_t cell : active)
     for_each_around(cell, 1, [&](std::uint64_t around) {

@@ -14,14 +14,14 @@
 namespace pcl_bv::detail {
 
 enum class CellKind : std::uint8_t {
-  passive,      ///< It and the cells around it have points of one share only.
-  near_active,  ///< Passive, and an active cell is around it.
+  passive,      ///< The cell and the 26 cells around it have points of one share only.
+  near_active,  ///< Passive and adjacent to an active cell.
   active
 };
 
-/// Returns the cells of a share that have points of other shares in or around them. Makes two calls of
-/// gather().
-std::unordered_set<std::uint64_t> cells_near_others(const std::vector<std::uint64_t>& cells,
+/// Returns the cells of a share that have points of other shares in or around them. A cell is a cube of
+/// `side` cells of the grid, a power of 2, and has the key of the first. Calls gather() kGatherCalls times.
+std::unordered_set<std::uint64_t> cells_near_others(const std::vector<std::uint64_t>& cells, int side,
                                                     const GatherCells& gather);
 
 /// Returns the cells with points that are active or near an active cell.

@@ -19,7 +19,8 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 }  // namespace
 
 BrickGrid::BrickGrid(double halo, double halos)
-    : per_side_(1 / (halos * halo)), margin_((1 + 1e-9) / halos) {}
+    // Grids of the same halo end at the same coordinates, so that first_quarter() holds for all points.
+    : per_side_(1 / (halos * halo)), margin_((1 + 1e-9) / halos), end_(0x1p49 / halos) {}
 
 GridCell BrickGrid::cell_of(const std::array<double, 3>& at) const {
   GridCell cell;
@@ -38,6 +39,14 @@ GridCell BrickGrid::cell_of(const std::array<double, 3>& at) const {
 std::uint64_t BrickGrid::neighbour(std::uint64_t key, int dx, int dy, int dz) {
   const std::array<std::uint32_t, 3> at = position(key);
   return key_of(std::int64_t{at[0]} + dx, std::int64_t{at[1]} + dy, std::int64_t{at[2]} + dz);
+}
+
+std::uint64_t BrickGrid::first_quarter(std::uint64_t key) {
+  const std::array<std::uint32_t, 3> at = position(key);
+  const auto first = [](std::uint32_t number) {
+    return 4 * (std::int64_t{number} - kCells / 2) + kCells / 2;
+  };
+  return key_of(first(at[0]), first(at[1]), first(at[2]));
 }
 
 std::array<std::uint32_t, 3> BrickGrid::position(std::uint64_t key) {

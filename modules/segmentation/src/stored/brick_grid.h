@@ -41,17 +41,20 @@ class BrickGrid {
   /// Returns the key of the cell that is dx, dy, dz cells away.
   static std::uint64_t neighbour(std::uint64_t key, int dx, int dy, int dz);
 
+  /// Returns the key of the first of the 4 x 4 x 4 cells that a cell has in a grid of a quarter of the side.
+  static std::uint64_t first_quarter(std::uint64_t key);
+
   /// Returns the numbers of a cell along the axes, from 0 on.
   static std::array<std::uint32_t, 3> position(std::uint64_t key);
 
  private:
   double scaled(double x) const {
-    constexpr double end = 0x1p45;  // beyond, fractions of a cell would be rounded too much
     const double at = x * per_side_;
-    return at < -end ? -end : at > end ? end : at;
+    return at < -end_ ? -end_ : at > end_ ? end_ : at;
   }
 
   double per_side_, margin_;
+  double end_;  // beyond, fractions of a cell would be rounded too much
 };
 
 }  // namespace pcl_bv::detail

@@ -93,6 +93,18 @@ std::size_t share_record_bytes(ScalarType scalar) {
   return record_bytes(scalar);
 }
 
+namespace {
+
+NearCells near_cells(const Bricks& bricks, const GatherCells& gather) {
+  static_assert(kHalosPerCell == 4 * kHalosPerRunCell);
+  std::vector<std::uint64_t> cells = bricks.cells();
+  for (std::uint64_t& cell : cells)
+    cell = BrickGrid::first_quarter(cell);
+  return {bricks.grid(), cells_near_others(cells, 4, gather)};
+}
+
+}  // namespace
+
 struct MadeClusterShare::State {
   State(const std::filesystem::path& folder, const ShareRecords& written)
       : file(folder),
@@ -162,7 +174,7 @@ MadeClusterShare::MadeClusterShare(const PointView& points, const ClusterOptions
   const DistributedPoints all = distribute(points, options, store, execution, state_->file);
   state_->invalid = all.invalid;
   std::optional<NearCells> near;
-  if (written.gather) near = {all.bricks.grid(), cells_near_others(all.bricks.cells(), written.gather)};
+  if (written.gather) near = near_cells(all.bricks, written.gather);
   std::vector<ShareBrick> bricks(all.lists.size());
   for_each_brick(all.lists, store, execution, state_->file, [&](const Execution& part) {
     return ShareWorker(all, points.scalar, options, store, part, state_->file, near, state_->records, bricks);

@@ -14,9 +14,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-// A larger number makes fewer cells, with more points near their borders.
-constexpr double kHalosPerCell = 16;
-
 // Bricks with fewer points have too many points of their neighbours.
 constexpr std::size_t kFewPoints = 1U << 18U;
 

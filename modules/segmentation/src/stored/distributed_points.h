@@ -15,6 +15,9 @@
 
 namespace pcl_bv::detail {
 
+/// Side of the cells of bricks. A larger number makes fewer cells, with more points near their borders.
+inline constexpr double kHalosPerCell = 16;
+
 /// Text of the error if passes over the points find different ones.
 inline constexpr char kPointsChanged[] = "the points have changed while they were read";
 

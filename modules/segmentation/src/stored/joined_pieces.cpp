@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kReadBytes = 64U << 10U;     // of a piece at a time
 constexpr std::size_t kAllReadBytes = 64U << 20U;  // of all pieces of a cluster
 constexpr std::size_t kWriteBytes = 1U << 20U;
-// Pieces that are merged at a time. More of them are first sorted in memory to pieces of this many points.
+// Maximum number of pieces that are merged at once. More pieces are first combined into sorted pieces of
+// kSortedPoints points, unless that would leave more than half as many pieces.
 constexpr std::size_t kMaxPieces = kAllReadBytes / kReadBytes;
 constexpr std::size_t kSortedPoints = 1U << 20U;
 
@@ -81,7 +82,10 @@ void discard(const std::vector<Piece>& pieces, ScalarType scalar, SpillFile& fil
 // Writes records with the numbers of the merged cloud, in their order.
 class PieceSorter {
  public:
-  PieceSorter(ScalarType scalar, SpillFile& file) : scalar_(scalar), file_(file) {}
+  PieceSorter(ScalarType scalar, SpillFile& file) : scalar_(scalar), file_(file) {
+    order_.reserve(kSortedPoints);
+    records_.reserve(kSortedPoints * record_bytes(scalar));
+  }
 
   void add(const Piece& piece) {
     const std::size_t step = record_bytes(scalar_);

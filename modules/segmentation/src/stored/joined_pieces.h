@@ -18,7 +18,8 @@ void join_pieces(const std::vector<SharedPoints>& bricks, const std::vector<std:
 /// Returns the numbers 0 to roots.size() - 1, ordered by their roots.
 std::vector<std::uint32_t> order_by_root(const std::vector<std::uint32_t>& roots);
 
-/// Writes the points of several pieces in the order of their numbers. Frees the space of the pieces.
+/// Writes the points of several pieces in the order of their numbers. Frees the space of pieces in the
+/// temporary file; shares do not change.
 StoredCluster merge_pieces(const std::vector<Piece>& pieces, ScalarType scalar, SpillFile& file);
 
 }  // namespace pcl_bv::detail

@@ -16,7 +16,8 @@ bool is_readable(const Piece& run, ScalarType scalar, const SpillFile& file) {
     for (PieceReader reader(file, run, scalar, kReadAtATime); !reader.done();)
       reader.next();
     return true;
-  } catch (const ShareError&) {
+  } catch (const ShareError& error) {
+    if (!error.wrong_sum()) throw;
     return false;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs of shares that cannot be read.
+// Runs of shares whose points are damaged.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ class LostRuns {
  public:
   explicit LostRuns(std::size_t shares) : lost_(shares) {}
 
-  /// Reads all runs of a share. Returns the number of points in runs that cannot be read, or 0 if the share
-  /// was searched before.
+  /// Reads all runs of a share, which were all written. Returns the number of points in runs with a wrong
+  /// check sum, or 0 if the share was searched before. Throws ShareError if a run cannot be read.
   std::uint64_t find(const std::vector<const ClusterShare*>& shares, std::size_t share,
                      const SpillFile& file);
 

@@ -43,7 +43,7 @@ MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const
     if (share->scalar() != scalar_) throw std::invalid_argument("shares have float and double points");
     first_component_.push_back(static_cast<std::uint32_t>(components));
     components += share->components().size();
-    if (components >= kNoiseNearLost) throw std::length_error("too many clusters in the shares");
+    if (components >= kMaxSets) throw std::length_error("too many clusters in the shares");
   }
   passive_points_.assign(components, 0);
   is_near_lost_.assign(components, 0);
@@ -117,9 +117,9 @@ void MergedShares::add_points_of_run(const RunPlace& place, bool active, const B
                                      std::size_t block, std::vector<SpillList>& lists) {
   const ClusterShare& share = *shares_[place.share];
   const ShareRun& run = share.runs()[place.run];
-  const std::uint32_t noise = lost_.is_near(run.cell) ? kNoiseNearLost : kNoComponent;
   const std::uint32_t component =
-      run.component == ShareRun::kNoise ? noise : component_number(place.share, run.component);
+      (run.component == ShareRun::kNoise ? kNoComponent : component_number(place.share, run.component)) |
+      (lost_.is_near(run.cell) ? kNearLost : 0);
   PieceReader reader(file_, {place.offset, run.points, {&share, place.share, run.check_sum}}, scalar_,
                      kRunBytes);
   std::byte record[record_bytes(ScalarType::float64) + sizeof component];
@@ -167,7 +167,7 @@ void MergedShares::join() {
     shared.push_back(brick.result.shared);
     sets_count += brick.result.pieces.size();
     counts_.noise += brick.result.counts.noise;
-    if (sets_count >= kNoComponent) throw std::length_error("too many parts of clusters: use more memory");
+    if (sets_count >= kMaxSets) throw std::length_error("too many parts of clusters: use more memory");
   }
   UnionFind sets;
   sets.reset(sets_count);

@@ -39,7 +39,8 @@ void PieceReader::fill() {
       throw ShareError(from_.number, error.what());
     }
     sum_ = run_check_sum(buffer_.data(), buffer_.size(), sum_);
-    if (left_ == records && sum_ != from_.check_sum) throw ShareError(from_.number, "its points are damaged");
+    if (left_ == records && stored_sum(sum_) != from_.check_sum)
+      throw ShareError(from_.number, "its points are damaged", true);
   }
   at_ += buffer_.size();
   left_ -= records;

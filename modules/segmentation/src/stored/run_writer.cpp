@@ -12,9 +12,7 @@
 namespace pcl_bv::detail {
 
 BrickGrid grid_of_runs(const ClusterOptions& options, ScalarType scalar) {
-  // Points near other shares are clustered again, cell by cell. Smaller cells make more runs.
-  constexpr double halos = 4;
-  return {halo_of(options, scalar), halos};
+  return {halo_of(options, scalar), kHalosPerRunCell};
 }
 
 // Returns the number of the piece; that of noise is the number of pieces.
@@ -42,7 +40,7 @@ void RunWriter::sort(const std::vector<std::byte>& records, std::size_t piece_co
     if (!near_) continue;
     if (const auto at = near_->grid.scaled(load_point(view, i)); !cell.contains(at)) {
       cell = near_->grid.cell_of(at);
-      near = near_->keys.contains(cell.key);
+      near = near_->keys.contains(BrickGrid::first_quarter(cell.key));
     }
     is_near_[piece] |= static_cast<std::uint8_t>(near);
   }
@@ -79,17 +77,17 @@ BrickRuns RunWriter::make(const std::vector<std::byte>& records) {
     if (is_near_[p] != 0 || (p < pieces && brick.is_complete[p] == 0)) {
       add_runs(records, first, end, component, brick.runs);
     } else {
-      brick.runs.push_back({cell_[order_[first]], end - first, component, 0});
+      brick.runs.push_back({cell_[order_[first]], end - first, component, ShareRun::kNotWritten});
     }
   }
   return brick;
 }
 
-// Finds the cells of the records of a piece: of each record, or the first one's for all.
-void RunWriter::find_cells(const PointView& view, std::size_t first, std::size_t end, bool each) {
+// Sets the cells of the records of a piece. If not exact, all get the cell of the first record.
+void RunWriter::find_cells(const PointView& view, std::size_t first, std::size_t end, bool exact) {
   GridCell cell = grid_.cell_of(grid_.scaled(load_point(view, order_[first])));
   for (std::size_t i = first; i < end; ++i) {
-    if (each)
+    if (exact)
       if (const auto at = grid_.scaled(load_point(view, order_[i])); !cell.contains(at))
         cell = grid_.cell_of(at);
     cell_[order_[i]] = cell.key;
@@ -119,7 +117,8 @@ void RunWriter::add_runs(const std::vector<std::byte>& records, std::size_t firs
       buffer_.insert(buffer_.end(), record, record + step);
       std::memcpy(buffer_.data() + at + point_bytes(scalar), &number, sizeof number);
     }
-    runs.push_back({cell, points, component, run_check_sum(&buffer_[begin], buffer_.size() - begin)});
+    runs.push_back(
+        {cell, points, component, stored_sum(run_check_sum(&buffer_[begin], buffer_.size() - begin))});
   }
 }
 

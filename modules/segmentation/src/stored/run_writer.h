@@ -16,6 +16,9 @@
 
 namespace pcl_bv::detail {
 
+/// Points near other shares are clustered again, cell by cell. Smaller cells make more runs.
+inline constexpr double kHalosPerRunCell = 4;
+
 /// Returns the grid for the cells of runs.
 BrickGrid grid_of_runs(const ClusterOptions& options, ScalarType scalar);
 
@@ -26,10 +29,10 @@ struct BrickRuns {
   std::vector<std::uint8_t> is_complete;  ///< For each piece, whether all its points are in the brick.
 };
 
-/// Cells near other shares.
+/// Cells of the grid of bricks that are near other shares.
 struct NearCells {
   BrickGrid grid;
-  std::unordered_set<std::uint64_t> keys;
+  std::unordered_set<std::uint64_t> keys;  ///< BrickGrid::first_quarter() of the cells.
 };
 
 /// Records that follow one another in the brick and in a buffer.
@@ -58,7 +61,7 @@ class RunWriter {
  private:
   void sort(const std::vector<std::byte>& records, std::size_t piece_count);
   std::uint32_t piece_of(std::size_t record) const;
-  void find_cells(const PointView& view, std::size_t first, std::size_t end, bool each);
+  void find_cells(const PointView& view, std::size_t first, std::size_t end, bool exact);
   void add_runs(const std::vector<std::byte>& records, std::size_t first, std::size_t end,
                 std::uint32_t component, std::vector<ShareRun>& runs);
 

@@ -190,7 +190,8 @@ StoredClusters::StoredClusters(const std::vector<const ClusterShare*>& shares, c
       state_->merge(shares, lost, options, store, execution);
       return;
     } catch (const ShareError& error) {
-      const std::uint64_t points = store.on_lost ? lost.find(shares, error.share(), state_->file) : 0;
+      const std::uint64_t points =
+          store.on_lost && error.wrong_sum() ? lost.find(shares, error.share(), state_->file) : 0;
       if (points == 0) throw;
       store.on_lost(error, points);
     }

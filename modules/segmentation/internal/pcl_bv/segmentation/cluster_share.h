@@ -22,14 +22,16 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Consecutive records of a share. Their points are in one cell of a grid and in one component.
+/// Consecutive records of a share. Their points are in one component and in one cell of a grid. A run that is
+/// not written (ShareRecords::gather) has the cell of its first point.
 struct ShareRun {
   static constexpr std::uint32_t kNoise = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNotWritten = 0;  ///< As a check sum.
 
   std::uint64_t cell = 0;  ///< Key of the cell. It is the same in all shares with the same options.
   std::uint64_t points = 0;
   std::uint32_t component = 0;  ///< A component of the share, or kNoise.
-  std::uint32_t check_sum = 0;  ///< Of the bytes of the records.
+  std::uint32_t check_sum = 0;  ///< stored_sum() of the bytes of the records.
 };
 
 /// A connected component of the points of a share.
@@ -41,14 +43,22 @@ struct ShareComponent {
 /// Returns the check sum of more bytes, a multiple of 4, after those that have the sum `before`.
 std::uint32_t run_check_sum(const std::byte* bytes, std::size_t count, std::uint32_t before = 0x811c9dc5);
 
+/// Returns the ShareRun::check_sum for a check sum.
+constexpr std::uint32_t stored_sum(std::uint32_t sum) {
+  return sum == ShareRun::kNotWritten ? 1 : sum;
+}
+
 /// Thrown if the records of a share are damaged or cannot be read.
 class ShareError : public std::runtime_error {
  public:
-  ShareError(std::size_t share, const std::string& reason) : std::runtime_error(reason), share_(share) {}
-  std::size_t share() const { return share_; }  ///< Number of the share among those that are merged.
+  ShareError(std::size_t share, const std::string& reason, bool wrong_sum = false)
+      : std::runtime_error(reason), share_(share), wrong_sum_(wrong_sum) {}
+  std::size_t share() const { return share_; }   ///< Number of the share among those that are merged.
+  bool wrong_sum() const { return wrong_sum_; }  ///< Whether the check sum of a run is wrong.
 
  private:
   std::size_t share_;
+  bool wrong_sum_;
 };
 
 /// The clustered points of a share. A record has the coordinates of a valid point, and a number of 8 bytes
@@ -76,6 +86,9 @@ std::size_t share_record_bytes(ScalarType scalar);
 
 /// A collective call of all shares. Takes keys of the cells of a share and returns those of all other shares.
 using GatherCells = std::function<std::vector<std::uint64_t>(const std::vector<std::uint64_t>& own)>;
+
+/// Number of calls that a share makes.
+inline constexpr int kGatherCalls = 2;
 
 /// Which records a share writes, and where.
 struct ShareRecords {

@@ -52,8 +52,9 @@ struct StoredClusterOptions {
   bool has_labels = false;
   /// If set, tells which components of shares need no points(). See StoredClusters::component().
   std::function<bool(const ComponentOfShare& component)> is_known{};
-  /// If set, is called with the error of each share that has points that cannot be read, and their number.
-  /// These points are left out: see StoredClusters::is_incomplete(). If not set, the error is thrown.
+  /// If set, is called with the error of each share that has points with a wrong check sum, and their number.
+  /// These points are left out: see StoredClusters::is_incomplete(). If not set, the error is thrown. Not for
+  /// shares with ShareRecords::gather.
   std::function<void(const ShareError& error, std::uint64_t points)> on_lost{};
 };
 

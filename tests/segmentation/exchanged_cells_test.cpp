@@ -15,16 +15,16 @@ namespace pcl_bv::detail {
 namespace {
 
 template <typename T>
-class TalkingSharesOf : public testing::Test {};
+class ExchangedCellsOf : public testing::Test {};
 using ScalarTypes = testing::Types<float, double>;
-TYPED_TEST_SUITE(TalkingSharesOf, ScalarTypes);
+TYPED_TEST_SUITE(ExchangedCellsOf, ScalarTypes);
 
 // Makes all shares at the same time, each in a thread, with records only where other shares are near.
 template <typename T>
-class SharesThatTalk {
+class SharesWithExchangedCells {
  public:
-  SharesThatTalk(const PointView& points, const std::vector<std::size_t>& ends, const ClusterOptions& options,
-                 std::size_t in_memory)
+  SharesWithExchangedCells(const PointView& points, const std::vector<std::size_t>& ends,
+                           const ClusterOptions& options, std::size_t in_memory)
       : visited_(ends.size() - 1),
         sent_(ends.size() - 1),
         all_here_(static_cast<std::ptrdiff_t>(sent_.size())) {
@@ -80,7 +80,7 @@ class SharesThatTalk {
   std::barrier<> all_here_;
 };
 
-TYPED_TEST(TalkingSharesOf, NeedOnlyThePointsNearOtherShares) {
+TYPED_TEST(ExchangedCellsOf, NeedOnlyThePointsNearOtherShares) {
   std::uint64_t unwritten = 0, points = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     test::TestCloud<TypeParam> cloud = scene<TypeParam>(seed);
@@ -90,7 +90,7 @@ TYPED_TEST(TalkingSharesOf, NeedOnlyThePointsNearOtherShares) {
     const std::size_t in_memory = std::array{40U, 1U << 20U}[random() % 2];
     SCOPED_TRACE(testing::Message() << cloud.name << ", min_points " << options.min_points << ", tolerance "
                                     << options.tolerance);
-    const SharesThatTalk<TypeParam> all(cloud.view(), ends, options, in_memory);
+    const SharesWithExchangedCells<TypeParam> all(cloud.view(), ends, options, in_memory);
     StoredClusterOptions known{in_memory, {}};
     known.is_known = [&](const ComponentOfShare& c) {
       return all.shares()[c.share]->visit(c.number).has_value();
@@ -105,9 +105,25 @@ TYPED_TEST(TalkingSharesOf, NeedOnlyThePointsNearOtherShares) {
     points += cloud.size();
     for (const auto& share : all.shares())
       for (const ShareRun& run : share->runs())
-        unwritten += run.check_sum == 0 ? run.points : 0;
+        unwritten += run.check_sum == ShareRun::kNotWritten ? run.points : 0;
   }
   EXPECT_GT(unwritten, points / 8);
+}
+
+// Cells are numbered modulo 2^21: some of the points of the second share have the number of the first's cell.
+TEST(ExchangedCells, OfTheSameNumberFarApartAreReadable) {
+  test::TestCloud<double> cloud{"far apart", {0.5, 0, 0, 0.8, 0, 0}};
+  for (int i = 0; i < 300; ++i)
+    cloud.xyz.insert(cloud.xyz.end(), {4'194'295 + 0.1 * i, 0, 0});
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  const SharesWithExchangedCells<double> all(cloud.view(), {0, 2, cloud.size()}, options, 1U << 20);
+  StoredClusterOptions known;
+  known.is_known = [&](const ComponentOfShare& c) {
+    return all.shares()[c.share]->visit(c.number).has_value();
+  };
+  const StoredClusters joined(pointers(all.shares()), options, known);
+  EXPECT_EQ(all.bytes_of(joined), bytes_of(cloud.view(), cluster(cloud.view(), options)));
 }
 
 }  // namespace
