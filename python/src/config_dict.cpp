@@ -228,6 +228,7 @@ py::object python_value(const std::vector<ClassConfig>& classes) {
     add("min_size", own.min_size);
     add("max_size", own.max_size);
     if (!own.volumes.empty()) entry["volumes"] = python_value(own.volumes);
+    if (!own.name.empty()) entry["name"] = own.name;
     list.append(entry);
   }
   return list;

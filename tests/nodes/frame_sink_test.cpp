@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <map>
 #include <thread>
 
 #include "folder.h"
 #include "frames.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/recording/recording.h"
 #include "pcl_bv/report/meshes.h"
 
 namespace pcl_bv::detail {
@@ -159,6 +161,44 @@ TEST_F(FrameSinks, PicturesAreFilesOfTheirFrames) {
   const Found found;
   make_sink(parse_sink("image:" + path_.string()))->write(found.frame, found.result);
   EXPECT_THAT(read("frame000000.png"), testing::StartsWith("\x89PNG"));
+}
+
+// A topic with the number of its messages, of one frame and the end of the stream.
+using TopicSizes = std::map<std::string, std::uint64_t>;
+
+TopicSizes topics_of(const std::string& path) {
+  TopicSizes sizes;
+  const auto reader = open_recording(path);
+  for (const RecordedTopic& topic : reader->topics())
+    sizes[topic.name] = 0;
+  RecordedMessage message;
+  while (reader->next(message))
+    ++sizes[reader->topics()[message.topic].name];
+  return sizes;
+}
+
+TEST_F(FrameSinks, RecordingsHaveTheMessagesOfTheirOptions) {
+  const TopicSizes always{{"/bv/objects", 1}, {"/bv/markers", 1}, {"/bv/scene", 1}, {"/diagnostics", 1}};
+  const std::map<std::string, TopicSizes> added{
+      {",moveit", {{"/bv/planning_scene", 2}, {"/bv/collision_object", 2}}},  // and removed at the end
+      {",nav2", {{"/bv/obstacles", 1}, {"/bv/polygons", 1}, {"/bv/footprints", 1}}},
+      {",vision", {{"/bv/boxes", 1}, {"/bv/detection_points", 1}, {"/bv/label_info", 0}}},
+      {",points", {{"/bv/points", 1}}}};
+  for (const std::string kind : {"mcap", "rosbag2"}) {
+    std::string options;
+    TopicSizes expected = always;
+    for (auto option = added.begin();; ++option) {
+      const std::string file = (path_ / (kind + std::to_string(options.size()))).string();
+      const Found found;
+      const auto sink = make_sink(parse_sink(kind + ":" + file + options));
+      sink->write(found.frame, found.result);
+      sink->close();
+      EXPECT_EQ(topics_of(file), expected) << kind << options;
+      if (option == added.end()) break;
+      options += option->first;
+      expected.insert(option->second.begin(), option->second.end());
+    }
+  }
 }
 
 TEST(ParseSink, NamesAllKindsInItsErrors) {

@@ -51,10 +51,10 @@ Aabb common_box(const FrameResult& result, std::size_t cluster) {
 std::array<double, 9> row_major(const Eigen::Matrix3d& covariance, const Eigen::Matrix3d& rotation) {
   const Eigen::Matrix3d rotated = rotation * covariance * rotation.transpose();
   std::array<double, 9> list;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      list[static_cast<std::size_t>(3 * row + column)] =
-          rotated(std::min(row, column), std::max(row, column));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i / 3), column = static_cast<Eigen::Index>(i % 3);
+    list[i] = rotated(std::min(row, column), std::max(row, column));  // exactly symmetric
+  }
   return list;
 }
 

@@ -5,7 +5,9 @@
 // contain their points. Those of vision_msgs 3 and later do not, so that the points have a topic of their
 // own.
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -43,12 +45,15 @@ class DetectionCloud {
         const Coordinates p = load_point(part, i);
         const float xyz[] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
         if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2])) continue;
-        append(xyz, sizeof xyz);
-        append(&cluster, 4);
-        if (!frame_.intensity) continue;
-        const float measured = frame_.intensity->at(part.index(i));
-        const float intensity = std::isfinite(measured) ? measured : 0;
-        append(&intensity, 4);
+        std::array<std::byte, 20> row;
+        std::memcpy(row.data(), xyz, sizeof xyz);
+        std::memcpy(row.data() + 12, &cluster, 4);
+        if (frame_.intensity) {
+          const float measured = frame_.intensity->at(part.index(i));
+          const float intensity = std::isfinite(measured) ? measured : 0;
+          std::memcpy(row.data() + 16, &intensity, 4);
+        }
+        bytes_.insert(bytes_.end(), row.begin(), row.begin() + cloud_.point_step);
       }
     }
   }
@@ -64,11 +69,6 @@ class DetectionCloud {
   }
 
  private:
-  void append(const void* data, std::size_t size) {
-    const auto* const bytes = static_cast<const std::byte*>(data);
-    bytes_.insert(bytes_.end(), bytes, bytes + size);
-  }
-
   const Frame& frame_;
   msg::PointCloud2 cloud_;
   std::vector<std::byte> bytes_;
