@@ -173,7 +173,7 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(),
                 "'" + std::string(bad) +
-                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points], rosbag2:FOLDER[,points], dds:PREFIX, "
+                    "' is not jsonl:FILE, csv:FILE, kitti:FILE, mcap:FILE[,points], rosbag2:FOLDER[,points], dds:PREFIX, "
                     "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
     }
   }

@@ -191,7 +191,11 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   std::vector<Job> jobs =
       one ? std::vector{merged_job(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
+  if (jobs.size() > 1 && has_one_input(options.format))
+    throw UsageError("--format: files of kitti, sustech and 3dtiles have one input, not " +
+                     std::to_string(jobs.size()));
   for (Job& job : jobs) {
+    if (jobs.size() > 1) job.frame = static_cast<std::size_t>(&job - jobs.data());
     if (job.error) continue;
     if (options.labels && job.tiles) {
       claim_tile_labels(*options.labels, job, claims);
