@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "command.h"
 
 namespace pcl_bv::test {
@@ -54,7 +56,8 @@ TEST_F(PcdBv, FormatsOfBoxesRefuseWhatTheyWouldLose) {
     EXPECT_EQ(result.status, 2);
     return result.err;
   };
-  EXPECT_THAT(error(objects({"kitti", kScene, kScene})), HasSubstr("--format: files of kitti, sustech and 3dtiles have one input, not 2"));
+  EXPECT_THAT(error(objects({"kitti", kScene, kScene})),
+              HasSubstr("--format: files of kitti, sustech and 3dtiles have one input, not 2"));
   EXPECT_THAT(error({"--format", "kitti", "--volume", "sphere,obb", kScene}), HasSubstr("needs boxes"));
   EXPECT_THAT(error({"--format", "openlabel", "--volume", "sphere", kScene}), HasSubstr("obb or aabb"));
   EXPECT_THAT(error({"--format", "kitti", "--volume", "obb-yaw", "--up", "-y", kScene}), HasSubstr("--up"));
@@ -71,6 +74,34 @@ TEST_F(PcdBv, BoxesOfEveryFormatDropThePointsInside) {
         run({"--drop-inside", file, "--padding", "1e-6", "--format", "json", "synth:box:1000"});
     EXPECT_EQ(Json::parse(result.out)[0]["counts"]["inside"], 1000) << format << result.err;
   }
+}
+
+TEST_F(PcdBv, TilesetsAreUpdatedInTheirFiles) {
+  const std::string tile = R"({"boundingVolume":{"sphere":[0,0,0,1]},"content":{"uri":"a.pnts"}})";
+  const std::string set = R"({"root":)" + tile + "}";
+  std::ofstream(at("tileset.json")) << set;
+  const Result missing = run({"--update", at("tileset.json"), at("none.json")});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(missing.out, at("tileset.json") + ": 0 of 1 tiles updated\n");
+  EXPECT_THAT(missing.err, HasSubstr("tileset.json: a.pnts: cannot be read\n"));
+  EXPECT_THAT(missing.err, HasSubstr("none.json: cannot be read\n"));
+  EXPECT_EQ(read_file(at("tileset.json")), set);
+  const std::string table = R"({"POINTS_LENGTH":1,"POSITION":{"byteOffset":0}})";
+  std::string header = "pnts";
+  for (const std::size_t number :
+       {std::size_t{1}, 40 + table.size(), table.size(), std::size_t{12}, std::size_t{0}, std::size_t{0}})
+    for (int byte = 0; byte < 4; ++byte)
+      header += static_cast<char>(number >> 8 * byte);
+  std::ofstream(at("a.pnts"), std::ios::binary) << header << table << std::string(12, '\0');
+  const Result done = run({"--update", at("tileset.json")});
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_EQ(Json::parse(read_file(at("tileset.json")))["root"]["boundingVolume"]["sphere"][3], 0);
+  EXPECT_EQ(run({"--update", "--format", "json", at("tileset.json")}).status, 2);
+  EXPECT_THAT(run({"--update", "--volume", "sphere", at("tileset.json")}).err,
+              HasSubstr("--update: needs a box"));
+  const Json tiles = Json::parse(run(objects({"3dtiles", kScene})).out);
+  EXPECT_GT(tiles["root"]["children"].size(), 3U);
+  EXPECT_EQ(run(objects({"3dtiles", kScene, kScene})).status, 2);
 }
 
 }  // namespace

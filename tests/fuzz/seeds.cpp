@@ -18,6 +18,7 @@
 #include "pcl_bv/recording/mcap_writer.h"
 #include "sample_clouds.h"
 #include "sample_plys.h"
+#include "seeds_of_formats.h"
 
 namespace {
 
@@ -102,17 +103,6 @@ void write_nested(const fs::path& folder) {
   write(folder / "nested" / "volumes", "\3[" + ball.substr(0, ball.size() - 1) + ']');
   write(folder / "nested" / "volumes_many", "\3[" + ball + "\x0c/" + ball.substr(0, ball.size() - 1) + ']');
   write(folder / "nested" / "volumes_deep", "\3{\"volumes\":" + deep_list + "]\x11\x01}");
-  const std::string box = R"({"translation":[1,2,3],"size":[1,2,3],"rotation":[1,0,0,0]})";
-  write(folder / "nested" / "boxes_nuscenes", "\3{\"results\":{\"a\":[" + box + "]}}");
-  write(folder / "nested" / "boxes_openlabel",
-        "\3{\"openlabel\":{\"objects\":{\"0\":{\"object_data\":{\"cuboid\":[{\"val\":[1,2,3,0,0,0,1,4,5,6]},"
-        "{\"val\":[1,2,3,0,0.1,0.2,4,5,6]}]}}}}}");
-  write(folder / "nested" / "boxes_sustech",
-        "\3[{\"psr\":{\"position\":{\"x\":1,\"y\":2,\"z\":3},\"scale\":{\"x\":1,\"y\":2,\"z\":3},"
-        "\"rotation\":{\"x\":0,\"y\":0,\"z\":0.5}}}]");
-  write(folder / "nested" / "boxes_kitti",
-        "\1Car 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n"
-        "0 1 DontCare 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n");
   write(folder / "nested" / "yaml",
         "\2cluster: {tolerance: 0.5}\nvolumes: [aabb]\nfilter: {regions: [{file: a}]}\n");
   for (const char* open :
@@ -299,7 +289,7 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
   for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "ouster",
-                           "hesai", "partial", "cloud", "compressed", "live", "nested", "transforms", "urdf"})
+                           "hesai", "partial", "cloud", "compressed", "live", "nested", "tiles", "transforms", "urdf"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -307,6 +297,7 @@ int main(int count, char** arguments) {
   write_claims(folder);
   write_requests(folder);
   write_nested(folder);
+  pcl_bv::test::write_format_seeds(folder);
   write_recordings(folder);
   write_ouster(folder);
   write_hesai(folder);
