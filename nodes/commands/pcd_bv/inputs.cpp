@@ -175,8 +175,9 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   // The extension of the output selects the format, also if the output is a folder.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
   const char* image_extension = svg ? ".svg" : ".png";
-  const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
-  const char* mesh_extension = vtp ? ".vtp" : ".ply";
+  const MeshFormat mesh =
+      options.mesh ? mesh_format(*options.mesh).value_or(MeshFormat::ply) : MeshFormat::ply;
+  const char* mesh_extension = mesh == MeshFormat::vtp ? ".vtp" : mesh == MeshFormat::glb ? ".glb" : ".ply";
   OutputClaims claims;
   for (const std::string& argument : options.inputs) {
     if (!is_synth(argument)) claims.add_input(argument);

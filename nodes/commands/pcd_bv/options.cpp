@@ -85,7 +85,8 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",
               "Write the input with a field `label`; several inputs: a folder");
-  line.option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
+  line.option("--mesh", texts.mesh, "FILE",
+              "Write the volumes as .ply, .vtp or .glb; several inputs: a folder");
   line.option("--image", texts.image, "FILE",
               "Draw cloud and volumes as .png or .svg; several inputs: a folder");
   line.option("--view", texts.view, "NAME", "Viewpoint of the picture: iso, top, front or side (iso)");
@@ -151,7 +152,7 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--view-html", texts.view_html, {".html"});
-  require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
+  require_extension("--mesh", texts.mesh, {".ply", ".vtp", ".glb"});
   if (line.given("--view"))
     options.view =
         parse_with("--view", texts.view, [](const std::string& name) { return read_name(kViews, name); });
