@@ -59,11 +59,47 @@ void write_tile_contents(const fs::path& folder) {
   write(folder / "tiles" / "batched", "b3dm" + table(R"({"BATCH_LENGTH":0,"RTC_CENTER":[1,2,3]})", "") + glb);
 }
 
+void write_tables(const fs::path& folder) {
+  const std::string dict = "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3), }";
+  const auto npy = [](const std::string& text, const std::string& data) {
+    return "\x93NUMPY" + std::string("\1\0", 2) + static_cast<char>(text.size()) + '\0' + text + data;
+  };
+  const std::string numbers(36, '\x3e'), array = npy(dict, numbers);
+  write(folder / "npy" / "numbers", array);
+  write(folder / "npy" / "columns", npy("{'shape': (3, 3), 'fortran_order': True, 'descr': '<f4'}", numbers));
+  write(folder / "npy" / "records",
+        npy("{'descr': [('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('', '|V4'), ('c', 'u1', (2,4))], "
+            "'fortran_order': False, 'shape': (1,1), }",
+            numbers));
+  const auto word = [](std::size_t value) {
+    const auto n = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&n), 4);
+  };
+  // One stored block of deflate, and a stored array.
+  const auto half = [&](std::size_t value) { return word(value).substr(0, 2); };
+  const std::string block = '\1' + half(array.size()) + half(~array.size()) + array;
+  for (const bool deflated : {false, true}) {
+    const std::string& packed = deflated ? block : array;
+    const std::string entry = half(0) + half(0) + half(deflated ? 8 : 0) + word(0) + word(0) +
+                              word(packed.size()) + word(array.size()) + half(10);
+    const std::string local = "PK\3\4" + entry + half(0) + "points.npy" + packed;
+    const std::string directory =
+        "PK\1\2" + half(0) + entry + half(0) + half(0) + half(0) + half(0) + word(0) + word(0) + "points.npy";
+    write(folder / "npz" / (deflated ? "deflated" : "stored"),
+          local + directory + "PK\5\6" + word(0) + half(1) + half(1) + word(directory.size()) +
+              word(local.size()) + half(0));
+  }
+  write(folder / "table" / "csv", "x,y,z,class\n1,2,3,car\n4,5.5,nan,4\n");
+  write(folder / "table" / "xyz", "# a b\n//X Y Z R\n1 2 3 4\n\n5 6 7 8");
+  write(folder / "table" / "pts", "2\n1;2;3;\n4;5;-6e7;\n");
+}
+
 }  // namespace
 
 void write_format_seeds(const fs::path& folder) {
   write_boxes(folder);
   write_tile_contents(folder);
+  write_tables(folder);
 }
 
 }  // namespace pcl_bv::test

@@ -143,6 +143,7 @@ std::vector<Job> list_inputs(const Options& options) {
   for (const std::string& argument : options.inputs) {
     for (Job& job : options.merge ? expand_partials(argument) : expand(argument, options.topic)) {
       job.bin_fields = options.bin_fields;
+      job.columns = options.columns;
       jobs.push_back(std::move(job));
     }
   }
@@ -221,7 +222,7 @@ RawCloud load_cloud(const Job& job, const Execution& execution) {
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
   if (job.recording) return load_recorded(job);
-  return read_cloud(job.input, {job.bin_fields}, execution);
+  return read_cloud(job.input, {job.bin_fields, job.columns}, execution);
 }
 
 }  // namespace pcl_bv::detail

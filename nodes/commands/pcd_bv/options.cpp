@@ -16,6 +16,7 @@
 #include "gpu_supports.h"
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/text_cloud.h"
 #include "pcl_bv/report/picture.h"
 #include "pipeline/config/names.h"
 #include "pipeline/config/settings.h"
@@ -48,16 +49,20 @@ const char* name_of(PcdBvCommand command) {
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
-      gpu, memory, objects, object_type;
+      gpu, memory, objects, object_type, columns;
   bool together = false, merge = false, update = false, check = false, info = false, timings = false,
        progress = false;
 };
 
 void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("INPUT", texts.inputs, "",
-              ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]],\n"
+              ".pcd, .ply, .las, .bin, .npy, .npz, .xyz, .csv, .txt files,\nfolders of the first four, "
+              "synth:NAME[:POINTS[:SEED]],\n"
               "recordings (.mcap, .bag, .db3 or its folder)");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
+  line.option(
+      "--columns", texts.columns, "LIST",
+      "Columns of text files, such as x,y,z,intensity,label:u4,_\n(those of the header, or x,y,z,...)");
   line.option("--topic", texts.topic, "NAME",
               "The topic of recordings, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option("--origin", texts.origin, "X,Y,Z",
@@ -217,7 +222,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   if (options.merge)
     reject_combinations(line, option,
                         {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
-                         "--bin-fields", "--topic"});
+                         "--bin-fields", "--columns", "--topic"});
   if (options.partial)
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
@@ -244,10 +249,10 @@ void read_update(const CommandLine& line, Options& options) {
   options.update = true;
   reject_combinations(
       line, "--update",
-      {"--bin-fields", "--topic",  "--origin",    "--together",    "--memory",      "--objects", "--partial",
-       "--part",       "--merge",  "--gpu",       "--format",      "--object-type", "--output",  "--labels",
-       "--mesh",       "--image",  "--view-html", "--check",       "--info",        "--timings", "--progress",
-       "--cluster",    "--ground", "--range",     "--drop-inside", "--keep-inside"});
+      {"--bin-fields", "--columns", "--topic",  "--origin",    "--together",    "--memory",      "--objects",
+       "--partial",    "--part",    "--merge",  "--gpu",       "--format",      "--object-type", "--output",
+       "--labels",     "--mesh",    "--image",  "--view-html", "--check",       "--info",        "--timings",
+       "--progress",   "--cluster", "--ground", "--range",     "--drop-inside", "--keep-inside"});
   if (!line.given("--volume")) options.pipeline.volumes = {"aabb", "obb-dito14"};
 }
 
@@ -268,6 +273,10 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   options.pipeline = std::move(config);
   options.topic = texts.topic;
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
+  if (line.given("--columns")) {
+    parse_with("--columns", texts.columns, parse_columns);
+    options.columns = texts.columns;
+  }
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);
   if (line.given("--object-type"))

@@ -33,6 +33,7 @@ struct ShareOption {
 struct Options {
   std::vector<std::string> inputs;
   std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
+  std::string columns;         ///< Columns of text files, as in read_cloud().
   std::string topic;           ///< Topic of recordings.
   OriginOption origin;
   PipelineConfig pipeline;
