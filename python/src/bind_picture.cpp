@@ -134,8 +134,8 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
   if (extension == ".csv") return write_file_atomically(target, csv_text(found));
   const std::optional<MeshFormat> format = mesh_format(target);
   if (!format)
-    raise_value_error("path",
-                      "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
+    raise_value_error(
+        "path", "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .glb, .png, .svg, .html, .pcd");
   const py::gil_scoped_release unlocked;
   write_volumes(target, found.clusters, *format);
 }
@@ -192,9 +192,9 @@ constexpr const char* write_doc = R"(write(path, what, labels=None)
 
 Writes a file atomically, in the format of its extension.
 
-.json, .csv, .ply, .vtp, .png, .svg: `what` is a Result, a volume, a list of volumes, or a dict of these by
-    label, as returned by fit(). .json and .csv have the format of pcd_bv, or of bv_stream for a Result. .ply
-    and .vtp contain meshes.
+.json, .csv, .ply, .vtp, .glb, .png, .svg: `what` is a Result, a volume, a list of volumes, or a dict of these by
+    label, as returned by fit(). .json and .csv have the format of pcd_bv, or of bv_stream for a Result. .ply,
+    .vtp and .glb contain meshes.
 .png, .svg: `what` may also be a Picture.
 .html: `what` is a Result. The file is the page of Result.page().
 .pcd: `what` is points as for fit(). Records are written with all their fields. labels has an integer for each

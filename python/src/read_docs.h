@@ -78,6 +78,9 @@ inline constexpr const char* read_volumes_doc = R"(read_volumes(path)
 Reads all volumes of a JSON file written by pcd_bv, bv_stream, write() or by hand. Every number is restored
 exactly.
 
+Also reads boxes of other programs as Obb: labels of KITTI, OpenLABEL, nuScenes and SUSTechPOINTS
+(docs/formats.md).
+
 Volumes with "empty": true are skipped. Raises FileNotFoundError, and OSError for a file with other content.
 The message of the OSError gives the first entry that cannot be read ('clusters[0].volumes[2]').
 

@@ -127,7 +127,7 @@ TEST_F(PcdBv, FilesOfOtherFormatsAreNamedForWhatTheyAre) {
   const std::pair<const char*, const char*> cases[] = {{"a.obj", "is a mesh"},
                                                        {"a.e57", "scanner's own format"},
                                                        {"a.bag", "is no recording that can be read"},
-                                                       {"a.csv", "plain text"}};
+                                                       {"a.csv", "no line of numbers"}};
   for (const auto& [name, said] : cases) {
     const Result result = run({file(name, "v 1 2 3\n")});
     EXPECT_EQ(result.status, 1) << name;

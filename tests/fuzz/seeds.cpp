@@ -19,6 +19,7 @@
 #include "pcl_bv/recording/mcap_writer.h"
 #include "sample_clouds.h"
 #include "sample_plys.h"
+#include "seeds_of_formats.h"
 
 namespace {
 
@@ -289,8 +290,9 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
   for (const char* name :
-       {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "ouster", "hesai", "partial",
-        "cloud", "compressed", "live", "nested", "transforms", "urdf", "objects"})
+       {"pcd",     "ply",    "lzf",   "bin",     "number",     "text",       "mcap",   "bag",
+        "packets", "ouster", "hesai", "partial", "cloud",      "compressed", "live",   "nested",
+        "tiles",   "npy",    "npz",   "table",   "transforms", "urdf",       "objects"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -298,6 +300,7 @@ int main(int count, char** arguments) {
   write_claims(folder);
   write_requests(folder);
   write_nested(folder);
+  pcl_bv::test::write_format_seeds(folder);
   write_recordings(folder);
   write_ouster(folder);
   write_hesai(folder);

@@ -218,7 +218,7 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(),
                 "'" + std::string(bad) +
-                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points][,moveit][,nav2][,vision], "
+                    "' is not jsonl:FILE, csv:FILE, kitti:FILE, mcap:FILE[,points][,moveit][,nav2][,vision], "
                     "rosbag2:FOLDER[,points][,moveit][,nav2][,vision], dds:PREFIX[,moveit][,nav2][,vision], "
                     "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
     }

@@ -10,6 +10,7 @@
 
 #include "block_sums.h"
 #include "fields.h"
+#include "npy_format.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/read_cloud.h"
 
@@ -34,12 +35,19 @@ constexpr std::size_t kShortRecord = 64;
 // Bytes of records that pack() reads at a time.
 constexpr std::size_t kPiece = std::size_t{256} << 10;
 
-// Returns the header of a .bin file or of a binary .pcd file. Returns nullopt for other encodings of .pcd
-// files and for .ply, .las and .laz files.
+// Returns the header of a .bin or .npy file or of a binary .pcd file. Returns nullopt for other encodings of
+// .pcd files and for other files.
 std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesystem::path& path,
                                        std::size_t bin_fields) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".ply" || extension == ".las" || extension == ".laz") return std::nullopt;
+  if (extension == ".ply" || extension == ".las" || extension == ".laz" || extension == ".npz")
+    return std::nullopt;
+  if (is_text_name(path)) return std::nullopt;
+  if (extension == ".npy") {
+    NpyHeader array = read_npy_header(file);
+    if (array.by_column) return std::nullopt;
+    return std::move(array.records);
+  }
   refuse_other_formats(path);
   PcdHeader header = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
   if (header.encoding != PcdEncoding::binary) return std::nullopt;

@@ -92,8 +92,9 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
   InvalidValues invalid_values(cloud, "row", 1);
-  const RowsRead rows = read_text_rows({file, header.data_offset, false}, {1, cloud.size(), cloud.point_step},
-                                       PointRow(cloud, invalid_values), cloud.data.data(), policy);
+  const RowsRead rows =
+      read_text_rows({file, header.data_offset, false, header.separator}, {1, cloud.size(), cloud.point_step},
+                     PointRow(cloud, invalid_values), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
                   std::to_string(cloud.size()));

@@ -23,6 +23,7 @@ struct PcdHeader {
   RawCloud cloud;  ///< The cloud without its points.
   PcdEncoding encoding = PcdEncoding::ascii;
   std::size_t data_offset = 0;  ///< Byte offset of the points, which is the end of the line DATA.
+  char separator = ' ';         ///< A character that separates values of ascii points like a blank.
 };
 
 /// Reads the header. Throws IoError if it is invalid.
@@ -30,6 +31,10 @@ PcdHeader read_pcd_header(const InputFile& file);
 
 /// Returns a header that describes a .bin file as a binary .pcd with data_offset 0. Throws as read_bin().
 PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& path, std::size_t fields);
+
+/// Returns a header that describes a text file as an ascii .pcd. Counts the rows of the file. Throws as
+/// read_text_cloud().
+PcdHeader read_text_header(const InputFile& file, std::string_view columns);
 
 /// Throws IoError unless the file has all records of a binary cloud. Adds a note if more records follow.
 void require_records(const InputFile& file, PcdHeader& header);
@@ -45,6 +50,9 @@ std::string format_ascii_points(const RawCloud& cloud);
 /// Returns the compressed block of all points, without padding fields. It begins with two sizes, and the
 /// compressed bytes follow. Throws IoError if there are more than 4e9 bytes to compress.
 std::string compress_points(const RawCloud& cloud);
+
+/// Returns whether the name has an extension of read_text_cloud().
+bool is_text_name(const std::filesystem::path& path);
 
 /// Throws IoError with advice if the path has the extension of another known format (mesh, recording, ...).
 void refuse_other_formats(const std::filesystem::path& path);

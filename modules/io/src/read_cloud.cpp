@@ -11,11 +11,14 @@
 
 #include "fields.h"
 #include "las_format.h"
+#include "npy_format.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/bin.h"
 #include "pcl_bv/io/las.h"
+#include "pcl_bv/io/numpy.h"
 #include "pcl_bv/io/ply.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/io/text_cloud.h"
 #include "ply_format.h"
 
 namespace pcl_bv {
@@ -46,9 +49,22 @@ void read_points(const InputFile& file, LasHeader& header, const ParallelPolicy&
   read_las_points(file, header);
 }
 
+void read_points(const InputFile& file, NpyHeader& header, const ParallelPolicy&) {
+  read_npy_points(file, header);
+}
+
 void read_points(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy) {
   if (header.encoding == PlyEncoding::ascii) return read_ply_ascii(file, header, policy);
   read_ply_binary(file, header);
+}
+
+template <typename Header>
+RawCloud& cloud_of(Header& header) {
+  return header.cloud;
+}
+
+RawCloud& cloud_of(NpyHeader& header) {
+  return header.records.cloud;
 }
 
 // Reads a cloud whose header is read by `read_header`.
@@ -59,8 +75,9 @@ RawCloud read_file(const std::filesystem::path& path, const ReadHeader& read_hea
   try {
     auto header = read_header(file);
     read_points(file, header, policy);
-    update_packed_xyz(header.cloud);
-    return std::move(header.cloud);
+    RawCloud& cloud = cloud_of(header);
+    update_packed_xyz(cloud);
+    return std::move(cloud);
   } catch (const std::bad_alloc&) {
     throw IoError("not enough memory for its points, file of " + std::to_string(file.size()) + " bytes");
   }
@@ -84,14 +101,19 @@ void detail::refuse_other_formats(const std::filesystem::path& path) {
        "is a mesh, not a cloud: sample it, for example with pcl_mesh_sampling"},
       {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
       {" .bag .mcap .db3 .pcap .pcapng ",
-       "is a recording, not a cloud: read it with open_recording() or RecordedClouds"},
-      {" .xyz .txt .csv .asc .pts ", "is plain text: a .pcd header before the lines makes it a cloud"}};
+       "is a recording, not a cloud: read it with open_recording() or RecordedClouds"}};
   const std::string extension = " " + lower_case_extension(path) + " ";
   for (const auto& [extensions, what] : kinds) {
     if (extensions.find(extension) == std::string_view::npos) continue;
     static_cast<void>(InputFile(path));  // throws the more useful reason if the file is missing or empty
     throw IoError(std::string(what));
   }
+}
+
+bool detail::is_text_name(const std::filesystem::path& path) {
+  const std::string extension = lower_case_extension(path);
+  constexpr std::array known{".xyz", ".txt", ".csv", ".asc", ".pts"};
+  return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 bool is_cloud_name(const std::filesystem::path& path) {
@@ -117,12 +139,25 @@ RawCloud detail::read_las(const std::filesystem::path& path) {
   return read_file(path, read_las_header, Serial{});
 }
 
+RawCloud detail::read_npy(const std::filesystem::path& path) {
+  return read_file(path, read_npy_header, Serial{});
+}
+
+RawCloud detail::read_text_cloud(const std::filesystem::path& path, std::string_view columns,
+                                 const Execution& execution) {
+  const auto read_header = [&](const InputFile& file) { return read_text_header(file, columns); };
+  return read_file(path, read_header, execution.parallel);
+}
+
 RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options,
                     const Execution& execution) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".ply") return read_ply(path, execution);
   if (extension == ".bin") return read_bin(path, options.bin_fields);
   if (extension == ".las" || extension == ".laz") return read_las(path);
+  if (extension == ".npy") return read_npy(path);
+  if (extension == ".npz") return read_npz(path);
+  if (is_text_name(path)) return read_text_cloud(path, options.columns, execution);
   refuse_other_formats(path);
   return read_pcd(path, execution);
 }
@@ -135,6 +170,15 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptio
     header.cloud = read_ply_header(file).cloud;
   } else if (extension == ".las" || extension == ".laz") {
     header.cloud = read_las_header(file).cloud;
+  } else if (extension == ".npy") {
+    NpyHeader array = read_npy_header(file);
+    header.random_access = !array.by_column;
+    header.cloud = std::move(array.records.cloud);
+  } else if (extension == ".npz") {
+    header.cloud = read_npz(path);  // the sizes are in the compressed array
+    header.cloud.data = {};
+  } else if (is_text_name(path)) {
+    header.cloud = read_text_header(file, options.columns).cloud;
   } else {
     refuse_other_formats(path);
     PcdHeader pcd =

@@ -111,6 +111,7 @@ class TextPieces {
     body_.file.read(from, buffer.data() + have, bytes);
     char* text = reinterpret_cast<char*>(buffer.data());
     if (body_.cr_ends_row) std::replace(text + have, text + have + bytes, '\r', '\n');
+    if (body_.separator != ' ') std::replace(text + have, text + have + bytes, body_.separator, ' ');
   }
 
   TextBody body_;
@@ -274,7 +275,7 @@ std::size_t skip_text_rows(TextBody& body, std::size_t count) {
     for (; at < bytes && skipped < count; ++at) {
       const bool ends = window[at] == '\n' || (body.cr_ends_row && window[at] == '\r');
       skipped += ends && in_row;
-      in_row = !ends && (in_row || !is_blank(window[at]));
+      in_row = !ends && (in_row || !(is_blank(window[at]) || window[at] == body.separator));
     }
     body.begin += at;
   }

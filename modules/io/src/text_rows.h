@@ -80,6 +80,7 @@ struct TextBody {
   const InputFile& file;
   std::size_t begin;                          ///< Byte offset of the first row.
   bool cr_ends_row;                           ///< Whether a carriage return alone also ends a row.
+  char separator = ' ';                       ///< A character that separates values like a blank.
   std::size_t piece_bytes = kTextPieceBytes;  ///< Bytes that are read at a time.
 };
 

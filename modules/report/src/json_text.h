@@ -67,6 +67,12 @@ class JsonText {
     return *this;
   }
 
+  /// Appends a value that is JSON already.
+  JsonText& raw(std::string_view json) {
+    literal(json);
+    return *this;
+  }
+
   void value(double number) {
     separate();
     append_shortest(number, text_);

@@ -138,11 +138,13 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".vtp") return MeshFormat::vtp;
+  if (extension == ".glb") return MeshFormat::glb;
   return std::nullopt;
 }
 
 void write_volumes(const std::filesystem::path& path, const std::vector<ClusterEntry>& clusters,
                    MeshFormat format) {
+  if (format == MeshFormat::glb) return write_file_atomically(path, volumes_glb(clusters));
   write_file_atomically(path, format == MeshFormat::ply ? volumes_ply(clusters) : volumes_vtp(clusters));
 }
 

@@ -6,37 +6,14 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "pcl_bv/io/read_json.h"
+#include "json_numbers.h"
 #include "pcl_bv/report/cluster_json.h"
+#include "read_box_labels.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 using Json = UntrustedJson;
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what);
-}
-
-// Throws an error such as "center: three numbers are wanted, not [1,2]".
-[[noreturn]] void refuse(const char* key, const char* wanted, const Json& value) {
-  refuse(std::string(key) + ": " + wanted + ", not " + abbreviated(value));
-}
-
-double number_of(const char* key, const Json& value) {
-  if (!value.is_number()) refuse(key, "a number is wanted", value);
-  return value.get<double>();
-}
-
-const Json& list_of(const char* key, const Json& value) {
-  if (!value.is_array()) refuse(key, "a list is wanted", value);
-  return value;
-}
-
-Eigen::Vector3d vector_of(const char* key, const Json& value) {
-  if (!value.is_array() || value.size() != 3) refuse(key, "three numbers are wanted", value);
-  return {number_of(key, value[0]), number_of(key, value[1]), number_of(key, value[2])};
-}
 
 std::vector<Eigen::Vector3d> vectors_of(const char* key, const Json& value) {
   std::vector<Eigen::Vector3d> found;
@@ -192,6 +169,11 @@ Found collect(const Json& json, const EntryPath* path, std::vector<AnyVolume>& v
 
 std::vector<AnyVolume> volumes_in(std::string_view text) {
   std::vector<AnyVolume> volumes;
+  if (has_kitti_labels(text)) {
+    volumes = read_kitti_labels(text);
+    if (volumes.empty()) throw IoError("no volumes in it");
+    return volumes;
+  }
   std::optional<std::size_t> first_without_volume;  // position of the first value without volumes
   // Whether a value of the text is itself a volume. Then all values must have volumes.
   bool has_top_level_volume = false;
@@ -206,7 +188,8 @@ std::vector<AnyVolume> volumes_in(std::string_view text) {
     const std::optional<Json> json = read_next_json(text, at);
     if (!json) break;
     try {
-      const Found found = collect(*json, nullptr, volumes);
+      const bool labels = read_box_labels(*json, volumes);
+      const Found found = labels ? Found::volumes : collect(*json, nullptr, volumes);
       has_top_level_volume = has_top_level_volume || found == Found::volume;
       if (found == Found::nothing && !first_without_volume) first_without_volume = begin;
     } catch (const std::invalid_argument& error) {

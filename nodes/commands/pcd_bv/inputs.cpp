@@ -143,6 +143,7 @@ std::vector<Job> list_inputs(const Options& options) {
   for (const std::string& argument : options.inputs) {
     for (Job& job : options.merge ? expand_partials(argument) : expand(argument, options.topic)) {
       job.bin_fields = options.bin_fields;
+      job.columns = options.columns;
       jobs.push_back(std::move(job));
     }
   }
@@ -175,8 +176,9 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   // The extension of the output selects the format, also if the output is a folder.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
   const char* image_extension = svg ? ".svg" : ".png";
-  const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
-  const char* mesh_extension = vtp ? ".vtp" : ".ply";
+  const MeshFormat mesh =
+      options.mesh ? mesh_format(*options.mesh).value_or(MeshFormat::ply) : MeshFormat::ply;
+  const char* mesh_extension = mesh == MeshFormat::vtp ? ".vtp" : mesh == MeshFormat::glb ? ".glb" : ".ply";
   OutputClaims claims;
   for (const std::string& argument : options.inputs) {
     if (!is_synth(argument)) claims.add_input(argument);
@@ -191,7 +193,11 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   std::vector<Job> jobs =
       one ? std::vector{merged_job(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
+  if (jobs.size() > 1 && has_one_input(options.format))
+    throw UsageError("--format: files of kitti, sustech and 3dtiles have one input, not " +
+                     std::to_string(jobs.size()));
   for (Job& job : jobs) {
+    if (jobs.size() > 1) job.frame = static_cast<std::size_t>(&job - jobs.data());
     if (job.error) continue;
     if (options.labels && job.tiles) {
       claim_tile_labels(*options.labels, job, claims);
@@ -216,7 +222,7 @@ RawCloud load_cloud(const Job& job, const Execution& execution) {
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
   if (job.recording) return load_recorded(job);
-  return read_cloud(job.input, {job.bin_fields}, execution);
+  return read_cloud(job.input, {job.bin_fields, job.columns}, execution);
 }
 
 }  // namespace pcl_bv::detail

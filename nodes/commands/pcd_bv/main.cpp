@@ -8,6 +8,7 @@
 #include "options.h"
 #include "process.h"
 #include "shares.h"
+#include "tilesets.h"
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
     const auto parsed = parse_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);
     const auto& options = std::get<Options>(parsed);
+    if (options.update) return static_cast<int>(update_tilesets(options));
     const std::vector<Job> jobs = plan_jobs(options);
     if (options.partial) return static_cast<int>(make_partial_file(jobs.front(), options));
     return static_cast<int>(process_all(jobs, options));

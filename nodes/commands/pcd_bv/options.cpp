@@ -9,12 +9,14 @@
 #include <initializer_list>
 #include <limits>
 
+#include "box_format.h"
 #include "commands/shared/command_line.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
 #include "gpu_supports.h"
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/text_cloud.h"
 #include "pcl_bv/report/picture.h"
 #include "pipeline/config/names.h"
 #include "pipeline/config/settings.h"
@@ -36,10 +38,6 @@ other inputs are still done); 2 wrong use, or an instruction set that is not usa
 3 --check found a point outside. If several apply, the first of 2, 3, 1, 0 is returned.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
-constexpr Names<OutputFormat, 4> kFormats{{{"text", OutputFormat::text},
-                                           {"json", OutputFormat::json},
-                                           {"jsonl", OutputFormat::jsonl},
-                                           {"csv", OutputFormat::csv}}};
 constexpr Names<ViewFrom, 4> kViews{
     {{"iso", ViewFrom::iso}, {"top", ViewFrom::top}, {"front", ViewFrom::front}, {"side", ViewFrom::side}}};
 
@@ -51,15 +49,20 @@ const char* name_of(PcdBvCommand command) {
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
-      gpu, memory, objects;
-  bool together = false, merge = false, check = false, info = false, timings = false, progress = false;
+      gpu, memory, objects, object_type, columns;
+  bool together = false, merge = false, update = false, check = false, info = false, timings = false,
+       progress = false;
 };
 
 void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("INPUT", texts.inputs, "",
-              ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]],\n"
+              ".pcd, .ply, .las, .bin, .npy, .npz, .xyz, .csv, .txt files,\nfolders of the first four, "
+              "synth:NAME[:POINTS[:SEED]],\n"
               "recordings (.mcap, .bag, .db3 or its folder)");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
+  line.option(
+      "--columns", texts.columns, "LIST",
+      "Columns of text files, such as x,y,z,intensity,label:u4,_\n(those of the header, or x,y,z,...)");
   line.option("--topic", texts.topic, "NAME",
               "The topic of recordings, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option("--origin", texts.origin, "X,Y,Z",
@@ -68,6 +71,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--memory", texts.memory, "MB",
               "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
   if (command == PcdBvCommand::serial) {
+    line.flag(
+        "--update", texts.update,
+        "Inputs are tilesets of 3D Tiles: compute the bounding volumes\nof their tiles anew, in the files");
     line.option(
         "--objects", texts.objects, "DIR",
         "With --cluster: write the points of each object as DIR/ID.pcd;\nseveral inputs: DIR/NAME/ID.pcd");
@@ -77,11 +83,15 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
     line.option("--gpu", texts.gpu, "DEVICE",
                 "Fit on a graphics card: auto, its number or a part of its name;\nwith --version: list them");
   }
-  line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
+  line.option("--format", texts.format, "FORMAT",
+              "text, json, jsonl or csv (text); boxes for labelling tools\nand benchmarks: kitti, "
+              "kitti-tracking, nuscenes, openlabel\nor sustech; 3dtiles: bounding volumes of 3D Tiles");
+  line.option("--object-type", texts.object_type, "NAME", "Type of all objects in the formats of boxes");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",
               "Write the input with a field `label`; several inputs: a folder");
-  line.option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
+  line.option("--mesh", texts.mesh, "FILE",
+              "Write the volumes as .ply, .vtp or .glb; several inputs: a folder");
   line.option("--image", texts.image, "FILE",
               "Draw cloud and volumes as .png or .svg; several inputs: a folder");
   line.option("--view", texts.view, "NAME", "Viewpoint of the picture: iso, top, front or side (iso)");
@@ -136,9 +146,7 @@ void reject_useless(const CommandLine& line, const PipelineConfig& config) {
 }
 
 void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {
-  if (line.given("--format"))
-    options.format = parse_with("--format", texts.format,
-                                [](const std::string& name) { return read_name(kFormats, name); });
+  if (line.given("--format")) options.format = parse_with("--format", texts.format, read_output_format);
   options.output = path_or_none(texts.output);
   options.labels = path_or_none(texts.labels);
   options.mesh = path_or_none(texts.mesh);
@@ -149,7 +157,7 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--view-html", texts.view_html, {".html"});
-  require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
+  require_extension("--mesh", texts.mesh, {".ply", ".vtp", ".glb"});
   if (line.given("--view"))
     options.view =
         parse_with("--view", texts.view, [](const std::string& name) { return read_name(kViews, name); });
@@ -214,7 +222,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   if (options.merge)
     reject_combinations(line, option,
                         {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
-                         "--bin-fields", "--topic"});
+                         "--bin-fields", "--columns", "--topic"});
   if (options.partial)
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
@@ -236,6 +244,18 @@ void read_memory(const CommandLine& line, const Texts& texts, Options& options) 
   }
 }
 
+// Tilesets have no report: only the options of the fits have an effect.
+void read_update(const CommandLine& line, Options& options) {
+  options.update = true;
+  reject_combinations(
+      line, "--update",
+      {"--bin-fields", "--columns", "--topic",  "--origin",    "--together",    "--memory",      "--objects",
+       "--partial",    "--part",    "--merge",  "--gpu",       "--format",      "--object-type", "--output",
+       "--labels",     "--mesh",    "--image",  "--view-html", "--check",       "--info",        "--timings",
+       "--progress",   "--cluster", "--ground", "--range",     "--drop-inside", "--keep-inside"});
+  if (!line.given("--volume")) options.pipeline.volumes = {"aabb", "obb-dito14"};
+}
+
 void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   options.merge = texts.merge;
   options.partial = path_or_none(texts.partial);
@@ -253,12 +273,20 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   options.pipeline = std::move(config);
   options.topic = texts.topic;
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
+  if (line.given("--columns")) {
+    parse_with("--columns", texts.columns, parse_columns);
+    options.columns = texts.columns;
+  }
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);
+  if (line.given("--object-type"))
+    options.object_type = checked_object_type(texts.object_type, options.format);
+  if (writes_box_labels(options.format)) check_box_format(texts.format, options);
   options.tiled = texts.together;
   options.threads_given = line.given("--threads");
   read_memory(line, texts, options);
   if (command == PcdBvCommand::serial) read_parts(line, texts, options);
+  if (texts.update) read_update(line, options);
   options.gpu = texts.gpu;
   if (!options.gpu.empty()) reject_combinations(line, "--gpu", {"--partial", "--merge"});
   if (options.tiled || options.merge) reject_for_tiled_cloud(line, options, command);

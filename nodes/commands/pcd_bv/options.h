@@ -16,7 +16,7 @@
 
 namespace pcl_bv::detail {
 
-enum class OutputFormat { text, json, jsonl, csv };
+enum class OutputFormat { text, json, jsonl, csv, kitti, kitti_tracking, nuscenes, openlabel, sustech, tiles };
 
 /// The origin that is subtracted from all coordinates before processing.
 struct OriginOption {
@@ -33,12 +33,14 @@ struct ShareOption {
 struct Options {
   std::vector<std::string> inputs;
   std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
+  std::string columns;         ///< Columns of text files, as in read_cloud().
   std::string topic;           ///< Topic of recordings.
   OriginOption origin;
   PipelineConfig pipeline;
   std::string range_from;   ///< Where the range was set, see SettingOptions::config().
   std::string config_file;  ///< File of --config; empty without it.
   OutputFormat format = OutputFormat::text;
+  std::string object_type;  ///< Type of all objects in box labels; empty without --object-type.
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html, objects;
   ViewFrom view = ViewFrom::iso;
   bool tiled = false;  ///< Whether all inputs are one cloud (--together, --partial).
@@ -48,6 +50,7 @@ struct Options {
   std::string gpu;                               ///< Value of --gpu; empty without it.
   std::size_t memory_bytes = 600'000'000;        ///< For clustering a tiled cloud.
   bool threads_given = false;                    ///< Whether --threads was given.
+  bool update = false;                           ///< Whether inputs are tilesets to be updated.
   bool check = false;
   bool info = false;
   bool timings = false;
@@ -55,6 +58,11 @@ struct Options {
 
   bool clusters() const { return pipeline.cluster.tolerance > 0; }
 };
+
+/// Returns whether a file of this format has the results of only one input.
+inline bool has_one_input(OutputFormat format) {
+  return format == OutputFormat::kitti || format == OutputFormat::sustech || format == OutputFormat::tiles;
+}
 
 /// Returns whether files other than the report are requested.
 inline bool writes_files(const Options& options) {

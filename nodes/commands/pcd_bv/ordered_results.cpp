@@ -15,14 +15,14 @@
 
 namespace pcl_bv::detail {
 
-Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write) {
+Result result_of(const Outcome& outcome, const RenderOptions& options, const WriteEarly& write) {
   constexpr std::size_t many = std::size_t{4} << 20;  // bytes; shorter texts may wait in memory
   Result result;
   result.status = outcome.status;
   result.points = outcome.report.error ? 0 : outcome.report.points;
   Report failed;
   try {
-    render(outcome.report, outcome.clusters(), format, [&](std::string& piece) {
+    render(outcome.report, outcome.clusters(), options, [&](std::string& piece) {
       if (result.text.empty()) {
         result.text.swap(piece);
       } else {
@@ -41,14 +41,15 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
   result.text.clear();
   result.points = 0;
   result.status = worse(outcome.status, Status::failed);
-  if (!result.partly_written) render(failed, {}, format, [&](std::string& piece) { result.text += piece; });
+  if (!result.partly_written) render(failed, {}, options, [&](std::string& piece) { result.text += piece; });
   return result;
 }
 
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write) {
   DeferredMessages deferred;
   const WriteEarly early = [&](std::string& text) { return write(deferred.messages, text); };
-  Result result = result_of(process(job, options, pipeline), options.format, write ? early : WriteEarly());
+  Result result = result_of(process(job, options, pipeline), render_options(options, job.frame),
+                            write ? early : WriteEarly());
   result.messages = std::move(deferred.messages);
   return result;
 }

@@ -36,7 +36,7 @@ using WriteEarly = std::function<bool(std::string& text)>;
 /// Returns the outcome as text. If the report cannot be rendered, most likely for lack of memory, the status
 /// is Status::failed or worse. The text is then a report of this error, or empty if the beginning of the
 /// report has already been written. Results of other inputs are not affected.
-Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
+Result result_of(const Outcome& outcome, const RenderOptions& options, const WriteEarly& write = {});
 
 /// As WriteEarly, but also prints the messages of the job.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& messages, std::string& text)>;

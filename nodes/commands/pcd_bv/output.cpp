@@ -10,15 +10,66 @@
 #include "commands/shared/standard_streams.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/report/csv.h"
+#include "pcl_bv/report/tileset.h"
 
 namespace pcl_bv::detail {
 
-void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take) {
+namespace {
+
+/// The texts of the output around reports: before the first, between two, and after the last.
+struct SurroundingTexts {
+  std::string begin, between, end;
+};
+
+std::optional<BoxLabelFormat> box_label_format(OutputFormat format) {
+  switch (format) {
+    case OutputFormat::kitti:
+      return BoxLabelFormat::kitti;
+    case OutputFormat::kitti_tracking:
+      return BoxLabelFormat::kitti_tracking;
+    case OutputFormat::nuscenes:
+      return BoxLabelFormat::nuscenes;
+    case OutputFormat::openlabel:
+      return BoxLabelFormat::openlabel;
+    case OutputFormat::sustech:
+      return BoxLabelFormat::sustech;
+    default:
+      return std::nullopt;
+  }
+}
+
+SurroundingTexts surrounding_texts(OutputFormat format) {
+  if (const auto labels = box_label_format(format)) {
+    const BoxLabelFile file = box_label_file(*labels);
+    return {std::string(file.begin), std::string(file.between), std::string(file.end)};
+  }
+  switch (format) {
+    case OutputFormat::json:
+      return {"[\n", ",\n", "\n]\n"};
+    case OutputFormat::csv:
+      return {report_csv_heading(), "", ""};
+    case OutputFormat::text:
+      return {"", "\n", ""};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+RenderOptions render_options(const Options& options, const std::optional<std::size_t>& frame) {
+  return {options.format, {options.object_type, frame}};
+}
+
+void render(const Report& report, const ClusterSource& clusters, const RenderOptions& options,
+            const TextSink& take) {
   const TextSink not_empty = [&](std::string& piece) {
     if (!piece.empty()) take(piece);
   };
+  if (const auto labels = box_label_format(options.format))
+    return write_box_labels(report, clusters, *labels, options.labels, not_empty);
   std::string line_end = "\n";
-  switch (format) {
+  switch (options.format) {
     case OutputFormat::json:
       return write_report_json(report, clusters, not_empty);
     case OutputFormat::jsonl:
@@ -26,7 +77,9 @@ void render(const Report& report, const ClusterSource& clusters, OutputFormat fo
       return take(line_end);
     case OutputFormat::csv:
       return write_report_csv(report, clusters, not_empty);
-    case OutputFormat::text:
+    case OutputFormat::tiles:
+      return write_tileset(report, clusters, not_empty);
+    default:
       break;
   }
   write_report_text(report, clusters, not_empty);
@@ -35,25 +88,20 @@ void render(const Report& report, const ClusterSource& clusters, OutputFormat fo
 ReportWriter::ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file)
     : format_(format), file_(std::move(file)) {}
 
+bool ReportWriter::begin() {
+  return std::exchange(begun_, true) || write(surrounding_texts(format_).begin);
+}
+
 bool ReportWriter::add(std::string&& piece, bool goes_on) {
   if (goes_on) return write(std::move(piece));
-  if (format_ == OutputFormat::text && piece.empty()) return true;
-  const bool first = std::exchange(first_, false);
-  switch (format_) {
-    case OutputFormat::json:
-      return write(first ? "[\n" : ",\n") && write(std::move(piece));
-    case OutputFormat::csv:
-      return write(first ? report_csv_heading() : "") && write(std::move(piece));
-    case OutputFormat::text:
-      return write(first ? "" : "\n") && write(std::move(piece));
-    case OutputFormat::jsonl:
-      break;
-  }
-  return write(std::move(piece));
+  if (!begin()) return false;
+  if (piece.empty()) return true;
+  const bool separated = !std::exchange(has_piece_, true) || write(surrounding_texts(format_).between);
+  return separated && write(std::move(piece));
 }
 
 bool ReportWriter::finish() {
-  const bool read = format_ != OutputFormat::json || write("\n]\n");
+  const bool read = begin() && write(surrounding_texts(format_).end);
   if (!file_) return read;
   create_parent_folders(*file_);
   write_file_atomically(*file_, std::vector<std::string_view>(pending_.begin(), pending_.end()));
@@ -61,6 +109,7 @@ bool ReportWriter::finish() {
 }
 
 bool ReportWriter::write(std::string&& text) {
+  if (text.empty()) return true;
   if (!file_) return write_standard_output(text);
   constexpr std::size_t worth_a_piece = 1 << 16;  // bytes; the last piece is filled up to this size
   if (!pending_.empty() && pending_.back().size() + text.size() < worth_a_piece) {

@@ -10,14 +10,25 @@
 #include <vector>
 
 #include "options.h"
+#include "pcl_bv/report/box_labels.h"
 #include "pcl_bv/report/report.h"
 
 namespace pcl_bv::detail {
 
+/// How a report is rendered.
+struct RenderOptions {
+  OutputFormat format = OutputFormat::text;
+  BoxLabelOptions labels{};
+};
+
+/// Returns the options for an input. `frame` is its number, if there are several inputs.
+RenderOptions render_options(const Options& options, const std::optional<std::size_t>& frame);
+
 /// Renders one report without the separators between reports, so that several threads can render reports at
 /// the same time. `take` gets the text in pieces that are not empty. `take` gets no piece for a failed input
 /// if the format does not show failed inputs.
-void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
+void render(const Report& report, const ClusterSource& clusters, const RenderOptions& options,
+            const TextSink& take);
 
 /// Writes rendered reports. Member functions return false if standard output has no reader any more, and
 /// throw IoError for any other failure.
@@ -33,11 +44,13 @@ class ReportWriter {
 
  private:
   bool write(std::string&& text);
+  bool begin();
 
   OutputFormat format_;
   std::optional<std::filesystem::path> file_;
   std::vector<std::string> pending_;  ///< Content of the file so far, in pieces.
-  bool first_ = true;
+  bool begun_ = false;      ///< Whether the beginning of the output has been written.
+  bool has_piece_ = false;  ///< Whether a piece that is not empty has been written.
 };
 
 }  // namespace pcl_bv::detail

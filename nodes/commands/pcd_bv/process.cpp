@@ -71,17 +71,20 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
 Status write_files(const Job& job, const Options& options, const Frame& frame, const Outcome& outcome,
                    LoadedCloud& loaded) {
   const FrameResult& result = *outcome.result;
-  Status status = job.mesh ? write_mesh(job, outcome.entries()) : Status::done;
+  std::vector<std::uint32_t> label;
+  const bool glb = job.mesh && mesh_format(*job.mesh) == MeshFormat::glb;
+  const bool shows_ground = (job.view_html || glb) && result.ground.found;
+  const bool shows_labels = (job.image || job.view_html || glb) && (options.clusters() || shows_ground);
+  if (job.labels || shows_labels) label = labels_of(frame, result);
+  Status status = Status::done;
+  if (job.mesh)
+    status = write_mesh(job, outcome.entries(), {loaded.xyz(), label, 200000, options.pipeline.ground.up});
   if (job.objects) {
     status = worse(status, write_objects(*job.objects, result.clusters.size(), execution_of(options).parallel,
                                          [&](std::size_t id) {
                                            write_object(*job.objects, id, result.points_of(id, loaded.xyz()));
                                          }));
   }
-  if (!job.labels && !job.image && !job.view_html) return status;
-  std::vector<std::uint32_t> label;
-  const bool shows_ground = job.view_html && result.ground.found;
-  if (job.labels || options.clusters() || shows_ground) label = labels_of(frame, result);
   if (job.image) {
     status = worse(status, write_file(*job.image, [&] {
                      Picture picture = picture_of(frame, result, label);
@@ -267,10 +270,11 @@ Status detail::report_failures(const std::string& file, const ClusterSource& clu
   return status;
 }
 
-Status detail::write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
+Status detail::write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters, const GlbCloud& cloud) {
   if (!job.mesh) return Status::done;
   return write_file(*job.mesh, [&] {
     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
+    if (format == MeshFormat::glb) return write_file_atomically(*job.mesh, volumes_glb(clusters, cloud));
     write_volumes(*job.mesh, clusters, format);
   });
 }

@@ -11,6 +11,7 @@
 #include "inputs.h"
 #include "options.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/report/meshes.h"
 #include "pcl_bv/report/report.h"
 #include "status.h"
 
@@ -39,8 +40,8 @@ Outcome process(const Job& job, const Options& options, FramePipeline& pipeline)
 Status report_failures(const Report& report);
 Status report_failures(const std::string& file, const ClusterSource& clusters);
 
-/// Writes the mesh of the job, if it is requested.
-Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters);
+/// Writes the mesh of the job, if it is requested. A .glb file also has the points of the cloud.
+Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters, const GlbCloud& cloud = {});
 
 /// Returns a warning if float32 coordinates are too coarse for a box at this distance from the origin.
 /// Otherwise returns an empty text.

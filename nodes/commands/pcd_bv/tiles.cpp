@@ -55,7 +55,7 @@ TileHeader describe_tile(const Job& job) {
   TileHeader header;
   try {
     if (is_file(job) && !job.error) {
-      const CloudHeader found = read_cloud_header(job.input, {job.bin_fields});
+      const CloudHeader found = read_cloud_header(job.input, {job.bin_fields, job.columns});
       header = {found.cloud.size(), found.scalar, found.random_access && found.cloud.size() > kChunkPoints};
       header.note = found.cloud.note;
     } else {

@@ -76,7 +76,7 @@ Status process_merged(Ranks& ranks, const Job& job, const Options& options, Inte
   }
   OrderedResults order(options, 1, 1);
   interrupted.set([&] { order.interrupt(); });
-  order.add_result(0, result_of(outcome, options.format));
+  order.add_result(0, result_of(outcome, render_options(options, job.frame)));
   const Status status = order.finish();
   interrupted.set(nullptr);
   return status;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sinks that write lines (jsonl and csv). Their files can be read while they grow.
+// Sinks that write lines (jsonl, csv and kitti). Their files can be read while they grow.
 
 #include "line_file.h"
+#include "pcl_bv/report/box_labels.h"
 #include "pcl_bv/report/csv.h"
 #include "sinks.h"
 
@@ -30,6 +31,15 @@ std::string csv_lines(const FrameReport& report, const ClusterSource& clusters) 
 
 std::string json_line(const FrameReport& report, const ClusterSource& clusters) {
   return frame_json(report, clusters) + '\n';
+}
+
+// A lost frame has no line. In KITTI's files this also means that the frame has no object.
+std::string kitti_lines(const FrameReport& report, const ClusterSource& clusters) {
+  std::string lines;
+  if (!report.error)
+    write_box_labels({}, clusters, BoxLabelFormat::kitti_tracking, {{}, report.seq},
+                     [&](std::string& piece) { lines += piece; });
+  return lines;
 }
 
 using LinesOfFrame = std::string(const FrameReport&, const ClusterSource&);
@@ -68,6 +78,10 @@ std::unique_ptr<FrameSink> open_jsonl(const SinkOptions& description) {
 
 std::unique_ptr<FrameSink> open_csv(const SinkOptions& description) {
   return std::make_unique<LineSink>(description, frames_csv_heading(), csv_lines);
+}
+
+std::unique_ptr<FrameSink> open_kitti(const SinkOptions& description) {
+  return std::make_unique<LineSink>(description, "", kitti_lines);
 }
 
 }  // namespace pcl_bv::detail

@@ -58,13 +58,14 @@ const std::vector<SinkKind>& sink_kinds() {
   static const std::vector<SinkKind> kinds = [] {
     std::vector<SinkKind> all{{"jsonl", "FILE", "", open_jsonl},
                               {"csv", "FILE", "", open_csv},
+                              {"kitti", "FILE", "", open_kitti},
                               {"dds", "PREFIX[,moveit][,nav2][,vision]", "", open_dds_sink, true},
                               {"ws", "[HOST:]PORT", "", open_ws_sink, true},
                               {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                               {"image", "FOLDER", ".png", open_image},
                               {"labels", "FOLDER", ".pcd", open_labels}};
     const std::vector<SinkKind> recordings = recording_sinks();
-    all.insert(all.begin() + 2, recordings.begin(), recordings.end());
+    all.insert(all.begin() + 3, recordings.begin(), recordings.end());
     return all;
   }();
   return kinds;

@@ -12,6 +12,7 @@ namespace pcl_bv::detail {
 
 std::unique_ptr<FrameSink> open_jsonl(const SinkOptions& description);
 std::unique_ptr<FrameSink> open_csv(const SinkOptions& description);
+std::unique_ptr<FrameSink> open_kitti(const SinkOptions& description);
 std::unique_ptr<FrameSink> open_vtp(const SinkOptions& description);
 std::unique_ptr<FrameSink> open_image(const SinkOptions& description);
 std::unique_ptr<FrameSink> open_labels(const SinkOptions& description);

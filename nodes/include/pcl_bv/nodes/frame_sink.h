@@ -77,7 +77,7 @@ struct SinkKind {
   bool live = false;  ///< Whether the sink sends to listeners. Its target is then not a file.
 };
 
-/// Returns the table of sinks: jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
+/// Returns the table of sinks: jsonl, csv, kitti, mcap, rosbag2, dds, ws, vtp, image, labels.
 const std::vector<SinkKind>& sink_kinds();
 
 /// Returns the syntax of all sinks for help and errors: "jsonl:FILE, csv:FILE, ...".

@@ -25,10 +25,15 @@ struct ReadOptions {
   /// Number of float32 values per point of .bin files, of which the first three are x, y, z. 0 means 4, or 5
   /// for names that end in .pcd.bin (nuScenes).
   std::size_t bin_fields = 0;
+  /// Names of the columns of text files, separated by commas, each with an optional type: "x,y,z,label:u4,_".
+  /// Types are i, u and f with the number of bytes; the default is f8. "_" is not used. If empty: the header
+  /// of the file, or x, y, z and further columns.
+  std::string columns{};
 };
 
 /// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() for .bin, read_las() for
-/// .las and .laz, and read_pcd() for all others. Text files are read by the threads of `execution`;
+/// .las and .laz, readers of NumPy's arrays for .npy and .npz, of plain text for .xyz, .txt, .csv, .asc and
+/// .pts, and read_pcd() for all others. Text files are read by the threads of `execution`;
 /// execution.isa is not used. Throws IoError with the reason. For extensions of other known formats (meshes,
 /// recordings) the reason includes advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {},

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Writes volumes as meshes for viewers. CloudCompare and MeshLab read .ply files. ParaView reads .vtp and
-// .pvd files.
+// .pvd files. Blender, three.js and most other viewers read .glb files.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// File formats of meshes. ply is the Polygon File Format, vtp is VTK PolyData.
-enum class MeshFormat { ply, vtp };
+/// File formats of meshes. ply is the Polygon File Format, vtp is VTK PolyData, glb is binary glTF 2.0.
+enum class MeshFormat { ply, vtp, glb };
 
-/// Returns the format of a path's extension (.ply or .vtp in any case). Returns nullopt for all other
+/// Returns the format of a path's extension (.ply, .vtp or .glb in any case). Returns nullopt for all other
 /// extensions.
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
 
@@ -47,12 +47,32 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 /// The field data `methods` has the names of the methods. Throws as volumes_ply().
 std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked = false);
 
+/// A cloud for volumes_glb(). By default it has no points.
+struct GlbCloud {
+  PointView points{};
+  std::vector<std::uint32_t> labels{};            ///< Cluster of each point by its index, or empty.
+  std::size_t max_points = 200000;                ///< Of more points, so many are chosen evenly by index.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Direction against gravity, of any length except 0.
+};
+
+/// Returns the meshes of all volumes, and points of the cloud, as the content of one .glb file. Each volume
+/// is a node with a mesh, named "object ID METHOD", with the id, the method, the number of points and the
+/// volume as extras. Colours are those of volumes_ply(), 60 % transparent; degenerate volumes have lines or
+/// points. The node "points" has the finite points, in the colours of their clusters, without a cluster grey.
+///
+/// glTF stores positions as floats. They are relative to an origin near the volumes: a position is the float
+/// next to the difference. The matrix of the root node adds the origin, and rotates `up` to y, which is up in
+/// glTF. Vertices beyond the range of float differences are infinite and viewers reject them.
+///
+/// Throws as volumes_ply(), and std::length_error for more than 4 GiB.
+std::string volumes_glb(const std::vector<ClusterEntry>& clusters, const GlbCloud& cloud = {});
+
 /// Returns the valid points as a VTK PolyData file with one cell. The point with the index i
 /// (PointView::index()) has the value labels[i] in the array `label`.
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);
 
-/// Writes volumes_ply() or volumes_vtp() to a file through write_file_atomically(). Throws IoError if the
-/// file cannot be written.
+/// Writes volumes_ply(), volumes_vtp() or volumes_glb() without points to a file through
+/// write_file_atomically(). Throws IoError if the file cannot be written.
 void write_volumes(const std::filesystem::path& path, const std::vector<ClusterEntry>& clusters,
                    MeshFormat format);
 

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "box_format.h"
+
+#include <algorithm>
+
+#include "commands/shared/messages.h"
+#include "commands/shared/values.h"
+#include "pipeline/config/names.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+constexpr Names<OutputFormat, 10> kFormats{{{"text", OutputFormat::text},
+                                           {"json", OutputFormat::json},
+                                           {"jsonl", OutputFormat::jsonl},
+                                           {"csv", OutputFormat::csv},
+                                           {"kitti", OutputFormat::kitti},
+                                           {"kitti-tracking", OutputFormat::kitti_tracking},
+                                           {"nuscenes", OutputFormat::nuscenes},
+                                           {"openlabel", OutputFormat::openlabel},
+                                           {"sustech", OutputFormat::sustech},
+                                           {"3dtiles", OutputFormat::tiles}}};
+
+// Formats whose boxes have only a yaw, and types that end at a blank.
+bool is_kitti(OutputFormat format) {
+  return format == OutputFormat::kitti || format == OutputFormat::kitti_tracking;
+}
+
+}  // namespace
+
+OutputFormat read_output_format(const std::string& name) {
+  return read_name(kFormats, name);
+}
+
+bool writes_box_labels(OutputFormat format) {
+  return is_kitti(format) || format == OutputFormat::nuscenes || format == OutputFormat::openlabel ||
+         format == OutputFormat::sustech;
+}
+
+std::string checked_object_type(const std::string& type, OutputFormat format) {
+  if (!writes_box_labels(format))
+    throw UsageError("--object-type: only useful with a --format of boxes, such as kitti");
+  const bool printable = std::none_of(type.begin(), type.end(), [](char c) { return c >= 0 && c < ' '; });
+  if (!printable || (is_kitti(format) && type.find(' ') != std::string::npos))
+    reject_value("--object-type", type, "is no word; blanks separate the columns of KITTI's labels");
+  return type;
+}
+
+void check_box_format(const std::string& name, const Options& options) {
+  const bool kitti = is_kitti(options.format);
+  const std::string format = "--format " + name;
+  if (options.origin.requested) throw UsageError("--origin: cannot be combined with " + format);
+  const Eigen::Vector3d& up = options.pipeline.ground.up;
+  if (kitti && (up.x() != 0 || up.y() != 0 || up.z() < 0))
+    throw UsageError(format + ": boxes rotate only about z, so --up must be z");
+  const std::vector<const Method*> methods = options.pipeline.methods();
+  const bool any = std::any_of(methods.begin(), methods.end(), [&](const Method* m) {
+    return m->shape == "aabb" || (m->shape == "obb" && (m->upright || !kitti));
+  });
+  if (!any)
+    throw UsageError(format + ": needs boxes: --volume obb-yaw, obb-lshape" +
+                     (kitti ? " or aabb" : ", obb or aabb"));
+}
+
+}  // namespace pcl_bv::detail

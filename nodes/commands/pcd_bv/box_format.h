@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The names of output formats, and the options that formats of boxes need.
+#pragma once
+
+#include <string>
+
+#include "options.h"
+
+namespace pcl_bv::detail {
+
+/// Returns the format of this name. Throws std::invalid_argument, which lists all names.
+OutputFormat read_output_format(const std::string& name);
+
+/// Returns whether the format has only boxes (see box_labels.h).
+bool writes_box_labels(OutputFormat format);
+
+/// Returns the value of --object-type. Throws UsageError if it is not a word or if the format has no types.
+std::string checked_object_type(const std::string& type, OutputFormat format);
+
+/// Throws UsageError if no method of the options makes boxes that the format can have, or if the format
+/// would lose an origin.
+void check_box_format(const std::string& name, const Options& options);
+
+}  // namespace pcl_bv::detail

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The formats of boxes, as data sets and labelling tools read them.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "command.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* kScene = "synth:street:20000:2";
+const std::vector<std::string> kObjects{"--range",   "1:30", "--ground", "zones",
+                                        "--cluster", "0.5",  "--format"};
+
+std::vector<std::string> objects(std::vector<std::string> rest) {
+  rest.insert(rest.begin(), kObjects.begin(), kObjects.end());
+  return rest;
+}
+
+TEST_F(PcdBv, FormatsOfBoxesHaveOneBoxForEachObject) {
+  const std::size_t n = Json::parse(run(objects({"json", kScene})).out)[0]["clusters"].size();
+  ASSERT_GT(n, 3U);
+  const std::string kitti = run(objects({"kitti", "--object-type", "Car", kScene})).out;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(kitti.begin(), kitti.end(), '\n')), n);
+  EXPECT_THAT(kitti, StartsWith("Car -1 -1 "));
+  EXPECT_EQ(Json::parse(run(objects({"sustech", kScene})).out).size(), n);
+  EXPECT_EQ(Json::parse(run(objects({"nuscenes", kScene})).out)["results"][kScene].size(), n);
+  EXPECT_EQ(Json::parse(run(objects({"openlabel", kScene})).out)["openlabel"]["objects"].size(), n);
+}
+
+TEST_F(PcdBv, FormatsOfBoxesKeepSeveralInputsApart) {
+  const std::string missing = at("missing.pcd");
+  const std::string tracking = run(objects({"kitti-tracking", "synth:street:5000", missing, kScene})).out;
+  EXPECT_THAT(tracking, StartsWith("0 -1 Misc "));
+  EXPECT_THAT(tracking, HasSubstr("\n2 -1 Misc "));
+  EXPECT_THAT(tracking, testing::Not(HasSubstr("\n1 ")));
+  const Json results =
+      Json::parse(run(objects({"nuscenes", missing, "synth:street:5000", kScene})).out)["results"];
+  EXPECT_EQ(results.size(), 2U);
+  const std::string both = run(objects({"openlabel", missing, "synth:street:5000", kScene})).out;
+  const Json labels = Json::parse(both)["openlabel"]["objects"];
+  EXPECT_EQ(labels.size(), results[kScene].size() + results["synth:street:5000"].size());
+  EXPECT_EQ(Json::parse(run(objects({"nuscenes", missing})).out)["results"].size(), 0U);
+}
+
+TEST_F(PcdBv, FormatsOfBoxesRefuseWhatTheyWouldLose) {
+  const auto error = [&](const std::vector<std::string>& arguments) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_THAT(error(objects({"kitti", kScene, kScene})),
+              HasSubstr("--format: files of kitti, sustech and 3dtiles have one input, not 2"));
+  EXPECT_THAT(error({"--format", "kitti", "--volume", "sphere,obb", kScene}), HasSubstr("needs boxes"));
+  EXPECT_THAT(error({"--format", "openlabel", "--volume", "sphere", kScene}), HasSubstr("obb or aabb"));
+  EXPECT_THAT(error({"--format", "kitti", "--volume", "obb-yaw", "--up", "-y", kScene}), HasSubstr("--up"));
+  EXPECT_THAT(error({"--format", "sustech", "--origin", "auto", kScene}), HasSubstr("--origin"));
+  EXPECT_THAT(error({"--format", "kitti", "--object-type", "a b", kScene}), HasSubstr("'a b'"));
+  EXPECT_THAT(error({"--object-type", "Car", kScene}), HasSubstr("only useful with a --format of boxes"));
+}
+
+TEST_F(PcdBv, BoxesOfEveryFormatDropThePointsInside) {
+  for (const std::string format : {"kitti", "nuscenes", "openlabel", "sustech"}) {
+    const std::string file = at("boxes." + format);
+    ASSERT_EQ(run({"--format", format, "--volume", "aabb", "--output", file, "synth:box:1000"}).status, 0);
+    const Result result =
+        run({"--drop-inside", file, "--padding", "1e-6", "--format", "json", "synth:box:1000"});
+    EXPECT_EQ(Json::parse(result.out)[0]["counts"]["inside"], 1000) << format << result.err;
+  }
+}
+
+TEST_F(PcdBv, TilesetsAreUpdatedInTheirFiles) {
+  const std::string tile = R"({"boundingVolume":{"sphere":[0,0,0,1]},"content":{"uri":"a.pnts"}})";
+  const std::string set = R"({"root":)" + tile + "}";
+  std::ofstream(at("tileset.json")) << set;
+  const Result missing = run({"--update", at("tileset.json"), at("none.json")});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(missing.out, at("tileset.json") + ": 0 of 1 tiles updated\n");
+  EXPECT_THAT(missing.err, HasSubstr("tileset.json: a.pnts: cannot be read\n"));
+  EXPECT_THAT(missing.err, HasSubstr("none.json: cannot be read\n"));
+  EXPECT_EQ(read_file(at("tileset.json")), set);
+  const std::string table = R"({"POINTS_LENGTH":1,"POSITION":{"byteOffset":0}})";
+  std::string header = "pnts";
+  for (const std::size_t number :
+       {std::size_t{1}, 40 + table.size(), table.size(), std::size_t{12}, std::size_t{0}, std::size_t{0}})
+    for (int byte = 0; byte < 4; ++byte)
+      header += static_cast<char>(number >> 8 * byte);
+  std::ofstream(at("a.pnts"), std::ios::binary) << header << table << std::string(12, '\0');
+  const Result done = run({"--update", at("tileset.json")});
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_EQ(Json::parse(read_file(at("tileset.json")))["root"]["boundingVolume"]["sphere"][3], 0);
+  EXPECT_EQ(run({"--update", "--format", "json", at("tileset.json")}).status, 2);
+  EXPECT_THAT(run({"--update", "--volume", "sphere", at("tileset.json")}).err,
+              HasSubstr("--update: needs a box"));
+  const Json tiles = Json::parse(run(objects({"3dtiles", kScene})).out);
+  EXPECT_GT(tiles["root"]["children"].size(), 3U);
+  EXPECT_EQ(run(objects({"3dtiles", kScene, kScene})).status, 2);
+}
+
+}  // namespace
+}  // namespace pcl_bv::test

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "seeds_of_formats.h"
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace pcl_bv::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, std::string_view content) {
+  std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+}
+
+// As fuzz_nested reads them.
+void write_boxes(const fs::path& folder) {
+  const std::string box = R"({"translation":[1,2,3],"size":[1,2,3],"rotation":[1,0,0,0]})";
+  write(folder / "nested" / "boxes_nuscenes", "\3{\"results\":{\"a\":[" + box + "]}}");
+  write(folder / "nested" / "boxes_openlabel",
+        "\3{\"openlabel\":{\"objects\":{\"0\":{\"object_data\":{\"cuboid\":[{\"val\":[1,2,3,0,0,0,1,4,5,6]},"
+        "{\"val\":[1,2,3,0,0.1,0.2,4,5,6]}]}}}}}");
+  write(folder / "nested" / "boxes_sustech",
+        "\3[{\"psr\":{\"position\":{\"x\":1,\"y\":2,\"z\":3},\"scale\":{\"x\":1,\"y\":2,\"z\":3},"
+        "\"rotation\":{\"x\":0,\"y\":0,\"z\":0.5}}}]");
+  write(folder / "nested" / "boxes_kitti",
+        "\1Car 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n"
+        "0 1 DontCare 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n");
+}
+
+void write_tile_contents(const fs::path& folder) {
+  const auto word = [](std::size_t value) {
+    const auto n = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&n), 4);
+  };
+  const auto table = [&](const std::string& json, const std::string& numbers) {
+    return word(1) + word(28 + json.size() + numbers.size()) + word(json.size()) + word(numbers.size()) +
+           word(0) + word(0) + json + numbers;
+  };
+  const std::string numbers(36, '\x3e');
+  write(folder / "tiles" / "points",
+        "pnts" + table(R"({"POINTS_LENGTH":3,"POSITION":{"byteOffset":0},"RTC_CENTER":[1,2,3]})", numbers));
+  write(
+      folder / "tiles" / "quantized",
+      "pnts" + table(R"({"POINTS_LENGTH":2,"POSITION_QUANTIZED":{"byteOffset":24},"QUANTIZED_VOLUME_OFFSET":)"
+                     R"({"byteOffset":0},"QUANTIZED_VOLUME_SCALE":{"byteOffset":12}})",
+                     numbers));
+  const std::string json =
+      R"({"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"children":[1],"rotation":[0,0,0,1]},)"
+      R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]}],"meshes":[{"primitives":[{"attributes":)"
+      R"({"POSITION":0}}]}],"buffers":[{"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,)"
+      R"("count":3,"type":"VEC3","byteOffset":0}],"bufferViews":[{"buffer":0,"byteLength":36,"byteStride":12}]})";
+  const std::string glb = "glTF" + word(2) + word(28 + json.size() + 36) + word(json.size()) + "JSON" + json +
+                          word(36) + std::string("BIN", 4) + numbers;
+  write(folder / "tiles" / "mesh", glb);
+  write(folder / "tiles" / "batched", "b3dm" + table(R"({"BATCH_LENGTH":0,"RTC_CENTER":[1,2,3]})", "") + glb);
+}
+
+void write_tables(const fs::path& folder) {
+  const std::string dict = "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3), }";
+  const auto npy = [](const std::string& text, const std::string& data) {
+    return "\x93NUMPY" + std::string("\1\0", 2) + static_cast<char>(text.size()) + '\0' + text + data;
+  };
+  const std::string numbers(36, '\x3e'), array = npy(dict, numbers);
+  write(folder / "npy" / "numbers", array);
+  write(folder / "npy" / "columns", npy("{'shape': (3, 3), 'fortran_order': True, 'descr': '<f4'}", numbers));
+  write(folder / "npy" / "records",
+        npy("{'descr': [('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('', '|V4'), ('c', 'u1', (2,4))], "
+            "'fortran_order': False, 'shape': (1,1), }",
+            numbers));
+  const auto word = [](std::size_t value) {
+    const auto n = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&n), 4);
+  };
+  // One stored block of deflate, and a stored array.
+  const auto half = [&](std::size_t value) { return word(value).substr(0, 2); };
+  const std::string block = '\1' + half(array.size()) + half(~array.size()) + array;
+  for (const bool deflated : {false, true}) {
+    const std::string& packed = deflated ? block : array;
+    const std::string entry = half(0) + half(0) + half(deflated ? 8 : 0) + word(0) + word(0) +
+                              word(packed.size()) + word(array.size()) + half(10);
+    const std::string local = "PK\3\4" + entry + half(0) + "points.npy" + packed;
+    const std::string directory =
+        "PK\1\2" + half(0) + entry + half(0) + half(0) + half(0) + half(0) + word(0) + word(0) + "points.npy";
+    write(folder / "npz" / (deflated ? "deflated" : "stored"),
+          local + directory + "PK\5\6" + word(0) + half(1) + half(1) + word(directory.size()) +
+              word(local.size()) + half(0));
+  }
+  write(folder / "table" / "csv", "x,y,z,class\n1,2,3,car\n4,5.5,nan,4\n");
+  write(folder / "table" / "xyz", "# a b\n//X Y Z R\n1 2 3 4\n\n5 6 7 8");
+  write(folder / "table" / "pts", "2\n1;2;3;\n4;5;-6e7;\n");
+}
+
+}  // namespace
+
+void write_format_seeds(const fs::path& folder) {
+  write_boxes(folder);
+  write_tile_contents(folder);
+  write_tables(folder);
+}
+
+}  // namespace pcl_bv::test

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/report/tileset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "files.h"
+#include "geographic_region.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+template <typename T>
+std::string bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+std::string word(std::size_t value) {
+  return bytes_of(std::vector{static_cast<std::uint32_t>(value)});
+}
+
+std::string pnts(const std::string& table, const std::string& numbers) {
+  return "pnts" + word(1) + word(28 + table.size() + numbers.size()) + word(table.size()) +
+         word(numbers.size()) + word(0) + word(0) + table + numbers;
+}
+
+std::string cloud(const std::vector<float>& xyz, const std::string& more = "") {
+  return pnts(R"({"POINTS_LENGTH":)" + std::to_string(xyz.size() / 3) + R"(,"POSITION":{"byteOffset":0})" +
+                  more + "}",
+              bytes_of(xyz));
+}
+
+std::string glb(const std::string& json, const std::string& binary) {
+  return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" + json +
+         word(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+// A glTF of one triangle, whose node has `node`.
+std::string triangle(const std::string& node, const std::string& accessor = "",
+                     const std::string& more = "") {
+  return glb(
+      R"({"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + node +
+          R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36}],)"
+          R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3")" +
+          accessor + R"(}],"bufferViews":[{"buffer":0,"byteLength":36}])" + more + "}",
+      bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 3}));
+}
+
+const std::string kUnit = R"({"box":[0,0,0,1,0,0,0,1,0,0,0,1]})";
+
+std::string tileset(const std::string& root) {
+  return R"({ "asset": {"version" : "1.1"},"zeta":1.50, "root":)" + root + "\n}";
+}
+
+std::string leaf(const std::string& uri, const std::string& volume = kUnit, const std::string& more = "") {
+  return R"({"boundingVolume":)" + volume + R"(,"geometricError":0,"content":{"uri":")" + uri + "\"}" + more +
+         "}";
+}
+
+class Tilesets : public FileTest {
+ protected:
+  TilesetUpdate update(const std::string& root) const {
+    write_text(file("tileset.json"), tileset(root));
+    return update_tileset(file("tileset.json"), {find_method("aabb")}, {});
+  }
+  Json root() const { return Json::parse(read_text(file("tileset.json")))["root"]; }
+  Json volume() const { return root()["boundingVolume"]; }
+  std::vector<double> sphere() const { return volume()["sphere"].get<std::vector<double>>(); }
+  std::string problem(const std::string& content) const {
+    write_text(file("bad"), content);
+    const TilesetUpdate done = update(leaf("bad"));
+    EXPECT_EQ(done.updated, 0U);
+    EXPECT_EQ(read_text(file("tileset.json")), tileset(leaf("bad")));
+    return done.problems.empty() ? "no problem" : done.problems[0];
+  }
+};
+
+const std::vector<float> kPoints{1, 2, 3, 3, 2, 3, 1, 6, 3, 1, 2, 13, 3, 6, 13};
+
+TEST_F(Tilesets, HaveNewVolumesOfTheirOldKindsAndNoOtherChange) {
+  write_text(file("a.pnts"), cloud(kPoints));
+  EXPECT_EQ(update(leaf("a.pnts")).updated, 1U);
+  const std::string box = R"({"box":[2,4,8,1,0,0,0,2,0,0,0,5]})";
+  EXPECT_EQ(read_text(file("tileset.json")), tileset(leaf("a.pnts", box)));
+  EXPECT_EQ(update(leaf("./a.pnts?v=2", R"({"sphere":[9,9,9,1]})")).updated, 1U);
+  EXPECT_THAT(sphere(), ElementsAre(2, 4, 8, testing::DoubleNear(std::sqrt(30), 1e-12)));
+}
+
+TEST_F(Tilesets, EncloseTheContentsOfDescendantsInTheFrameOfEachTile) {
+  write_text(file("a.pnts"), cloud(kPoints, R"(,"RTC_CENTER":[1000000,0,0])"));
+  write_text(file("b.pnts"), cloud({0, 0, 0}));
+  const std::string moved = R"(,"transform":[0,1,0,0,-1,0,0,0,0,0,1,0,10,0,0,1])";  // turned left, then moved
+  const TilesetUpdate done = update(R"({"boundingVolume":)" + kUnit + R"(,"geometricError":9,"children":[)" +
+                                    leaf("a.pnts", kUnit, moved) + "," + leaf("b.pnts") + "]}");
+  EXPECT_EQ(done.tiles, 3U);
+  EXPECT_EQ(done.updated, 3U);
+  EXPECT_EQ(root()["children"][0]["boundingVolume"],
+            Json::parse(R"({"box":[1000002,4,8,1,0,0,0,2,0,0,0,5]})"));
+  EXPECT_EQ(root()["children"][1]["boundingVolume"], Json::parse(R"({"box":[0,0,0,0,0,0,0,0,0,0,0,0]})"));
+  const Json box = volume()["box"];
+  const auto number = [&](std::size_t i) { return box[i].get<double>(); };
+  const auto inside = [&](const Eigen::Vector3d& p) {
+    Eigen::Vector3d from_center = p - Eigen::Vector3d(number(0), number(1), number(2));
+    for (std::size_t i = 3; i < 12; i += 3) {
+      const Eigen::Vector3d half(number(i), number(i + 1), number(i + 2));
+      if (std::abs(from_center.dot(half)) > half.squaredNorm() * (1 + 1e-9)) return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(inside({0, 0, 0}));
+  for (std::size_t i = 0; i < kPoints.size(); i += 3)
+    EXPECT_TRUE(inside({10 - kPoints[i + 1], 1e6 + kPoints[i], kPoints[i + 2]}));
+}
+
+TEST_F(Tilesets, ReadGltfWithYUpAndQuantizedPoints) {
+  write_text(file("a b.glb"), triangle(R"(,"translation":[10,20,30],"scale":[2,2,2])"));
+  update(leaf("a%20b.glb"));
+  // x, y, z of glTF are x, z, -y of the tile.
+  EXPECT_EQ(volume(), Json::parse(R"({"box":[11,-33,22,1,0,0,0,3,0,0,0,2]})"));
+  const std::string inner = triangle(R"(,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1])");
+  const std::string table = R"({"RTC_CENTER":[100,0,0],"BATCH_LENGTH":0})";
+  write_text(file("c.b3dm"), "b3dm" + word(1) + word(28 + table.size() + inner.size()) + word(table.size()) +
+                                 word(0) + word(0) + word(0) + table + inner);
+  update(leaf("c.b3dm"));
+  EXPECT_EQ(volume(), Json::parse(R"({"box":[105.5,-1.5,1,0.5,0,0,0,1.5,0,0,0,1]})"));
+  write_text(file("q.pnts"), pnts(R"({"POINTS_LENGTH":2,"POSITION_QUANTIZED":{"byteOffset":0},)"
+                                  R"("QUANTIZED_VOLUME_OFFSET":[10,0,0],"QUANTIZED_VOLUME_SCALE":[2,4,8]})",
+                                  bytes_of(std::vector<std::uint16_t>{0, 0, 0, 65535, 65535, 65535})));
+  update(leaf("q.pnts", R"({"sphere":[0,0,0,1]})"));
+  EXPECT_THAT(sphere(), ElementsAre(11, 2, 4, testing::DoubleNear(std::sqrt(21), 1e-12)));
+}
+
+TEST_F(Tilesets, HaveRegionsOfTheirPointsOnTheEllipsoid) {
+  // The corner of 0, 0 and height 100, and a point on the axis of the Earth, 7 m above the pole.
+  EXPECT_LT((to_geographic({6378237, 0, 0}) - Eigen::Vector3d(0, 0, 100)).norm(), 1e-8);
+  EXPECT_LT((to_geographic({0, 0, 6356752.314245179 + 7}) - Eigen::Vector3d(0, M_PI / 2, 7)).norm(), 1e-8);
+  for (const double latitude : {-1.2, 0.3, 1.5}) {
+    const double e2 = (2 - 1 / 298.257223563) / 298.257223563, sine = std::sin(latitude);
+    const double n = 6378137 / std::sqrt(1 - e2 * sine * sine), height = 4321, longitude = 2.5;
+    const Eigen::Vector3d p((n + height) * std::cos(latitude) * std::cos(longitude),
+                            (n + height) * std::cos(latitude) * std::sin(longitude),
+                            (n * (1 - e2) + height) * sine);
+    EXPECT_LT((to_geographic(p) - Eigen::Vector3d(longitude, latitude, height)).head<2>().norm(), 1e-14);
+    EXPECT_NEAR(to_geographic(p).z(), height, 1e-8);
+  }
+  write_text(file("a.pnts"), cloud({0, 0, 0, 50, 0, 0}));
+  write_text(file("b.pnts"), cloud({0, 1000, 0}));
+  const std::string region = R"({"region":[0,0,0,0,0,0]})";
+  const std::string earth = R"(,"transform":[1,0,0,0,0,1,0,0,0,0,1,0,6378137,0,0,1])";
+  EXPECT_EQ(update(leaf("a.pnts", region, earth + R"(,"children":[)" + leaf("b.pnts", region) + "]")).updated,
+            2U);
+  const auto found = volume()["region"].get<std::vector<double>>();
+  const std::vector<double> expected{0, 0, 1000 / 6378137.0, 0, 0, 50};
+  ASSERT_EQ(found.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(found[i], expected[i], i < 4 ? 1e-10 : i == 4 ? 1e-6 : 0.1) << i;
+  EXPECT_THAT(update(leaf("a.pnts", region)).problems, ElementsAre(HasSubstr("EPSG 4978")));
+}
+
+TEST_F(Tilesets, KeepVolumesOfContentsThatCannotBeRead) {
+  write_text(file("b.pnts"), cloud({0, 0, 0, 9, 9, 9}));
+  const std::string parent = R"({"boundingVolume":)" + kUnit + R"(,"children":[)";
+  const TilesetUpdate done = update(parent + leaf("missing.pnts", R"({"box":[50,0,0,1,0,0,0,1,0,0,0,1]})") +
+                                    "," + leaf("b.pnts") + "," + leaf("inner.json") + "]}");
+  EXPECT_EQ(done.updated, 2U);
+  EXPECT_THAT(done.problems, ElementsAre("missing.pnts: cannot be read"));
+  EXPECT_EQ(root()["children"][0]["boundingVolume"]["box"][0], 50);
+  EXPECT_GE(volume()["box"][0].get<double>(), 25);  // encloses the old volume of the missing tile
+  EXPECT_EQ(update(R"({"boundingVolume":)" + kUnit + "}").updated, 0U);
+  EXPECT_THAT(update(leaf("b.pnts", R"({"extensions":{}})")).problems,
+              ElementsAre(HasSubstr("is no box, sphere")));
+  EXPECT_THAT(update(leaf("http://a/b.pnts")).problems, ElementsAre(HasSubstr("is no file")));
+}
+
+TEST_F(Tilesets, NameWhatIsWrongWithContents) {
+  EXPECT_THAT(problem("hello"), HasSubstr("bad: is no .pnts, .glb or .b3dm file"));
+  EXPECT_THAT(problem("pnts"), HasSubstr("is cut"));
+  const std::string good = cloud(kPoints);
+  for (std::size_t size = 4; size < good.size(); ++size)
+    EXPECT_NE(problem(good.substr(0, size)), "no problem") << size;
+  EXPECT_THAT(problem(pnts(R"({"POINTS_LENGTH":1e9,"POSITION":{"byteOffset":0}})", "")),
+              HasSubstr("POINTS_LENGTH"));
+  EXPECT_THAT(problem(pnts(R"({"POINTS_LENGTH":2,"POSITION":{"byteOffset":-1}})", "")),
+              HasSubstr("byteOffset"));
+  EXPECT_THAT(problem(pnts(R"({"POINTS_LENGTH":2})", "")), HasSubstr("has no \"POSITION_QUANTIZED\""));
+  EXPECT_THAT(problem(cloud({NAN, 0, 0})), HasSubstr("no valid point"));
+  EXPECT_THAT(problem(triangle("", R"(,"byteOffset":4)")), HasSubstr("is cut"));
+  EXPECT_THAT(problem(triangle("", R"(,"sparse":{})")), HasSubstr("sparse"));
+  EXPECT_THAT(problem(triangle(R"(,"skin":0)")), HasSubstr("skin"));
+  EXPECT_THAT(problem(triangle(R"(,"children":[0])")), HasSubstr("a node has two parents"));
+  EXPECT_THAT(problem(triangle("", "", R"(,"extensionsUsed":["KHR_draco_mesh_compression"])")),
+              HasSubstr("KHR_draco_mesh_compression"));
+}
+
+TEST_F(Tilesets, AreRefusedAndUnchangedIfTheyAreNone) {
+  const auto error = [&](const std::string& text) {
+    write_text(file("tileset.json"), text);
+    try {
+      update_tileset(file("tileset.json"), {find_method("aabb")}, {});
+    } catch (const IoError& wrong) {
+      EXPECT_EQ(read_text(file("tileset.json")), text);
+      return std::string(wrong.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(error("[]"), HasSubstr("no \"root\""));
+  EXPECT_THAT(error("{}"), HasSubstr("no \"root\""));
+  EXPECT_THAT(error("3"), HasSubstr("no \"root\""));
+  EXPECT_THAT(error("{\"root\":"), HasSubstr("JSON"));
+  EXPECT_THAT(error(tileset("{}")), HasSubstr("no \"boundingVolume\""));
+  EXPECT_THAT(error(tileset(R"({"boundingVolume":{"box":[1]}})")), HasSubstr("12 numbers"));
+  EXPECT_THAT(error(tileset(R"({"boundingVolume":{},"transform":[1]})")), HasSubstr("16 numbers"));
+  EXPECT_THAT(error(tileset(R"({"boundingVolume":{},"children":[3]})")), HasSubstr("a tile is no object"));
+  EXPECT_THAT(error(tileset(R"({"boundingVolume":{},"content":{}})")), HasSubstr("uri"));
+}
+
+TEST_F(Tilesets, OfClustersHaveABoxOrSphereForEach) {
+  Report report;
+  report.clusters.resize(3);
+  report.clusters[0].volumes = {{"dop6", Kdop(), {}}, {"sphere-exact", Sphere({1, 2, 3}, 4), {}}};
+  report.clusters[1].volumes = {{"hull", Hull(), {}}};
+  report.clusters[2].volumes = {{"aabb", Aabb({0, 0, 0}, {2, 4, 16}), {}}};
+  std::string text;
+  write_tileset(report, vector_source(report.clusters), [&](std::string& piece) { text += piece; });
+  const Json json = Json::parse(text);
+  EXPECT_EQ(json["asset"]["version"], "1.1");
+  ASSERT_EQ(json["root"]["children"].size(), 2U);
+  EXPECT_EQ(json["root"]["children"][0]["boundingVolume"], Json::parse(R"({"sphere":[1,2,3,4]})"));
+  EXPECT_EQ(json["root"]["children"][1]["boundingVolume"],
+            Json::parse(R"({"box":[1,2,8,1,0,0,0,2,0,0,0,8]})"));
+  EXPECT_EQ(json["root"]["boundingVolume"], Json::parse(R"({"box":[1,2,7.5,4,0,0,0,4,0,0,0,8.5]})"));
+  report.clusters.clear();
+  text.clear();
+  write_tileset(report, vector_source(report.clusters), [&](std::string& piece) { text += piece; });
+  EXPECT_FALSE(Json::parse(text)["root"].contains("children"));
+}
+
+}  // namespace
+}  // namespace pcl_bv::detail
