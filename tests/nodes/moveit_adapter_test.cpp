@@ -6,6 +6,7 @@
 
 #include "adapter_test.h"
 #include "pcl_bv/messages/moveit.h"
+#include "stream/topics/message_sink.h"
 
 namespace pcl_bv::test {
 namespace {
@@ -236,6 +237,34 @@ TEST(MoveItShapes, OfAFlatHullIsABox) {
   ASSERT_EQ(objects.size(), 1U);
   ASSERT_EQ(objects[0].primitives.size(), 1U);
   EXPECT_EQ(objects[0].pose.position.z, 2);
+}
+
+// Fails to send while `fails` is true.
+class FailingSender final : public MessageSender {
+ public:
+  FailingSender(const bool& fails, bool& closed) : fails_(fails), closed_(closed) {}
+  std::size_t add_topic(const MessageTopic& /*topic*/) override { return 0; }
+  void send(std::size_t, std::int64_t, const std::vector<std::byte>&) override {
+    if (fails_) throw IoError("the disk is full");
+  }
+  void close() override { closed_ = true; }
+
+ private:
+  const bool& fails_;
+  bool& closed_;
+};
+
+TEST(Adapters, ThatCannotSendTheirLastMessagesDoNotKeepTheSinkOpen) {
+  bool fails = false, closed = false;
+  MessageTopics topics;
+  topics.adapters = {"moveit"};
+  const auto sink = make_message_sink(std::make_unique<FailingSender>(fails, closed), topics);
+  Cubes cubes({"aabb"});
+  cubes.process({kNear});
+  sink->write(cubes.frame, cubes.result);
+  fails = true;
+  EXPECT_THROW(sink->close(), IoError);
+  EXPECT_TRUE(closed);
 }
 
 TEST(Adapters, AreNamedInTheErrorAboutAnUnknownOne) {

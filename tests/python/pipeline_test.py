@@ -191,7 +191,8 @@ class Pipelines(unittest.TestCase):
             2], [1]], [1, 2], 1))
         pipeline = pcl_bv.Pipeline(filter={"range_min": 0}, ground={"method": "none"}, volumes=["aabb"],
                                    cluster={"min_size": 1, "class_field": "kind", "classes": [{"value": 3,
-                                       "drop": True}]})
+                                       "drop": True, "name": "far"}]})
+        self.assertEqual(pipeline.config["cluster"]["classes"], [{"value": 3, "drop": True, "name": "far"}])
         result = pipeline.process(points, classes=classes)
         self.assertEqual([c.class_value for c in result.clusters], [1, 2])
         self.assertEqual(result.counts["class"], 1)

@@ -74,8 +74,13 @@ class MessageSink final : public FrameSink {
   }
   std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }
   void close() override {
-    for (const auto& adapter : adapters_)
-      adapter->close();
+    try {
+      for (const auto& adapter : adapters_)
+        adapter->close();
+    } catch (...) {
+      carrier_->close();
+      throw;
+    }
     carrier_->close();
   }
 

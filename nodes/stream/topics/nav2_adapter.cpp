@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "footprints.h"
 #include "message_adapter.h"
-#include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/messages/finite.h"
 #include "pcl_bv/messages/obstacles.h"
 #include "pcl_bv/messages/polygon.h"
@@ -19,10 +18,6 @@
 
 namespace pcl_bv::detail {
 namespace {
-
-const TrackEntry* track_of(const FrameResult& result, std::size_t cluster) {
-  return result.tracks.empty() || !result.tracks[cluster] ? nullptr : &*result.tracks[cluster];
-}
 
 // Returns a UUID of version 8 (RFC 9562) that is the same for a track in all frames. An object without a
 // track gets the UUID of the number of its cluster.
@@ -68,51 +63,6 @@ void set_motion(const TrackEntry& track, const Eigen::Matrix3d& rotation, msg::O
   motion << c[18], c[19], 0, c[19], c[20], 0, 0, 0, std::max(c[18], c[20]);
   obstacle.position_covariance = row_major(position, rotation);
   obstacle.velocity_covariance = row_major(motion, rotation);
-}
-
-// Returns the prism of a cluster or, if none is requested, that of its box.
-Prism footprint_of(const FrameResult& result, std::size_t cluster) {
-  for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    const auto* const prism = std::get_if<Prism>(&result.volume(cluster, m));
-    if (prism != nullptr && result.is_requested(cluster, m) && !prism->empty()) return *prism;
-  }
-  const VolumeShape box = box_of(result, cluster);
-  if (box.kind != VolumeShape::Kind::cube) return {};
-  const auto& [x, y, z, w] = box.orientation;
-  const Eigen::Matrix3d axes = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
-  const Eigen::Map<const Eigen::Vector3d> centre(box.position.data()), size(box.size.data());
-  Eigen::Matrix<double, 3, 8> corners;
-  for (int k = 0; k < 8; ++k) {
-    const Eigen::Vector3d side(k & 1, k >> 1 & 1, k >> 2);
-    corners.col(k) = centre + axes * (side.array() - 0.5).matrix().cwiseProduct(size);
-  }
-  return fit_prism(PointView::of(corners.data(), 24, 8), result.config->ground.up).volume;
-}
-
-struct Footprint {
-  std::int64_t id = 0;
-  double distance = 0;  // of the nearest corner from the origin
-  msg::PolygonStamped message;
-};
-
-// Returns the footprints, the nearest one last: Nav2's subscriber keeps the last messages if there are too
-// many.
-std::vector<Footprint> footprints_of(const Frame& frame, const FrameResult& result) {
-  std::vector<Footprint> all;
-  for (std::size_t i = 0; i < result.clusters.size(); ++i) {
-    Footprint footprint;
-    fill_footprint(frame, footprint_of(result, i), footprint.message);
-    if (footprint.message.polygon.points.empty() || !is_finite(footprint.message)) continue;
-    footprint.distance = std::numeric_limits<double>::infinity();
-    for (const msg::Point32& p : footprint.message.polygon.points)
-      footprint.distance = std::min(footprint.distance, Eigen::Vector3d(p.x, p.y, p.z).norm());
-    const TrackEntry* const track = track_of(result, i);
-    footprint.id = track != nullptr ? track->id : -1 - static_cast<std::int64_t>(i);
-    all.push_back(std::move(footprint));
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Footprint& a, const Footprint& b) { return a.distance > b.distance; });
-  return all;
 }
 
 class Nav2Adapter final : public MessageAdapter {
