@@ -9,6 +9,7 @@
 #include "process.h"
 #include "shares.h"
 #include "tilesets.h"
+#include "watch.h"
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
     if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);
     const auto& options = std::get<Options>(parsed);
     if (options.update) return static_cast<int>(update_tilesets(options));
+    if (options.watch) return static_cast<int>(watch_folder(options));
     const std::vector<Job> jobs = plan_jobs(options);
     if (options.partial) return static_cast<int>(make_partial_file(jobs.front(), options));
     return static_cast<int>(process_all(jobs, options));

@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <limits>
 
 #include "box_format.h"
 #include "commands/shared/command_line.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
 #include "gpu_supports.h"
-#include "pcl_bv/fitting/partial.h"
+#include "mode_options.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/io/text_cloud.h"
 #include "pcl_bv/report/picture.h"
@@ -49,7 +48,7 @@ const char* name_of(PcdBvCommand command) {
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
-      gpu, memory, objects, object_type, columns;
+      gpu, memory, objects, object_type, columns, watch;
   bool together = false, merge = false, update = false, check = false, info = false, timings = false,
        progress = false;
 };
@@ -71,6 +70,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--memory", texts.memory, "MB",
               "With --cluster and --together, --partial or --merge:\nmemory for points (600)");
   if (command == PcdBvCommand::serial) {
+    line.option("--watch", texts.watch, "DIR",
+                "Process files as they arrive in this folder, until a signal:\nfiles closed after writing, "
+                "or moved in");
     line.flag(
         "--update", texts.update,
         "Inputs are tilesets of 3D Tiles: compute the bounding volumes\nof their tiles anew, in the files");
@@ -176,84 +178,12 @@ ShareOption parse_share(const std::string& text) {
   return share;
 }
 
-void reject_combinations(const CommandLine& line, const char* option,
-                         std::initializer_list<const char*> others) {
-  for (const char* other : others) {
-    if (line.given(other)) throw UsageError(std::string(option) + ": cannot be combined with " + other);
-  }
-}
-
-// Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground
-// and size limits). If partial results are made or merged, also rejects the options that cannot work with
-// partial results.
-void reject_for_tiled_cloud(const CommandLine& line, const Options& options, PcdBvCommand command) {
-  const PipelineConfig& config = options.pipeline;
-  const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
-  const bool over_ranks = command == PcdBvCommand::mpi;
-  const bool shares = options.merge || options.partial || over_ranks;
-  if (shares || !options.clusters()) reject_combinations(line, option, {"--labels"});
-  const auto reject = [&](bool given, const char* what) {
-    if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
-  };
-  const bool ground = config.ground.method != GroundMethod::none;
-  const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  if (options.clusters()) {
-    const std::string with_clusters = std::string(option) + " --cluster";
-    reject_combinations(line, with_clusters.c_str(), {"--image", "--view-html"});
-    if (!over_ranks) reject_combinations(line, with_clusters.c_str(), {"--gpu"});
-    reject(ground && shares, "--ground (ground.method)");
-    reject(ground && config.ground.method != GroundMethod::slope,
-           "--ground plane or zones (ground.method), only with --ground slope");
-    reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
-    reject(config.cluster.oversized == Oversized::split, "--oversized split");
-    reject(config.track.enabled, "track.enabled");
-    reject(config.effective_refine() != Refine::off, "cluster.refine");
-  } else {
-    reject(ground, "--ground (ground.method)");
-    reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
-           "cluster.min_size or max_size");
-  }
-  reject(over_ranks && options.clusters() && options.origin.requested && !options.origin.at,
-         "--origin auto and --cluster over ranks");
-  if (!options.merge && !options.partial) return;
-  reject_combinations(line, option, {"--image", "--view-html", "--info"});
-  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--objects"});
-  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
-  if (options.merge)
-    reject_combinations(line, option,
-                        {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
-                         "--bin-fields", "--columns", "--topic"});
-  if (options.partial)
-    reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
-  if (options.partial && !options.merge)
-    reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
-  for (const Method* method : options.clusters() ? std::vector<const Method*>() : config.methods()) {
-    if (!Partial::can_fit(*method, config.method_options()))
-      throw UsageError(std::string("--volume: ")
-                           .append(method->name)
-                           .append(method->needs_all_points ? "" : " with --concave")
-                           .append(" needs all points, not only partial results: use --together"));
-  }
-}
-
 void read_memory(const CommandLine& line, const Texts& texts, Options& options) {
   if (line.given("--memory")) {
     if (!(texts.together || texts.merge || !texts.partial.empty()) || !options.clusters())
       throw UsageError("--memory: only useful with --cluster and --together, --partial or --merge");
     options.memory_bytes = parse_whole_number("--memory", texts.memory, 1, 1'000'000) * 1'000'000;
   }
-}
-
-// Tilesets have no report: only the options of the fits have an effect.
-void read_update(const CommandLine& line, Options& options) {
-  options.update = true;
-  reject_combinations(
-      line, "--update",
-      {"--bin-fields", "--columns", "--topic",  "--origin",    "--together",    "--memory",      "--objects",
-       "--partial",    "--part",    "--merge",  "--gpu",       "--format",      "--object-type", "--output",
-       "--labels",     "--mesh",    "--image",  "--view-html", "--check",       "--info",        "--timings",
-       "--progress",   "--cluster", "--ground", "--range",     "--drop-inside", "--keep-inside"});
-  if (!line.given("--volume")) options.pipeline.volumes = {"aabb", "obb-dito14"};
 }
 
 void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
@@ -265,11 +195,13 @@ void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
 }
 
 Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config, PcdBvCommand command) {
-  if (texts.inputs.empty())
+  if (!texts.watch.empty() && !texts.inputs.empty())
+    throw UsageError("--watch: its files are the only inputs");
+  if (texts.inputs.empty() && texts.watch.empty())
     throw UsageError(std::string("no INPUT; ") + name_of(command) + " --help lists the options");
   reject_useless(line, config);
   Options options;
-  options.inputs = texts.inputs;
+  options.inputs = texts.watch.empty() ? texts.inputs : std::vector{texts.watch};
   options.pipeline = std::move(config);
   options.topic = texts.topic;
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
@@ -287,6 +219,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   read_memory(line, texts, options);
   if (command == PcdBvCommand::serial) read_parts(line, texts, options);
   if (texts.update) read_update(line, options);
+  if (!texts.watch.empty()) read_watch(line, texts.watch, texts.format, options);
   options.gpu = texts.gpu;
   if (!options.gpu.empty()) reject_combinations(line, "--gpu", {"--partial", "--merge"});
   if (options.tiled || options.merge) reject_for_tiled_cloud(line, options, command);

@@ -51,6 +51,7 @@ struct Options {
   std::size_t memory_bytes = 600'000'000;        ///< For clustering a tiled cloud.
   bool threads_given = false;                    ///< Whether --threads was given.
   bool update = false;                           ///< Whether inputs are tilesets to be updated.
+  bool watch = false;  ///< Whether the input is a folder whose new files are inputs.
   bool check = false;
   bool info = false;
   bool timings = false;
