@@ -42,16 +42,6 @@ std::vector<std::size_t> make_tiles(std::mt19937_64& random, test::TestCloud<T>&
   return ends;
 }
 
-inline ClusterOptions random_options(std::mt19937_64& random) {
-  ClusterOptions options;
-  options.tolerance =
-      static_cast<float>(std::pow(10, std::uniform_real_distribution<double>(-1.2, 0.5)(random)));
-  options.min_size = random() % 2 == 0 ? 1 : 10;
-  options.min_points = std::array{1, 2, 4, 8}[random() % 4];
-  if (random() % 4 == 0) options.max_size = 300;
-  return options;
-}
-
 using Shares = std::vector<std::unique_ptr<MadeClusterShare>>;
 
 inline std::vector<const ClusterShare*> pointers(const Shares& shares) {

@@ -49,13 +49,7 @@ TYPED_TEST(StoredClustersOf, AreThoseOfTheWholeCloudForAnyBricks) {
     const test::TestCloud<TypeParam> cloud = scene<TypeParam>(seed);
     SCOPED_TRACE(cloud.name);
     std::mt19937_64 random(seed);
-    ClusterOptions options;
-    options.tolerance =
-        static_cast<float>(std::pow(10, std::uniform_real_distribution<double>(-1.2, 0.5)(random)));
-    options.min_size = random() % 2 == 0 ? 1 : 10;
-    options.min_points = std::array{1, 2, 4, 8}[random() % 4];
-    if (random() % 4 == 0) options.max_size = 300;
-    if (random() % 4 == 0) options.oversized = Oversized::keep;
+    const ClusterOptions options = random_options(random);
     for (const std::size_t in_memory : {1U, 40U, 700U, 1U << 20U})
       expect_same_as_in_memory(cloud.view(), options, in_memory);
     if (testing::Test::HasFailure()) return;

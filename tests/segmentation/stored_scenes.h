@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -89,6 +90,17 @@ test::TestCloud<T> scene(std::uint64_t seed) {
                      cloud.xyz.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
   if (seed % 3 == 0) mixed.xyz[3 * (seed % mixed.size())] = std::numeric_limits<T>::quiet_NaN();
   return mixed;
+}
+
+inline ClusterOptions random_options(std::mt19937_64& random) {
+  ClusterOptions options;
+  options.tolerance =
+      static_cast<float>(std::pow(10, std::uniform_real_distribution<double>(-1.2, 0.5)(random)));
+  options.min_size = random() % 2 == 0 ? 1 : 10;
+  options.min_points = std::array{1, 2, 4, 8}[random() % 4];
+  if (random() % 4 == 0) options.max_size = 300;
+  if (random() % 4 == 0) options.oversized = Oversized::keep;
+  return options;
 }
 
 // Calls check(points, options) for nasty clouds with tolerances from very small to very large, until a check

@@ -90,14 +90,14 @@ std::unordered_map<std::uint64_t, CellKind> find_active_cells(
     const std::vector<const ClusterShare*>& shares) {
   std::unordered_map<std::uint64_t, CellKind> kinds;
   if (shares.size() < 2) return kinds;
-  const auto cube = [](std::uint64_t cell) { return cube_of(cell, kCubeSide); };
+  const auto own_cube = [](std::uint64_t cell) { return cube_of(cell, kCubeSide); };
   Keys cubes;  // with all active cells and all cells near them
   for (const std::uint64_t cube :
-       keys_near_other_shares(share_of_keys(shares, cube, [](std::uint64_t) { return true; }), kCubeSide))
+       keys_near_other_shares(share_of_keys(shares, own_cube, [](std::uint64_t) { return true; }), kCubeSide))
     for_each_around(cube, kCubeSide, [&](std::uint64_t around) { cubes.insert(around); });
   const ShareOfKey share_of_cell = share_of_keys(
       shares, [](std::uint64_t cell) { return cell; },
-      [&](std::uint64_t cell) { return cubes.contains(cube(cell)); });
+      [&](std::uint64_t cell) { return cubes.contains(own_cube(cell)); });
   const Keys active = keys_near_other_shares(share_of_cell, 1);
   for (const std::uint64_t cell : active)
     for_each_around(cell, 1, [&](std::uint64_t around) {
