@@ -171,10 +171,10 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
       parse_sink(bad);
       FAIL() << bad;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(error.what(),
-                "'" + std::string(bad) +
-                    "' is not jsonl:FILE, csv:FILE, kitti:FILE, mcap:FILE[,points], rosbag2:FOLDER[,points], dds:PREFIX, "
-                    "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
+      EXPECT_EQ(error.what(), "'" + std::string(bad) +
+                                  "' is not jsonl:FILE, csv:FILE, kitti:FILE, mcap:FILE[,points], "
+                                  "rosbag2:FOLDER[,points], dds:PREFIX, "
+                                  "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
     }
   }
 }
