@@ -288,10 +288,9 @@ void write_hesai(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name :
-       {"pcd",     "ply",    "lzf",   "bin",     "number",     "text",       "mcap", "bag",
-        "packets", "ouster", "hesai", "partial", "cloud",      "compressed", "live", "nested",
-        "tiles",   "npy",    "npz",   "table",   "transforms", "urdf"})
+  for (const char* name : {"pcd",     "ply",    "lzf",   "bin",     "number", "text",       "mcap", "bag",
+                           "packets", "ouster", "hesai", "partial", "cloud",  "compressed", "live", "nested",
+                           "tiles",   "labels", "npy",   "npz",     "table",  "transforms", "urdf"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
