@@ -63,6 +63,8 @@ TEST_F(PcdBv, FormatsOfBoxesRefuseWhatTheyWouldLose) {
   EXPECT_THAT(error({"--format", "kitti", "--volume", "obb-yaw", "--up", "-y", kScene}), HasSubstr("--up"));
   EXPECT_THAT(error({"--format", "sustech", "--origin", "auto", kScene}), HasSubstr("--origin"));
   EXPECT_THAT(error({"--format", "kitti", "--object-type", "a b", kScene}), HasSubstr("'a b'"));
+  EXPECT_THAT(error({"--format", "3dtiles", "--volume", "hull", kScene}), HasSubstr("obb, aabb or sphere"));
+  EXPECT_THAT(error({"--format", "3dtiles", "--origin", "auto", kScene}), HasSubstr("--origin"));
   EXPECT_THAT(error({"--object-type", "Car", kScene}), HasSubstr("only useful with a --format of boxes"));
 }
 

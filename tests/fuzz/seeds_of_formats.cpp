@@ -16,19 +16,25 @@ void write(const fs::path& path, std::string_view content) {
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
 }
 
-// As fuzz_nested reads them.
+// As fuzz_nested reads them, with a byte that selects the reader, and as fuzz_labels reads them.
+void write_labels(const fs::path& folder, const std::string& name, const std::string& content) {
+  write(folder / "nested" / ("boxes_" + name), content);
+  write(folder / "labels" / name, content.substr(1));
+}
+
 void write_boxes(const fs::path& folder) {
   const std::string box = R"({"translation":[1,2,3],"size":[1,2,3],"rotation":[1,0,0,0]})";
-  write(folder / "nested" / "boxes_nuscenes", "\3{\"results\":{\"a\":[" + box + "]}}");
-  write(folder / "nested" / "boxes_openlabel",
-        "\3{\"openlabel\":{\"objects\":{\"0\":{\"object_data\":{\"cuboid\":[{\"val\":[1,2,3,0,0,0,1,4,5,6]},"
-        "{\"val\":[1,2,3,0,0.1,0.2,4,5,6]}]}}}}}");
-  write(folder / "nested" / "boxes_sustech",
-        "\3[{\"psr\":{\"position\":{\"x\":1,\"y\":2,\"z\":3},\"scale\":{\"x\":1,\"y\":2,\"z\":3},"
-        "\"rotation\":{\"x\":0,\"y\":0,\"z\":0.5}}}]");
-  write(folder / "nested" / "boxes_kitti",
-        "\1Car 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n"
-        "0 1 DontCare 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n");
+  write_labels(folder, "nuscenes", "\3{\"results\":{\"a\":[" + box + "]}}");
+  write_labels(
+      folder, "openlabel",
+      "\3{\"openlabel\":{\"objects\":{\"0\":{\"object_data\":{\"cuboid\":[{\"val\":[1,2,3,0,0,0,1,4,5,6]},"
+      "{\"val\":[1,2,3,0,0.1,0.2,4,5,6]}]}}}}}");
+  write_labels(folder, "sustech",
+               "\3[{\"psr\":{\"position\":{\"x\":1,\"y\":2,\"z\":3},\"scale\":{\"x\":1,\"y\":2,\"z\":3},"
+               "\"rotation\":{\"x\":0,\"y\":0,\"z\":0.5}}}]");
+  write_labels(folder, "kitti",
+               "\1Car 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n"
+               "0 1 DontCare 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 1.7 20 0.1\n");
 }
 
 void write_tile_contents(const fs::path& folder) {

@@ -19,8 +19,8 @@ bool writes_box_labels(OutputFormat format);
 /// Returns the value of --object-type. Throws UsageError if it is not a word or if the format has no types.
 std::string checked_object_type(const std::string& type, OutputFormat format);
 
-/// Throws UsageError if no method of the options makes boxes that the format can have, or if the format
-/// would lose an origin.
+/// For formats of boxes and 3D Tiles: throws UsageError if no method of the options makes volumes that the
+/// format can have, or if the format would lose an origin.
 void check_box_format(const std::string& name, const Options& options);
 
 }  // namespace pcl_bv::detail

@@ -213,7 +213,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   read_outputs(line, texts, options);
   if (line.given("--object-type"))
     options.object_type = checked_object_type(texts.object_type, options.format);
-  if (writes_box_labels(options.format)) check_box_format(texts.format, options);
+  check_box_format(texts.format, options);
   options.tiled = texts.together;
   options.threads_given = line.given("--threads");
   read_memory(line, texts, options);

@@ -16,7 +16,18 @@
 
 namespace pcl_bv::detail {
 
-enum class OutputFormat { text, json, jsonl, csv, kitti, kitti_tracking, nuscenes, openlabel, sustech, tiles };
+enum class OutputFormat {
+  text,
+  json,
+  jsonl,
+  csv,
+  kitti,
+  kitti_tracking,
+  nuscenes,
+  openlabel,
+  sustech,
+  tiles
+};
 
 /// The origin that is subtracted from all coordinates before processing.
 struct OriginOption {

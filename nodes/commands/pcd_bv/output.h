@@ -49,8 +49,8 @@ class ReportWriter {
   OutputFormat format_;
   std::optional<std::filesystem::path> file_;
   std::vector<std::string> pending_;  ///< Content of the file so far, in pieces.
-  bool begun_ = false;      ///< Whether the beginning of the output has been written.
-  bool has_piece_ = false;  ///< Whether a piece that is not empty has been written.
+  bool begun_ = false;                ///< Whether the beginning of the output has been written.
+  bool has_piece_ = false;            ///< Whether a piece that is not empty has been written.
 };
 
 }  // namespace pcl_bv::detail

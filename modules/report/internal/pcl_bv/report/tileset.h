@@ -21,7 +21,8 @@ void write_tileset(const Report& report, const ClusterSource& clusters, const Te
 
 struct TilesetUpdate {
   std::size_t tiles = 0, updated = 0;
-  std::vector<std::string> problems;  ///< One line for each tile that keeps its volume although it has content.
+  /// One line for each tile that keeps its volume although it has content.
+  std::vector<std::string> problems;
 };
 
 /// Replaces the bounding volumes of a tileset in its file, atomically. All other bytes of the file stay.
