@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 
@@ -27,6 +28,16 @@ std::string file_content(const fs::path& path) {
 void write_text(const fs::path& path, std::string_view content) {
   fs::remove(path);
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+}
+
+std::vector<double> coordinates_of(const RawCloud& cloud) {
+  std::vector<double> found;
+  const PointView points = cloud.xyz();
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    found.insert(found.end(), {p.x, p.y, p.z});
+  }
+  return found;
 }
 
 std::string FileTest::reason_for_content(std::string_view content, const std::string& extension) const {

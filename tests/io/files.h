@@ -9,13 +9,18 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "pcl_bv/io/raw_cloud.h"
 #include "temporary_folder.h"
 
 namespace pcl_bv {
 
 std::string file_content(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, std::string_view content);
+
+/// Returns the coordinates of all points, one after another.
+std::vector<double> coordinates_of(const RawCloud& cloud);
 
 /// A test with a folder that is removed after it.
 class FileTest : public testing::Test {

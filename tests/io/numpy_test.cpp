@@ -77,20 +77,10 @@ class Numpy : public FileTest {
   }
 };
 
-std::vector<double> xyz_of(const RawCloud& cloud) {
-  std::vector<double> found;
-  const PointView points = cloud.xyz();
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    found.insert(found.end(), {p.x, p.y, p.z});
-  }
-  return found;
-}
-
 TEST_F(Numpy, ArraysAreReadInBothOrders) {
   const std::string data = floats({1, 2, 3, 4, 5, 6});
-  EXPECT_THAT(xyz_of(read(npy(points("(2, 3)"), data))), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_THAT(xyz_of(read(npy(points("(2, 3)", "\n", "True"), data))), ElementsAre(1, 3, 5, 2, 4, 6));
+  EXPECT_THAT(coordinates_of(read(npy(points("(2, 3)"), data))), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(coordinates_of(read(npy(points("(2, 3)", "\n", "True"), data))), ElementsAre(1, 3, 5, 2, 4, 6));
   const RawCloud organized = read(npy(points("(1, 2, 3)"), data));
   EXPECT_EQ(organized.height, 1U);
   EXPECT_EQ(organized.width, 2U);
@@ -107,7 +97,7 @@ TEST_F(Numpy, RecordsHaveAllFields) {
   const RawCloud cloud = read(npy(dict, std::string("\7\0\0\0", 4) + floats({1, 2, 3}) + "abc"));
   EXPECT_EQ(cloud.point_step, 19U);
   EXPECT_EQ(cloud.fields.back().count, 3U);
-  EXPECT_THAT(xyz_of(cloud), ElementsAre(1, 2, 3));
+  EXPECT_THAT(coordinates_of(cloud), ElementsAre(1, 2, 3));
 }
 
 TEST_F(Numpy, LargeArraysAreReadInChunks) {
@@ -154,7 +144,7 @@ TEST_F(Numpy, ArchivesHaveStoredAndDeflatedArrays) {
   for (const bool deflate : {false, true}) {
     const RawCloud cloud =
         read(npz({{"labels.npy", "x"}, {"points.npy", array, deflate}, {"readme", "x"}}), ".npz");
-    EXPECT_THAT(xyz_of(cloud), ElementsAre(1, 2, 3, 4, 5, 6));
+    EXPECT_THAT(coordinates_of(cloud), ElementsAre(1, 2, 3, 4, 5, 6));
     EXPECT_THAT(cloud.note, HasSubstr("of 2 arrays, only 'points' is read"));
   }
   EXPECT_EQ(read(npz({{"any.npy", array}}), ".npz").note, "");

@@ -21,14 +21,7 @@ class TextCloud : public FileTest {
     return read_cloud(file("a.csv"), {0, columns});
   }
   std::vector<double> values(const std::string& text, const std::string& columns = "") const {
-    const RawCloud cloud = read(text, columns);
-    std::vector<double> found;
-    const PointView points = cloud.xyz();
-    for (std::size_t i = 0; i < points.count; ++i) {
-      const Coordinates p = load_point(points, i);
-      found.insert(found.end(), {p.x, p.y, p.z});
-    }
-    return found;
+    return coordinates_of(read(text, columns));
   }
   std::string names(const std::string& text, const std::string& columns = "") const {
     std::string all;

@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "pcl_bv/report/box_labels.h"
+#include "volume_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
 #include <sstream>
-
-#include "files.h"
-#include "pcl_bv/report/read_volumes.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -46,21 +44,7 @@ std::string file_of(const std::vector<ClusterEntry>& clusters, BoxLabelFormat fo
   return std::string(around.begin) + text + std::string(around.end);
 }
 
-class BoxLabels : public FileTest {
- protected:
-  std::vector<AnyVolume> read(const std::string& text) const {
-    write_text(file("labels"), text);
-    return read_volumes(file("labels"));
-  }
-  std::string error_of(const std::string& text) const {
-    try {
-      static_cast<void>(read(text));
-    } catch (const IoError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-};
+class BoxLabels : public VolumeFileTest {};
 
 TEST_F(BoxLabels, OfEveryFormatReadBackAsTheSameBoxes) {
   std::mt19937 random(7);

@@ -6,31 +6,16 @@
 
 #include <random>
 
-#include "files.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/report/read_volumes.h"
 #include "pcl_bv/report/report.h"
+#include "volume_files.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 using testing::HasSubstr;
 
-class ReadVolumes : public FileTest {
- protected:
-  std::vector<AnyVolume> read(const std::string& text) const {
-    write_text(file("volumes.json"), text);
-    return read_volumes(file("volumes.json"));
-  }
-  std::string error_of(const std::string& text) const {
-    try {
-      static_cast<void>(read(text));
-    } catch (const IoError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-};
+class ReadVolumes : public VolumeFileTest {};
 
 TEST_F(ReadVolumes, AreThoseOfTheReportBitByBit) {
   std::mt19937 random(7);

@@ -13,6 +13,7 @@
 #include "npy_format.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/text_cloud.h"
 
 namespace pcl_bv {
 using namespace detail;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace pcl_bv {
 using namespace detail;
@@ -84,6 +85,18 @@ const PointField* detail::find_field(const std::vector<PointField>& fields, std:
   const auto found =
       std::find_if(fields.begin(), fields.end(), [&](const PointField& field) { return field.name == name; });
   return found == fields.end() ? nullptr : &*found;
+}
+
+void detail::append_field(PointField field, RawCloud& cloud) {
+  field.offset = cloud.point_step;
+  cloud.point_step += field.bytes();
+  cloud.fields.push_back(std::move(field));
+}
+
+std::string detail::default_column_name(std::size_t column, std::size_t columns) {
+  constexpr std::array names{"x", "y", "z", "intensity"};
+  const bool named = column < 3 || (column == 3 && columns == 4);
+  return named ? names[column] : "field" + std::to_string(column + 1);
 }
 
 bool detail::is_coordinate_name(std::string_view name) {

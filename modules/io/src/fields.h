@@ -51,6 +51,16 @@ void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::
 /// Returns the first field of this name, or null.
 const PointField* find_field(const std::vector<PointField>& fields, std::string_view name);
 
+/// Files with more columns are refused.
+inline constexpr std::size_t kMaxColumns = 4096;
+
+/// Appends a field behind the last field of the record.
+void append_field(PointField field, RawCloud& cloud);
+
+/// Returns the name of a column of a file without names: x, y, z, intensity if there are four, field4 and so
+/// on.
+std::string default_column_name(std::size_t column, std::size_t columns);
+
 /// Returns whether the name is x, y, z, X, Y or Z.
 bool is_coordinate_name(std::string_view name);
 

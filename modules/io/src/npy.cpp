@@ -19,7 +19,6 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr std::size_t kMaxColumns = 4096;
 
 [[noreturn]] void invalid_npy(const std::string& what) {
   throw IoError("header: " + what);
@@ -99,9 +98,7 @@ PointField npy_field(std::string_view descr, std::string name) {
 
 void add_field(PointField field, RawCloud& cloud) {
   if (cloud.fields.size() == kMaxColumns) invalid_npy("more than 4096 columns");
-  field.offset = cloud.point_step;
-  cloud.point_step += field.bytes();
-  cloud.fields.push_back(std::move(field));
+  append_field(std::move(field), cloud);
 }
 
 // Reads [('x', '<f4'), ('rgb', 'u1', (3,)), ...].
@@ -136,12 +133,11 @@ void read_record_type(PythonText& text, RawCloud& cloud) {
 
 // Makes fields of the columns of numbers.
 void add_columns(const PointField& number, std::size_t columns, RawCloud& cloud) {
-  constexpr std::array names{"x", "y", "z", "intensity"};
   if (columns < 3) invalid_npy("the array has " + std::to_string(columns) + " columns, not 3 or more");
   if (columns > kMaxColumns) invalid_npy("more than 4096 columns");
   for (std::size_t i = 0; i < columns; ++i) {
     PointField field = number;
-    field.name = i < 3 || (i == 3 && columns == 4) ? names[i] : "field" + std::to_string(i + 1);
+    field.name = default_column_name(i, columns);
     add_field(std::move(field), cloud);
   }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The .zip files that numpy.savez() and savez_compressed() write (PKWARE's APPNOTE, 4.3): the central
-// directory at the end has the sizes and places of all arrays.
+// directory at the end has the sizes and offsets of all arrays.
 
 #include <libdeflate.h>
 
@@ -72,7 +72,7 @@ std::string zip_directory(const InputFile& file) {
     throw IoError("is no .npz file: it has no directory");
   std::size_t size = zip_number<std::uint32_t>(tail, end + 12),
               begin = zip_number<std::uint32_t>(tail, end + 16);
-  if (begin == kIn64 || size == kIn64) {  // the place of the directory is in a record before
+  if (begin == kIn64 || size == kIn64) {  // a record before it has the offset of the directory
     const std::size_t locator = tail.rfind("PK\6\7", end);
     if (locator == std::string::npos) throw IoError("its directory is damaged");
     const std::string record = bytes_at(file, zip_number<std::uint64_t>(tail, locator + 8), 56);

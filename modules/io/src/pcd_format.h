@@ -51,9 +51,6 @@ std::string format_ascii_points(const RawCloud& cloud);
 /// compressed bytes follow. Throws IoError if there are more than 4e9 bytes to compress.
 std::string compress_points(const RawCloud& cloud);
 
-/// Returns whether the name has an extension of read_text_cloud().
-bool is_text_name(const std::filesystem::path& path);
-
 /// Throws IoError with advice if the path has the extension of another known format (mesh, recording, ...).
 void refuse_other_formats(const std::filesystem::path& path);
 

@@ -114,10 +114,9 @@ void read_fields(const KeywordLines& lines, RawCloud& cloud) {
   const Words& types = words_of(lines, "TYPE", n);
   const Words counts = lines.count("COUNT") ? words_of(lines, "COUNT", n) : Words(n, "1");
   for (std::size_t i = 0; i < n; ++i) {
-    PointField field{std::string(names->second[i]), element_type(types[i]), element_size(sizes[i]),
-                     element_count(counts[i]), cloud.point_step};
-    cloud.point_step += field.bytes();
-    cloud.fields.push_back(std::move(field));
+    append_field({std::string(names->second[i]), element_type(types[i]), element_size(sizes[i]),
+                  element_count(counts[i]), 0},
+                 cloud);
   }
 }
 

@@ -134,10 +134,7 @@ bool read_contents(std::string_view start, Contents& contents, std::size_t& data
 
 void make_fields(const PlyElement& vertex, RawCloud& cloud) {
   for (const PlyProperty& property : vertex.properties) {
-    if (property.is_list) continue;
-    PointField& field = cloud.fields.emplace_back(property.value);
-    field.offset = cloud.point_step;
-    cloud.point_step += field.size;
+    if (!property.is_list) append_field(property.value, cloud);
   }
   cloud.width = vertex.count;
   require_coordinates(cloud);

@@ -17,8 +17,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::size_t kMaxTextColumns = 4096;
-
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view around = " \t\r\"'";
   const std::size_t begin = text.find_first_not_of(around);
@@ -66,12 +64,6 @@ bool is_row_of_numbers(std::string_view line, const ColumnNumbers& wanted) {
   if (wanted.size() < 3) return !words.empty() && std::all_of(words.begin(), words.end(), is_number);
   return std::all_of(wanted.begin(), wanted.end(),
                      [&](std::size_t i) { return i < words.size() && is_number(words[i]); });
-}
-
-void add_column(PointField field, RawCloud& cloud) {
-  field.offset = cloud.point_step;
-  cloud.point_step += field.bytes();
-  cloud.fields.push_back(std::move(field));
 }
 
 PointField parse_column(std::string_view text) {
@@ -141,16 +133,15 @@ void add_named_columns(const TextStart& start, RawCloud& cloud) {
   if (!fits && !start.header.empty() && !start.header_is_comment)
     throw IoError("the header has " + std::to_string(names.size()) +
                   " names, the first line of numbers has " + std::to_string(start.columns) + " values");
-  constexpr std::array usual{"x", "y", "z", "intensity"};
   for (std::size_t i = 0; i < start.columns; ++i) {
-    std::string name = i < 3 || (i == 3 && start.columns == 4) ? usual[i] : "field" + std::to_string(i + 1);
+    std::string name = default_column_name(i, start.columns);
     if (fits) {
       name = names[i];
       std::replace_if(
           name.begin(), name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
     }
     if (!is_word(name)) throw IoError("column " + std::to_string(i + 1) + " has no name in the header");
-    add_column({std::move(name), 'F', 8, 1, 0}, cloud);
+    append_field({std::move(name), 'F', 8, 1, 0}, cloud);
   }
 }
 
@@ -162,7 +153,7 @@ std::vector<PointField> parse_columns(std::string_view columns) {
     const std::size_t end = std::min(columns.find(',', at), columns.size());
     fields.push_back(parse_column(columns.substr(at, end - at)));
     at = end + 1;
-    if (fields.size() > kMaxTextColumns) throw std::invalid_argument("more than 4096 columns");
+    if (fields.size() > kMaxColumns) throw std::invalid_argument("more than 4096 columns");
     for (std::size_t i = 0; i + 1 < fields.size(); ++i)
       if (fields[i].name == fields.back().name && fields[i].name != "_")
         throw std::invalid_argument(in_quotes(fields[i].name) + " occurs twice");
@@ -180,14 +171,14 @@ PcdHeader read_text_header(const InputFile& file, std::string_view columns) {
   parse_header(file, "line of numbers", [&](std::string_view text, bool more) {
     const std::optional<TextStart> start = find_numbers(text, more, coordinate_columns(names));
     if (!start) return false;
-    if (start->columns > kMaxTextColumns) throw IoError("more than 4096 columns");
+    if (start->columns > kMaxColumns) throw IoError("more than 4096 columns");
     header.data_offset = start->begin;
     header.separator = start->separator;
     if (columns.empty()) {
       add_named_columns(*start, cloud);
     } else {
       for (PointField& field : parse_columns(columns))
-        add_column(std::move(field), cloud);
+        append_field(std::move(field), cloud);
       if (cloud.fields.size() != start->columns)
         throw IoError("the first line of numbers has " + std::to_string(start->columns) +
                       " values, not the " + std::to_string(cloud.fields.size()) + " of --columns");

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/shared/interruption.h"
@@ -20,6 +21,7 @@
 #include "ordered_results.h"
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/text_cloud.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -119,8 +121,7 @@ bool is_watched_name(const fs::path& name, const Options& options) {
   const std::string extension = lower_case_extension(name);
   if (name.string().starts_with('.')) return false;
   if (is_cloud_name(name) || extension == ".npy" || extension == ".npz") return true;
-  return !options.columns.empty() && (extension == ".csv" || extension == ".txt" || extension == ".xyz" ||
-                                      extension == ".asc" || extension == ".pts");
+  return !options.columns.empty() && is_text_name(name);
 }
 
 Status watch_folder(const Options& options) {

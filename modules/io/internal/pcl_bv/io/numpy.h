@@ -28,5 +28,5 @@ RawCloud read_npy(const std::filesystem::path& path);
 /// reach.
 RawCloud read_npz(const std::filesystem::path& path);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace
 }  // namespace pcl_bv

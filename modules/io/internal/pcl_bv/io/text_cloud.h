@@ -14,6 +14,9 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
+/// Returns whether the name has an extension of read_text_cloud().
+bool is_text_name(const std::filesystem::path& path);
+
 /// Parses names of columns, separated by commas, each with an optional type: "x,y,z,label:u4,_". Types are i,
 /// u and f with the number of bytes as in .pcd; without one, it is f8. A column "_" is not used. Throws
 /// std::invalid_argument for other texts, for repeated names, and without x, y and z (or X, Y and Z).
@@ -31,5 +34,5 @@ std::vector<PointField> parse_columns(std::string_view columns);
 RawCloud read_text_cloud(const std::filesystem::path& path, std::string_view columns = {},
                          const Execution& execution = {Serial{}, Isa::scalar});
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace
 }  // namespace pcl_bv
