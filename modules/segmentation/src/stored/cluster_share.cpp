@@ -76,6 +76,14 @@ class ShareWorker {
   std::vector<ShareBrick>& bricks_;
 };
 
+NearCells near_cells(const Bricks& bricks, const GatherCells& gather) {
+  static_assert(kHalosPerCell == 4 * kHalosPerRunCell);
+  std::vector<std::uint64_t> cells = bricks.cells();
+  for (std::uint64_t& cell : cells)
+    cell = BrickGrid::first_quarter(cell);
+  return {bricks.grid(), cells_near_others(cells, 4, gather)};
+}
+
 }  // namespace
 
 std::uint32_t run_check_sum(const std::byte* bytes, std::size_t count, std::uint32_t before) {
@@ -92,18 +100,6 @@ std::uint32_t run_check_sum(const std::byte* bytes, std::size_t count, std::uint
 std::size_t share_record_bytes(ScalarType scalar) {
   return record_bytes(scalar);
 }
-
-namespace {
-
-NearCells near_cells(const Bricks& bricks, const GatherCells& gather) {
-  static_assert(kHalosPerCell == 4 * kHalosPerRunCell);
-  std::vector<std::uint64_t> cells = bricks.cells();
-  for (std::uint64_t& cell : cells)
-    cell = BrickGrid::first_quarter(cell);
-  return {bricks.grid(), cells_near_others(cells, 4, gather)};
-}
-
-}  // namespace
 
 struct MadeClusterShare::State {
   State(const std::filesystem::path& folder, const ShareRecords& written)

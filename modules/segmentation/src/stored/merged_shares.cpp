@@ -19,8 +19,8 @@ constexpr std::size_t kRunBytes = 1U << 20U;  // of a run at a time
 
 // Returns the list that has an item, and the position of the item in it. Items are numbered over all lists;
 // `firsts` has the number of the first item of each list.
-std::pair<std::size_t, std::uint32_t> place_in_lists(const std::vector<std::uint32_t>& firsts,
-                                                     std::uint32_t item) {
+std::pair<std::size_t, std::uint32_t> list_and_position(const std::vector<std::uint32_t>& firsts,
+                                                        std::uint32_t item) {
   const auto after = std::upper_bound(firsts.begin(), firsts.end(), item);
   const auto list = static_cast<std::size_t>(after - firsts.begin()) - 1;
   return {list, item - firsts[list]};
@@ -113,14 +113,14 @@ void MergedShares::distribute(const Bricks& bricks, std::vector<SpillList>& list
     list.finish(file_);
 }
 
-void MergedShares::add_points_of_run(const RunPlace& place, bool active, const Bricks& bricks,
+void MergedShares::add_points_of_run(const RunPosition& position, bool active, const Bricks& bricks,
                                      std::size_t block, std::vector<SpillList>& lists) {
-  const ClusterShare& share = *shares_[place.share];
-  const ShareRun& run = share.runs()[place.run];
+  const ClusterShare& share = *shares_[position.share];
+  const ShareRun& run = share.runs()[position.run];
   const std::uint32_t component =
-      (run.component == ShareRun::kNoise ? kNoComponent : component_number(place.share, run.component)) |
+      (run.component == ShareRun::kNoise ? kNoComponent : component_number(position.share, run.component)) |
       (lost_.is_near(run.cell) ? kNearLost : 0);
-  PieceReader reader(file_, {place.offset, run.points, {&share, place.share, run.check_sum}}, scalar_,
+  PieceReader reader(file_, {position.offset, run.points, {&share, position.share, run.check_sum}}, scalar_,
                      kRunBytes);
   std::byte record[record_bytes(ScalarType::float64) + sizeof component];
   const std::size_t size = point_bytes(scalar_);
@@ -130,9 +130,9 @@ void MergedShares::add_points_of_run(const RunPlace& place, bool active, const B
   for (; !reader.done(); reader.next()) {
     view.data = reader.record();
     const Coordinates point = load_point(view, 0);
-    if (!is_valid(point)) throw ShareError(place.share, "has points that are not finite");
+    if (!is_valid(point)) throw ShareError(position.share, "has points that are not finite");
     if (reader.number() > kNumberMask)
-      throw ShareError(place.share, "has numbers of points that are too large");
+      throw ShareError(position.share, "has numbers of points that are too large");
     const Bricks::Place at = bricks.place(point, cursor);
     const std::uint64_t number = reader.number() | (number_of_record(reader.record(), scalar_) & kCore);
     const auto add = [&](std::uint32_t brick, std::uint64_t mark) {
@@ -143,7 +143,7 @@ void MergedShares::add_points_of_run(const RunPlace& place, bool active, const B
       lists[brick].add(file_, record, active_record_bytes(scalar_), block);
     };
     if (active) {
-      if (at.own == Bricks::kNone) throw ShareError(place.share, "its cells do not have its points");
+      if (at.own == Bricks::kNone) throw ShareError(position.share, "its cells do not have its points");
       add(at.own, at.others > 0 ? kInOtherBricks : 0);
     }
     for (std::uint32_t o = 0; o < at.others; ++o)
@@ -200,7 +200,7 @@ void MergedShares::add_group(const std::vector<std::uint32_t>& group) {
     if (set < passive_points_.size()) {
       add(set, passive_points_[set]);
     } else {
-      const auto [brick, piece] = place_in_lists(first_piece_, set);
+      const auto [brick, piece] = list_and_position(first_piece_, set);
       add(bricks_[brick].component[piece], bricks_[brick].result.pieces[piece].points);
     }
   }
@@ -215,7 +215,7 @@ void MergedShares::add_cluster(const std::vector<std::uint32_t>& group, std::uin
   std::optional<ComponentOfShare> component;
   StoredCluster cluster{StoredCluster::kNoPoints, points, 0};
   if (only < passive_points_.size()) {
-    const auto [share, number] = place_in_lists(first_component_, only);
+    const auto [share, number] = list_and_position(first_component_, only);
     const ShareComponent& whole = shares_[share]->components()[number];
     if (whole.points == points) component = {share, number};
     cluster.first_number = whole.first_number + shares_[share]->first_number;
@@ -230,7 +230,7 @@ void MergedShares::add_cluster(const std::vector<std::uint32_t>& group, std::uin
 bool MergedShares::is_incomplete(const std::vector<std::uint32_t>& group) const {
   return std::any_of(group.begin(), group.end(), [&](std::uint32_t set) {
     if (set < is_near_lost_.size()) return is_near_lost_[set] != 0;
-    const auto [brick, piece] = place_in_lists(first_piece_, set);
+    const auto [brick, piece] = list_and_position(first_piece_, set);
     return bricks_[brick].is_near_lost[piece] != 0;
   });
 }
@@ -239,14 +239,15 @@ std::vector<Piece> MergedShares::pieces_of(const std::vector<std::uint32_t>& gro
   std::vector<Piece> pieces;
   for (const std::uint32_t set : group) {
     if (set >= passive_points_.size()) {
-      const auto [brick, piece] = place_in_lists(first_piece_, set);
+      const auto [brick, piece] = list_and_position(first_piece_, set);
       pieces.push_back(bricks_[brick].result.pieces[piece]);
       continue;
     }
     for (std::uint64_t i = first_run_[set]; i < first_run_[set + 1]; ++i) {
-      const RunPlace& place = passive_runs_[i];
-      const ShareRun& run = shares_[place.share]->runs()[place.run];
-      pieces.push_back({place.offset, run.points, {shares_[place.share], place.share, run.check_sum}});
+      const RunPosition& position = passive_runs_[i];
+      const ShareRun& run = shares_[position.share]->runs()[position.run];
+      pieces.push_back(
+          {position.offset, run.points, {shares_[position.share], position.share, run.check_sum}});
     }
   }
   return pieces;

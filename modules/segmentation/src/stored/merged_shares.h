@@ -37,7 +37,7 @@ class MergedShares {
 
  private:
   // A run, and the share that has it.
-  struct RunPlace {
+  struct RunPosition {
     std::uint32_t share;
     std::uint32_t run;
     std::uint64_t offset;  // of its first byte in the share
@@ -45,7 +45,7 @@ class MergedShares {
 
   void count_runs(const ParallelPolicy& policy, Bricks& bricks);
   void distribute(const Bricks& bricks, std::vector<SpillList>& lists);
-  void add_points_of_run(const RunPlace& place, bool active, const Bricks& bricks, std::size_t block,
+  void add_points_of_run(const RunPosition& position, bool active, const Bricks& bricks, std::size_t block,
                          std::vector<SpillList>& lists);
   void cluster_active(const Bricks& bricks, const std::vector<SpillList>& lists, const Execution& execution);
   void join();
@@ -67,7 +67,7 @@ class MergedShares {
   std::vector<std::uint32_t> first_component_;  // of each share, among all components
   std::vector<std::uint64_t> passive_points_;   // of each component
   std::vector<std::uint8_t> is_near_lost_;      // for each component, whether it has points near lost ones
-  std::vector<RunPlace> passive_runs_;          // by component
+  std::vector<RunPosition> passive_runs_;       // by component
   std::vector<std::uint64_t> first_run_;        // of each component, in passive_runs_; then their number
   std::vector<ActiveBrick> bricks_;
   std::vector<std::uint32_t> first_piece_;  // of each brick, among all sets; components come first

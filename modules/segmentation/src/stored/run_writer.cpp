@@ -73,23 +73,31 @@ BrickRuns RunWriter::make(const std::vector<std::byte>& records) {
     }
     const std::uint32_t component = p < pieces ? static_cast<std::uint32_t>(p) : ShareRun::kNoise;
     if (first == end) continue;
-    find_cells(view, first, end, is_near_[p] != 0);
-    if (is_near_[p] != 0 || (p < pieces && brick.is_complete[p] == 0)) {
-      add_runs(records, first, end, component, brick.runs);
-    } else {
-      brick.runs.push_back({cell_[order_[first]], end - first, component, ShareRun::kNotWritten});
+    const std::uint64_t first_cell = cell_of(view, first);
+    if (is_near_[p] == 0 && (p == pieces || brick.is_complete[p] != 0)) {
+      brick.runs.push_back({first_cell, end - first, component, ShareRun::kNotWritten});
+      continue;
     }
+    if (is_near_[p] != 0) {
+      find_cells(view, first, end);
+    } else {  // one run
+      for (std::size_t i = first; i < end; ++i)
+        cell_[order_[i]] = first_cell;
+    }
+    add_runs(records, first, end, component, brick.runs);
   }
   return brick;
 }
 
-// Sets the cells of the records of a piece. If not exact, all get the cell of the first record.
-void RunWriter::find_cells(const PointView& view, std::size_t first, std::size_t end, bool exact) {
-  GridCell cell = grid_.cell_of(grid_.scaled(load_point(view, order_[first])));
+std::uint64_t RunWriter::cell_of(const PointView& view, std::size_t position) const {
+  return grid_.cell_of(grid_.scaled(load_point(view, order_[position]))).key;
+}
+
+void RunWriter::find_cells(const PointView& view, std::size_t first, std::size_t end) {
+  GridCell cell;
   for (std::size_t i = first; i < end; ++i) {
-    if (exact)
-      if (const auto at = grid_.scaled(load_point(view, order_[i])); !cell.contains(at))
-        cell = grid_.cell_of(at);
+    const auto at = grid_.scaled(load_point(view, order_[i]));
+    if (!cell.contains(at)) cell = grid_.cell_of(at);
     cell_[order_[i]] = cell.key;
   }
 }

@@ -61,7 +61,8 @@ class RunWriter {
  private:
   void sort(const std::vector<std::byte>& records, std::size_t piece_count);
   std::uint32_t piece_of(std::size_t record) const;
-  void find_cells(const PointView& view, std::size_t first, std::size_t end, bool exact);
+  std::uint64_t cell_of(const PointView& view, std::size_t position) const;
+  void find_cells(const PointView& view, std::size_t first, std::size_t end);
   void add_runs(const std::vector<std::byte>& records, std::size_t first, std::size_t end,
                 std::uint32_t component, std::vector<ShareRun>& runs);
 
