@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Takes numbers from untrusted JSON. Errors name the key, what is wanted and the value.
+// Takes numbers from untrusted JSON. Errors name the key, the allowed kind of value and the value.
 #pragma once
 
 #include <Eigen/Core>

@@ -202,10 +202,6 @@ std::vector<AnyVolume> volumes_in(std::string_view text) {
   return volumes;
 }
 
-}  // namespace
-
-namespace {
-
 VolumeEntry read_entry(const Json& json) {
   VolumeEntry entry;
   entry.method = member(json, "method").get<std::string>();

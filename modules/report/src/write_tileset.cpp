@@ -47,7 +47,7 @@ void write_tileset(const Report& report, const ClusterSource& clusters, const Te
   if (tiles == 0) all = Aabb(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   std::string text;
   JsonText json(text);
-  const double size = (all.max() - all.min()).norm();  // what is wrong by leaving all tiles out
+  const double size = (all.max() - all.min()).norm();  // the error if no tile is shown
   json.begin('{').key("asset").begin('{').add("version", "1.1").add("generator", "pcl_bv").end('}');
   json.add("geometricError", size).key("root").begin('{').key("boundingVolume");
   add_tile_volume(Obb(all), json);

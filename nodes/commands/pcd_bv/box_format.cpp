@@ -34,13 +34,25 @@ OutputFormat read_output_format(const std::string& name) {
   return read_name(kFormats, name);
 }
 
-bool writes_box_labels(OutputFormat format) {
-  return is_kitti(format) || format == OutputFormat::nuscenes || format == OutputFormat::openlabel ||
-         format == OutputFormat::sustech;
+std::optional<BoxLabelFormat> box_label_format(OutputFormat format) {
+  switch (format) {
+    case OutputFormat::kitti:
+      return BoxLabelFormat::kitti;
+    case OutputFormat::kitti_tracking:
+      return BoxLabelFormat::kitti_tracking;
+    case OutputFormat::nuscenes:
+      return BoxLabelFormat::nuscenes;
+    case OutputFormat::openlabel:
+      return BoxLabelFormat::openlabel;
+    case OutputFormat::sustech:
+      return BoxLabelFormat::sustech;
+    default:
+      return std::nullopt;
+  }
 }
 
 std::string checked_object_type(const std::string& type, OutputFormat format) {
-  if (!writes_box_labels(format))
+  if (!box_label_format(format))
     throw UsageError("--object-type: only useful with a --format of boxes, such as kitti");
   const bool printable = std::none_of(type.begin(), type.end(), [](char c) { return c >= 0 && c < ' '; });
   if (!printable || (is_kitti(format) && type.find(' ') != std::string::npos))
@@ -50,7 +62,7 @@ std::string checked_object_type(const std::string& type, OutputFormat format) {
 
 void check_box_format(const std::string& name, const Options& options) {
   const bool kitti = is_kitti(options.format), tiles = options.format == OutputFormat::tiles;
-  if (!tiles && !writes_box_labels(options.format)) return;
+  if (!tiles && !box_label_format(options.format)) return;
   const std::string format = "--format " + name;
   if (options.origin.requested) throw UsageError("--origin: cannot be combined with " + format);
   const Eigen::Vector3d& up = options.pipeline.ground.up;

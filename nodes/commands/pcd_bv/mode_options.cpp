@@ -50,8 +50,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
          "--origin auto and --cluster over ranks");
   if (!options.merge && !options.partial) return;
   reject_combinations(line, option, {"--image", "--view-html", "--info"});
-  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--objects"});
-  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--check"});
+  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--objects", "--check"});
   if (options.merge)
     reject_combinations(line, option,
                         {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "class_points.h"
-#include "commands/shared/interruption.h"
 #include "commands/shared/messages.h"
 #include "object_fitter.h"
 #include "object_list.h"
@@ -139,7 +138,6 @@ class ClassMerger {
   // Returns false if texts are damaged. They are not used in the next attempt.
   bool attempt(ObjectList& list, double& fit_seconds) {
     StoredClusterOptions store = store_options(options_, shares_.front()->scalar());
-    store.has_labels = false;
     store.is_known = [&](const ComponentOfShare& component) {
       return !options_.objects && has_volumes(component);
     };

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "box_format.h"
 #include "commands/shared/standard_streams.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/report/csv.h"
@@ -20,23 +21,6 @@ namespace {
 struct SurroundingTexts {
   std::string begin, between, end;
 };
-
-std::optional<BoxLabelFormat> box_label_format(OutputFormat format) {
-  switch (format) {
-    case OutputFormat::kitti:
-      return BoxLabelFormat::kitti;
-    case OutputFormat::kitti_tracking:
-      return BoxLabelFormat::kitti_tracking;
-    case OutputFormat::nuscenes:
-      return BoxLabelFormat::nuscenes;
-    case OutputFormat::openlabel:
-      return BoxLabelFormat::openlabel;
-    case OutputFormat::sustech:
-      return BoxLabelFormat::sustech;
-    default:
-      return std::nullopt;
-  }
-}
 
 SurroundingTexts surrounding_texts(OutputFormat format) {
   if (const auto labels = box_label_format(format)) {

@@ -35,10 +35,6 @@ Prism footprint_of(const FrameResult& result, std::size_t cluster) {
 
 }  // namespace
 
-const TrackEntry* track_of(const FrameResult& result, std::size_t cluster) {
-  return result.tracks.empty() || !result.tracks[cluster] ? nullptr : &*result.tracks[cluster];
-}
-
 std::vector<Footprint> footprints_of(const Frame& frame, const FrameResult& result) {
   std::vector<Footprint> all;
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
@@ -48,7 +44,7 @@ std::vector<Footprint> footprints_of(const Frame& frame, const FrameResult& resu
     footprint.distance = std::numeric_limits<double>::infinity();
     for (const msg::Point32& p : footprint.message.polygon.points)
       footprint.distance = std::min(footprint.distance, Eigen::Vector3d(p.x, p.y, p.z).norm());
-    const TrackEntry* const track = track_of(result, i);
+    const TrackEntry* const track = result.track_of(i);
     footprint.id = track != nullptr ? track->id : -1 - static_cast<std::int64_t>(i);
     all.push_back(std::move(footprint));
   }

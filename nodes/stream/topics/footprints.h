@@ -24,7 +24,4 @@ struct Footprint {
 /// out.
 std::vector<Footprint> footprints_of(const Frame& frame, const FrameResult& result);
 
-/// Returns the track of a cluster, or null.
-const TrackEntry* track_of(const FrameResult& result, std::size_t cluster);
-
 }  // namespace pcl_bv::detail

@@ -121,11 +121,11 @@ class MoveItAdapter final : public MessageAdapter {
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       const AnyVolume& volume = result.volume(cluster, m);
       if (!result.is_requested(cluster, m) || empty(volume)) continue;
-      const bool tracked = !result.tracks.empty() && result.tracks[cluster];
+      const TrackEntry* const track = result.track_of(cluster);
       msg::CollisionObject object;
       object.header = header_;
-      object.id = kPrefix + (tracked ? std::to_string(result.tracks[cluster]->id)
-                                     : "cluster_" + std::to_string(cluster));
+      object.id =
+          kPrefix + (track != nullptr ? std::to_string(track->id) : "cluster_" + std::to_string(cluster));
       std::visit(AddShape{object}, volume);
       if (!is_finite(object)) return;
       msg::ObjectColor& colour = scene_.object_colors.emplace_back();

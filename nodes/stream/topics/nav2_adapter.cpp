@@ -114,7 +114,7 @@ class Nav2Adapter final : public MessageAdapter {
     for (std::size_t i = 0; i < result.clusters.size(); ++i) {
       const Aabb box = common_box(result, i);
       if (box.empty()) continue;
-      const TrackEntry* const track = track_of(result, i);
+      const TrackEntry* const track = result.track_of(i);
       const Eigen::Vector3d centre = box.center(), size = box.max() - box.min();
       msg::Obstacle obstacle;
       obstacle.uuid = uuid_of(track, i);

@@ -52,11 +52,11 @@ void add_facts(const FrameResult& result, std::size_t cluster, msg::SceneEntity&
   };
   add("points", std::to_string(result.clusters.list_size(cluster)));
   if (!result.class_of.empty()) add("class", std::to_string(result.class_of[cluster]));
-  if (result.tracks.empty() || !result.tracks[cluster]) return;
-  const TrackEntry& track = *result.tracks[cluster];
-  add("age", std::to_string(track.age) + " frames");
-  add("speed", metres(track.velocity.norm()) + " m/s");
-  add("moving", track.moving ? "yes" : "no");
+  const TrackEntry* const track = result.track_of(cluster);
+  if (track == nullptr) return;
+  add("age", std::to_string(track->age) + " frames");
+  add("speed", metres(track->velocity.norm()) + " m/s");
+  add("moving", track->moving ? "yes" : "no");
 }
 
 }  // namespace

@@ -111,12 +111,12 @@ VolumeShape box_of(const FrameResult& result, std::size_t cluster) {
 }
 
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster) {
-  const bool tracked = !result.tracks.empty() && result.tracks[cluster];
-  return kColours[(tracked ? result.tracks[cluster]->id : cluster) % std::size(kColours)];
+  const TrackEntry* const track = result.track_of(cluster);
+  return kColours[(track != nullptr ? track->id : cluster) % std::size(kColours)];
 }
 
 std::string object_id(const FrameResult& result, std::size_t cluster) {
-  if (!result.tracks.empty() && result.tracks[cluster]) return std::to_string(result.tracks[cluster]->id);
+  if (const TrackEntry* const track = result.track_of(cluster)) return std::to_string(track->id);
   return "cluster " + std::to_string(cluster);
 }
 

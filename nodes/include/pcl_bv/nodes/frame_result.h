@@ -109,9 +109,7 @@ struct DeskewResult {
   DeskewTimes times;
   PointView points;  ///< All points of the frame, until the pipeline's next process(). Empty unless moved.
 
-  bool moved() const {
-    return outcome == DeskewOutcome::by_poses || outcome == DeskewOutcome::by_tracks;
-  }
+  bool moved() const { return outcome == DeskewOutcome::by_poses || outcome == DeskewOutcome::by_tracks; }
 };
 
 /// Everything found in one frame. A reused object keeps its capacity. Indices are those of the frame's cloud.
@@ -161,6 +159,11 @@ struct FrameResult {
   /// For each volume: the result of its fit. A failed fit leaves the volume empty.
   std::vector<EstimationResult> results;
   StageTimes ms;
+
+  /// Returns the track of a cluster, or null if tracking is off or the cluster has no confirmed track.
+  const TrackEntry* track_of(std::size_t cluster) const {
+    return tracks.empty() || !tracks[cluster] ? nullptr : &*tracks[cluster];
+  }
 
   /// Returns the volume of a cluster by `methods[method]`.
   const AnyVolume& volume(std::size_t cluster, std::size_t method) const {
@@ -255,4 +258,4 @@ class FrameWarnings {
   bool searched_ = false;       // whether little ground has led to a search for another up direction
 };
 
-}  // namespace pcl_bv
+}  // namespace

@@ -201,13 +201,13 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
     if (!result.class_of.empty()) hypothesis.hypothesis.class_id = std::to_string(result.class_of[i]);
     hypothesis.hypothesis.score = 1;
     topics::set_pose(box, hypothesis.pose.pose);
-    if (result.tracks.empty() || !result.tracks[i]) continue;
-    const TrackEntry& track = *result.tracks[i];
-    detection.id = std::to_string(track.id);
+    const TrackEntry* const track = result.track_of(i);
+    if (track == nullptr) continue;
+    detection.id = std::to_string(track->id);
     // diagonal of x, y, z in the packed upper triangle of a 6 x 6 matrix
     for (std::size_t axis = 0; axis < 3; ++axis) {
       constexpr std::size_t diagonal[] = {0, 6, 11};
-      hypothesis.pose.covariance[7 * axis] = track.covariance[diagonal[axis]];
+      hypothesis.pose.covariance[7 * axis] = track->covariance[diagonal[axis]];
     }
   }
 }
@@ -260,10 +260,10 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
     return marker;
   };
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
-    const bool tracked = !result.tracks.empty() && result.tracks[i];
+    const TrackEntry* const track = result.track_of(i);
     // Clusters without a track get negative ids, which no track has.
     const auto id =
-        tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
+        track != nullptr ? static_cast<std::int32_t>(track->id) : -1 - static_cast<std::int32_t>(i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       if (!result.is_requested(i, m) || empty(result.volume(i, m))) continue;
       const VolumeShape& volume = volumes[i * result.methods.size() + m];
@@ -389,4 +389,4 @@ class StreamHealth {
   double slowest_ms_ = 0;
 };
 
-}  // namespace pcl_bv
+}  // namespace
