@@ -59,8 +59,8 @@ TestCloud<float> nasty_clusters(std::vector<std::size_t>& offsets) {
 std::size_t count_found(const GpuCloud& cloud, const std::vector<std::size_t>& offsets,
                         detail::DirectionSet set) {
   const detail::DeviceClusters clusters{{offsets.begin(), offsets.end()}, nullptr};
-  const std::vector<bool> found = detail::find_slabs(cloud.on_device(), clusters, set).found;
-  return static_cast<std::size_t>(std::count(found.begin(), found.end(), true));
+  const std::vector<std::uint8_t> found = detail::find_slabs(cloud.on_device(), clusters, set, {}).found;
+  return static_cast<std::size_t>(std::count(found.begin(), found.end(), 1));
 }
 
 TEST(ClusterFits, HaveTheBitsOfTheProcessorOnNastyClusters) {

@@ -12,6 +12,7 @@
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/gpu/gpu_fit.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/select_points.h"
 #include "pcl_bv/volumes/kdop_sets.h"
 
@@ -51,33 +52,35 @@ class ClusterFitter {
     const std::size_t count = clusters_.size();
     fits_.results_.resize(count);
     fits_.others_.resize(fits_.methods_.size());
-    std::vector<bool> found(count);
+    std::vector<std::uint8_t> found(count);
     if (set_) found = find_on_device();
     fit_on_processor(found);
     return std::move(fits_);
   }
 
  private:
-  std::vector<bool> find_on_device() {
+  std::vector<std::uint8_t> find_on_device() {
     const std::size_t count = clusters_.size(), directions = direction_count(*set_);
     for (std::size_t k = 0; k < directions; ++k)
       fits_.directions_.push_back(cube_direction(*set_, k));
     if (!can_find_slabs(cloud_, clusters_.indices != nullptr)) {
-      fits_.slabs_.resize(2 * directions * count);
-      return std::vector<bool>(count);
+      fits_.slabs_ = make_slabs(directions, count);
+      return std::vector<std::uint8_t>(count);
     }
-    ClusterSlabs slabs = find_slabs(cloud_, clusters_, *set_);
-    for (std::size_t c = 0; c < count; ++c) {
-      if (!slabs.found[c]) continue;
-      const std::size_t points = clusters_.offsets[c + 1] - clusters_.offsets[c];
-      fits_.results_[c] = {EstimationStatus::ok, 3, slabs.valid[c], points - slabs.valid[c], {}};
-    }
+    ClusterSlabs slabs = find_slabs(cloud_, clusters_, *set_, execution_);
+    for_each_range(execution_.parallel, count, 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        if (slabs.found[c] == 0) continue;
+        const std::size_t points = clusters_.offsets[c + 1] - clusters_.offsets[c];
+        fits_.results_[c] = {EstimationStatus::ok, 3, slabs.valid[c], points - slabs.valid[c], {}};
+      }
+    });
     fits_.slabs_ = std::move(slabs.slabs);
     return std::move(slabs.found);
   }
 
   // Fits what the device has not found, and the methods that are not made of slabs.
-  void fit_on_processor(const std::vector<bool>& found) {
+  void fit_on_processor(const std::vector<std::uint8_t>& found) {
     for (std::size_t m = 0; m < fits_.methods_.size(); ++m) {
       if (slab_directions(*fits_.methods_[m])) continue;
       fits_.others_[m].resize(clusters_.size());
@@ -85,7 +88,7 @@ class ClusterFitter {
     }
     std::vector<std::size_t> numbers;
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
-      if (!other_methods_.empty() || !found[c]) numbers.push_back(c);
+      if (!other_methods_.empty() || found[c] == 0) numbers.push_back(c);
     }
     if (numbers.empty()) return;
     std::vector<std::byte> storage;
@@ -93,7 +96,7 @@ class ClusterFitter {
     for_each_view(
         views,
         [&](std::size_t i, const Execution& own) {
-          fit_cluster(numbers[i], views[i], !found[numbers[i]], own);
+          fit_cluster(numbers[i], views[i], found[numbers[i]] == 0, own);
         },
         execution_);
   }

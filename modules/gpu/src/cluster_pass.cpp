@@ -3,8 +3,15 @@
 
 #include "cluster_pass.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstring>
+#include <deque>
+#include <new>
+#include <optional>
+
+#include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -47,65 +54,79 @@ std::vector<ClusterSlice> slices_of(const DevicePoints& cloud, const DeviceClust
   return slices;
 }
 
-// Runs one dispatch after another with the same buffers.
+// Clusters whose results one task copies.
+constexpr std::size_t kCopiedClusters = 2048;
+
+// What all slices have in common.
+struct SlabSearch {
+  const DevicePoints& cloud;
+  const DeviceClusters& clusters;
+  const ComputePipeline& pipeline;
+  std::size_t words;  // of the results of a cluster
+  std::size_t most_clusters, most_indices;
+};
+
+// The buffers of one slice at a time. Two of them take turns, so that the device computes one slice while the
+// processor copies the results of the one before it.
 class SlabPass {
  public:
-  SlabPass(const DevicePoints& cloud, const DeviceClusters& clusters, DirectionSet set,
-           std::size_t most_clusters, std::size_t most_indices, ClusterSlabs& out)
-      : cloud_(cloud),
-        clusters_(clusters),
-        pipeline_(cloud.context()->pipeline(
-            Shader::clusters,
-            {static_cast<std::uint32_t>(set), cloud.stride_words(), clusters.indices != nullptr ? 1U : 0U})),
-        words_(2 + 4 * direction_count(set)),
-        out_(out),
-        input_bytes_(4 * (most_clusters + 1 + most_indices)),
-        offsets_(*cloud.context(), 4 * (most_clusters + 1), BufferUse::device),
-        indices_(*cloud.context(), 4 * most_indices, BufferUse::device),
-        results_(*cloud.context(), 4 * words_ * most_clusters, BufferUse::device),
-        input_(*cloud.context(), input_bytes_, BufferUse::upload),
-        answer_(*cloud.context(), 4 * words_ * most_clusters, BufferUse::download) {}
+  explicit SlabPass(const SlabSearch& search)
+      : search_(search),
+        offsets_(context(), 4 * (search.most_clusters + 1), BufferUse::device),
+        indices_(context(), 4 * search.most_indices, BufferUse::device),
+        results_(context(), 4 * search.words * search.most_clusters, BufferUse::device),
+        input_(context(), 4 * (search.most_clusters + 1 + search.most_indices), BufferUse::upload),
+        answer_(context(), 4 * search.words * search.most_clusters, BufferUse::download) {}
 
-  void run(const ClusterSlice& slice) {
-    const std::uint32_t* const offsets = &clusters_.offsets[slice.first];
+  void start(const ClusterSlice& slice) {
+    slice_ = slice;
+    const std::uint32_t* const offsets = &search_.clusters.offsets[slice.first];
     const std::size_t offset_bytes = 4 * (slice.count + 1), points = offsets[slice.count] - offsets[0];
     std::memcpy(input_.mapped(), offsets, offset_bytes);
-    Submission submission(cloud_.context());
-    submission.copy(input_, 0, offsets_, 0, offset_bytes);
-    if (clusters_.indices != nullptr && points > 0) {
-      std::memcpy(input_.mapped() + offset_bytes, clusters_.indices + offsets[0], 4 * points);
-      submission.copy(input_, offset_bytes, indices_, 0, 4 * points);
+    submission_.emplace(search_.cloud.context());
+    submission_->copy(input_, 0, offsets_, 0, offset_bytes);
+    if (search_.clusters.indices != nullptr && points > 0) {
+      std::memcpy(input_.mapped() + offset_bytes, search_.clusters.indices + offsets[0], 4 * points);
+      submission_->copy(input_, offset_bytes, indices_, 0, 4 * points);
     }
-    const PointPart& first = cloud_.parts()[slice.part];
-    const PointPart& second = cloud_.parts()[std::min(slice.part + 1, cloud_.parts().size() - 1)];
+    const std::vector<PointPart>& parts = search_.cloud.parts();
+    const PointPart &first = parts[slice.part], &second = parts[std::min(slice.part + 1, parts.size() - 1)];
     const SlicePush push{first.first_word, second.first_word, static_cast<std::uint32_t>(first.first),
                          static_cast<std::uint32_t>(first.count), offsets[0]};
-    submission.dispatch(pipeline_,
-                        {first.binding, second.binding, {offsets_.get()}, {indices_.get()}, {results_.get()}},
-                        push, static_cast<std::uint32_t>(slice.count));
-    submission.copy(results_, 0, answer_, 0, 4 * words_ * slice.count);
-    submission.run();
-    for (std::size_t c = 0; c < slice.count; ++c)
-      take(slice.first + c, answer_.mapped() + 4 * words_ * c);
+    submission_->dispatch(
+        search_.pipeline,
+        {first.binding, second.binding, {offsets_.get()}, {indices_.get()}, {results_.get()}}, push,
+        static_cast<std::uint32_t>(slice.count));
+    submission_->copy(results_, 0, answer_, 0, 4 * search_.words * slice.count);
+    submission_->start();
+  }
+
+  void finish(ClusterSlabs& out, const Execution& execution) {
+    submission_->wait();
+    submission_.reset();
+    for_each_range(execution.parallel, slice_.count, kCopiedClusters,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t c = begin; c < end; ++c)
+                       take(slice_.first + c, answer_.mapped() + 4 * search_.words * c, out);
+                   });
   }
 
  private:
-  void take(std::size_t cluster, const std::byte* words) {
+  GpuContext& context() const { return *search_.cloud.context(); }
+
+  static void take(std::size_t cluster, const std::byte* words, ClusterSlabs& out) {
     std::uint32_t head[2];
     std::memcpy(head, words, sizeof head);
-    out_.valid[cluster] = head[0];
-    out_.found[cluster] = head[1] != 0;
+    out.valid[cluster] = head[0];
+    out.found[cluster] = head[1] != 0;
     if (head[1] == 0) return;
-    std::memcpy(&out_.slabs[2 * cluster * out_.directions], words + sizeof head, 16 * out_.directions);
+    std::memcpy(&out.slabs[2 * cluster * out.directions], words + sizeof head, 16 * out.directions);
   }
 
-  const DevicePoints& cloud_;
-  const DeviceClusters& clusters_;
-  const ComputePipeline& pipeline_;
-  std::size_t words_;  // of the results of a cluster
-  ClusterSlabs& out_;
-  std::size_t input_bytes_;
+  const SlabSearch& search_;
+  ClusterSlice slice_{};
   ScratchBuffer offsets_, indices_, results_, input_, answer_;
+  std::optional<Submission> submission_;  // destroyed, and waited for, before the buffers
 };
 
 }  // namespace
@@ -117,24 +138,46 @@ bool can_find_slabs(const DevicePoints& cloud, bool lists) {
   return !lists && cloud.parts().front().count >= kLargestCluster;
 }
 
-ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& clusters, DirectionSet set) {
+std::shared_ptr<double[]> make_slabs(std::size_t directions, std::size_t clusters) {
+  constexpr std::align_val_t huge_page{std::size_t{2} << 20};
+  const std::size_t bytes = 2 * sizeof(double) * directions * clusters;
+  if (bytes < 2 * static_cast<std::size_t>(huge_page))
+    return std::shared_ptr<double[]>(new double[2 * directions * clusters]);
+  void* const memory = ::operator new(bytes, huge_page);
+  ::madvise(memory, bytes, MADV_HUGEPAGE);
+  return {static_cast<double*>(memory), [](double* slabs) { ::operator delete(slabs, huge_page); }};
+}
+
+ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& clusters, DirectionSet set,
+                        const Execution& execution) {
   ClusterSlabs out;
   out.directions = direction_count(set);
-  out.slabs.resize(2 * out.directions * clusters.size());
+  out.slabs = make_slabs(out.directions, clusters.size());
   out.valid.resize(clusters.size());
   out.found.resize(clusters.size());
   const std::vector<ClusterSlice> slices = slices_of(cloud, clusters);
-  std::size_t most_clusters = 0, most_indices = 0;
-  for (const ClusterSlice& slice : slices) {
-    most_clusters = std::max(most_clusters, slice.count);
-    if (clusters.indices != nullptr)
-      most_indices = std::max<std::size_t>(
-          most_indices, clusters.offsets[slice.first + slice.count] - clusters.offsets[slice.first]);
-  }
   if (slices.empty()) return out;
-  SlabPass pass(cloud, clusters, set, most_clusters, most_indices, out);
-  for (const ClusterSlice& slice : slices)
-    pass.run(slice);
+  SlabSearch search{
+      cloud,
+      clusters,
+      cloud.context()->pipeline(Shader::clusters, {static_cast<std::uint32_t>(set), cloud.stride_words(),
+                                                   clusters.indices != nullptr ? 1U : 0U}),
+      2 + 4 * out.directions,
+      0,
+      0};
+  for (const ClusterSlice& slice : slices) {
+    search.most_clusters = std::max(search.most_clusters, slice.count);
+    if (clusters.indices != nullptr)
+      search.most_indices = std::max<std::size_t>(
+          search.most_indices, clusters.offsets[slice.first + slice.count] - clusters.offsets[slice.first]);
+  }
+  std::deque<SlabPass> passes;
+  for (std::size_t i = 0; i < std::min<std::size_t>(slices.size(), 2); ++i)
+    passes.emplace_back(search).start(slices[i]);
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    passes[i % 2].finish(out, execution);
+    if (i + 2 < slices.size()) passes[i % 2].start(slices[i + 2]);
+  }
   return out;
 }
 

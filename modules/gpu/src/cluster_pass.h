@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "device_points.h"
@@ -25,9 +26,9 @@ struct ClusterSlabs {
   std::size_t directions = 0;
   /// For cluster c and direction k, elements 2 (c * directions + k) and the next one are the minimum and the
   /// maximum.
-  std::vector<double> slabs;
+  std::shared_ptr<double[]> slabs;
   std::vector<std::uint32_t> valid;  ///< Number of valid points of each cluster.
-  std::vector<bool> found;           ///< Whether the slabs of a cluster are known, which then has rank 3.
+  std::vector<std::uint8_t> found;   ///< Whether the slabs of a cluster are known, which then has rank 3.
 };
 
 /// Clusters with more points are not found.
@@ -38,6 +39,11 @@ inline constexpr std::size_t kLargestCluster = 32768;
 bool can_find_slabs(const DevicePoints& cloud, bool lists);
 
 /// Finds the slabs of clusters. can_find_slabs() must be true. Throws GpuError.
-ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& clusters, DirectionSet set);
+ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& clusters, DirectionSet set,
+                        const Execution& execution);
+
+/// Returns an array whose elements have no value yet. That of 10^6 clusters has 208 MB, so it gets huge
+/// pages: setting it to 0, or 52 000 faults of small pages, would take longer than everything else.
+std::shared_ptr<double[]> make_slabs(std::size_t directions, std::size_t clusters);
 
 }  // namespace pcl_bv::detail

@@ -29,8 +29,10 @@ std::optional<Supports> supports_on_device(const DevicePoints& cloud, DirectionS
   if (bounds) return supports_of_bounds(points, found.low, found.high, found.dropped, execution);
   if (!found.complete) return std::nullopt;
   std::vector<std::byte> storage;
-  Supports supports =
-      find_supports_among(points, cloud.blocks(found.candidates, storage), set, found.dropped, execution);
+  std::vector<std::int32_t> near = found.near_points;
+  const std::vector<PointView> candidates =
+      near.empty() ? cloud.blocks(found.candidates, storage) : std::vector<PointView>{cloud.gathered(near)};
+  Supports supports = find_supports_among(points, candidates, set, found.dropped, execution);
   if (!cloud.rounded()) require_same_box(found, supports);
   return supports;
 }

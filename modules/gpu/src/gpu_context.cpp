@@ -4,6 +4,7 @@
 #include "gpu_context.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "compute_pipeline.h"
 #include "device_buffer.h"
@@ -19,8 +20,15 @@ constexpr std::size_t kLargestBinding = std::size_t{128} << 20;
 // that hangs does not always say so.
 constexpr std::uint64_t kNanosecondsToWait = 600'000'000'000;
 
-// The memory of free buffers. The results of 65535 clusters take 14 MiB, on the device and mapped.
-constexpr std::size_t kMostFreeBytes = std::size_t{64} << 20;
+// Waits shorter than this poll: a driver takes 20 to 40 us to wake a thread that sleeps, as long as it takes
+// to process 10^6 points. Software drivers need the processor for themselves.
+constexpr std::chrono::microseconds kTimeToPoll(1000);
+
+constexpr std::uint32_t kBuffersPerSet = 8;
+
+// The memory of free buffers. The results of 65535 clusters take 14 MiB, on the device and mapped, and two
+// such slices are computed at a time.
+constexpr std::size_t kMostFreeBytes = std::size_t{128} << 20;
 
 }  // namespace
 
@@ -165,17 +173,7 @@ CommandSlot GpuContext::borrow_slot() {
   }
   CommandSlot slot;
   try {
-    auto pool = vulkan_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-    pool.queueFamilyIndex = queue_family_;
-    check(vk.vkCreateCommandPool(device, &pool, nullptr, &slot.pool), "make a command pool");
-    auto commands =
-        vulkan_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    commands.commandPool = slot.pool;
-    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    commands.commandBufferCount = 1;
-    check(vk.vkAllocateCommandBuffers(device, &commands, &slot.commands), "make a command buffer");
-    const auto fence = vulkan_struct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vk.vkCreateFence(device, &fence, nullptr, &slot.fence), "make a fence");
+    make_slot(slot);
   } catch (...) {
     destroy_slot(slot);
     throw;
@@ -183,19 +181,58 @@ CommandSlot GpuContext::borrow_slot() {
   return slot;
 }
 
+void GpuContext::make_slot(CommandSlot& slot) {
+  auto pool = vulkan_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+  pool.queueFamilyIndex = queue_family_;
+  check(vk.vkCreateCommandPool(device, &pool, nullptr, &slot.pool), "make a command pool");
+  auto commands = vulkan_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  commands.commandPool = slot.pool;
+  commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  commands.commandBufferCount = 1;
+  check(vk.vkAllocateCommandBuffers(device, &commands, &slot.commands), "make a command buffer");
+  const auto fence = vulkan_struct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+  check(vk.vkCreateFence(device, &fence, nullptr, &slot.fence), "make a fence");
+  slot.descriptors = make_descriptor_pool();
+}
+
+VkDescriptorPool GpuContext::make_descriptor_pool() {
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * kBuffersPerSet};
+  auto info = vulkan_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+  info.maxSets = kSetsPerPool;
+  info.poolSizeCount = 1;
+  info.pPoolSizes = &size;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(vk.vkCreateDescriptorPool(device, &info, nullptr, &pool), "make descriptors");
+  return pool;
+}
+
 void GpuContext::return_slot(const CommandSlot& slot) {
   // A lost device may still execute the commands, so nothing is used again.
-  if (lost_ || vk.vkResetCommandPool(device, slot.pool, 0) != VK_SUCCESS) return destroy_slot(slot);
+  if (lost_ || vk.vkResetCommandPool(device, slot.pool, 0) != VK_SUCCESS ||
+      vk.vkResetDescriptorPool(device, slot.descriptors, 0) != VK_SUCCESS)
+    return destroy_slot(slot);
   const std::lock_guard lock(mutex_);
   free_slots_.push_back(slot);
 }
 
 void GpuContext::destroy_slot(const CommandSlot& slot) {
   vk.vkDestroyFence(device, slot.fence, nullptr);
+  vk.vkDestroyDescriptorPool(device, slot.descriptors, nullptr);
   vk.vkDestroyCommandPool(device, slot.pool, nullptr);
 }
 
-void GpuContext::execute(const CommandSlot& slot) {
+VkResult GpuContext::wait_for(VkFence fence) const {
+  if (info_.kind != GpuKind::software) {
+    const auto end = std::chrono::steady_clock::now() + kTimeToPoll;
+    VkResult status = VK_NOT_READY;
+    while (status == VK_NOT_READY && std::chrono::steady_clock::now() < end)
+      status = vk.vkGetFenceStatus(device, fence);
+    if (status != VK_NOT_READY) return status;
+  }
+  return vk.vkWaitForFences(device, 1, &fence, VK_TRUE, kNanosecondsToWait);
+}
+
+void GpuContext::start(const CommandSlot& slot) {
   require_alive();
   check(vk.vkEndCommandBuffer(slot.commands), "record commands");
   auto submit = vulkan_struct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
@@ -205,8 +242,19 @@ void GpuContext::execute(const CommandSlot& slot) {
     const std::lock_guard lock(mutex_);
     check(vk.vkQueueSubmit(queue_, 1, &submit, slot.fence), "submit commands");
   }
-  check(vk.vkWaitForFences(device, 1, &slot.fence, VK_TRUE, kNanosecondsToWait), "wait for the device");
+}
+
+void GpuContext::wait(const CommandSlot& slot) {
+  check(wait_for(slot.fence), "wait for the device");
   check(vk.vkResetFences(device, 1, &slot.fence), "reset a fence");
+}
+
+void GpuContext::abandon(const CommandSlot& slot) noexcept {
+  try {
+    wait(slot);
+  } catch (const GpuError&) {
+    lost_ = true;  // so that nothing is used again that the device may still write
+  }
 }
 
 }  // namespace pcl_bv::detail

@@ -58,10 +58,14 @@ class VulkanInstance {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-/// A command pool with its command buffer and fence. Submissions borrow and return them.
+/// Sets that a pool of descriptors has.
+inline constexpr std::uint32_t kSetsPerPool = 32;
+
+/// A command pool with its command buffer, descriptors and fence. Submissions borrow and return them.
 struct CommandSlot {
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkDescriptorPool descriptors = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
 };
 
@@ -102,8 +106,13 @@ class GpuContext {
 
   CommandSlot borrow_slot();
   void return_slot(const CommandSlot& slot);
-  /// Ends the recording, submits it and waits until the device has executed it.
-  void execute(const CommandSlot& slot);
+  VkDescriptorPool make_descriptor_pool();
+  /// Ends the recording and submits it.
+  void start(const CommandSlot& slot);
+  /// Waits until the device has executed what was submitted.
+  void wait(const CommandSlot& slot);
+  /// Like wait(), after a failure elsewhere: does not throw.
+  void abandon(const CommandSlot& slot) noexcept;
 
   VulkanApi vk;
   VkDevice device = VK_NULL_HANDLE;
@@ -111,7 +120,9 @@ class GpuContext {
  private:
   void choose(std::string_view which);
   void open_device();
+  void make_slot(CommandSlot& slot);
   void destroy_slot(const CommandSlot& slot);
+  VkResult wait_for(VkFence fence) const;
   [[noreturn]] void fail(GpuFailure failure, const std::string& what) const;
 
   VulkanInstance instance_;

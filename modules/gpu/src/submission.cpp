@@ -6,13 +6,6 @@
 #include <utility>
 
 namespace pcl_bv::detail {
-namespace {
-
-constexpr std::uint32_t kSetsPerPool = 32;
-constexpr std::uint32_t kBuffersPerSet = 8;
-
-}  // namespace
-
 Submission::Submission(std::shared_ptr<GpuContext> context)
     : context_(std::move(context)), slot_(context_->borrow_slot()) {
   auto begin = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
@@ -23,7 +16,8 @@ Submission::Submission(std::shared_ptr<GpuContext> context)
 }
 
 Submission::~Submission() {
-  for (const VkDescriptorPool pool : pools_)
+  if (started_) context_->abandon(slot_);
+  for (const VkDescriptorPool pool : more_pools_)
     context_->vk.vkDestroyDescriptorPool(context_->device, pool, nullptr);
   context_->return_slot(slot_);
 }
@@ -57,19 +51,12 @@ void Submission::fill(const DeviceBuffer& buffer, std::size_t offset, std::size_
 VkDescriptorSet Submission::descriptors(const ComputePipeline& pipeline,
                                         std::initializer_list<Binding> bindings) {
   const VulkanApi& vk = context_->vk;
-  if (pools_.empty() || sets_in_pool_ == kSetsPerPool) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * kBuffersPerSet};
-    auto info = vulkan_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-    info.maxSets = kSetsPerPool;
-    info.poolSizeCount = 1;
-    info.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    context_->check(vk.vkCreateDescriptorPool(context_->device, &info, nullptr, &pool), "make descriptors");
-    pools_.push_back(pool);
+  if (sets_in_pool_ == kSetsPerPool) {
+    more_pools_.push_back(context_->make_descriptor_pool());
     sets_in_pool_ = 0;
   }
   auto info = vulkan_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
-  info.descriptorPool = pools_.back();
+  info.descriptorPool = more_pools_.empty() ? slot_.descriptors : more_pools_.back();
   info.descriptorSetCount = 1;
   info.pSetLayouts = &pipeline.bindings;
   VkDescriptorSet set = VK_NULL_HANDLE;
@@ -106,9 +93,15 @@ void Submission::dispatch(const ComputePipeline& pipeline, std::initializer_list
   vk.vkCmdDispatch(slot_.commands, groups, 1, 1);
 }
 
-void Submission::run() {
+void Submission::start() {
   begin_command(Order::after_earlier);  // the processor sees what the last command has written
-  context_->execute(slot_);
+  context_->start(slot_);
+  started_ = true;
+}
+
+void Submission::wait() {
+  started_ = false;
+  context_->wait(slot_);
 }
 
 }  // namespace pcl_bv::detail

@@ -47,7 +47,13 @@ class Submission {
   }
 
   /// Executes the commands and waits for them. To be called once.
-  void run();
+  void run() {
+    start();
+    wait();
+  }
+  /// Lets the device execute the commands. To be called once, before wait().
+  void start();
+  void wait();
 
  private:
   void dispatch(const ComputePipeline& pipeline, std::initializer_list<Binding> bindings, const void* push,
@@ -57,8 +63,9 @@ class Submission {
 
   std::shared_ptr<GpuContext> context_;
   CommandSlot slot_;
-  std::vector<VkDescriptorPool> pools_;
+  std::vector<VkDescriptorPool> more_pools_;  // that follow the one of the slot
   std::size_t sets_in_pool_ = 0;
+  bool started_ = false;  // and not waited for
 };
 
 }  // namespace pcl_bv::detail

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
@@ -54,7 +55,7 @@ class ClusterFits {
   std::vector<const Method*> methods_;
   std::vector<EstimationResult> results_;
   std::vector<std::size_t> directions_;  // of the stored slabs, in the order of the 26-DOP
-  std::vector<double> slabs_;            // minimum and maximum along each direction, for each cluster
+  std::shared_ptr<double[]> slabs_;      // minimum and maximum along each direction, for each cluster
   // For each method its volumes, or none if they are made of slabs.
   std::vector<std::vector<AnyVolume>> others_;
 };
