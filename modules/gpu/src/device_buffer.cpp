@@ -3,6 +3,8 @@
 
 #include "device_buffer.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -87,6 +89,10 @@ void DeviceBuffer::make_imported(int fd, std::size_t memory_bytes) {
   if (!context_.info().imports)
     throw GpuError(GpuFailure::other,
                    context_.info().name + ": the driver cannot use memory of other programs");
+  // NVIDIA's driver accepts a number that is no open file.
+  if (::fcntl(fd, F_GETFD) == -1)
+    throw GpuError(GpuFailure::other,
+                   context_.info().name + ": " + std::to_string(fd) + " is no open file descriptor");
   auto external =
       vulkan_struct<VkExternalMemoryBufferCreateInfo>(VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO);
   external.handleTypes = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
