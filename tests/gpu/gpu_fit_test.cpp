@@ -9,6 +9,7 @@
 #include "clouds.h"
 #include "flush_to_zero.h"
 #include "gpu_test.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/points/point_groups.h"
 #include "support_pass.h"
 
@@ -42,6 +43,36 @@ TestCloud<T> large_cloud(std::size_t points, std::uint64_t seed) {
   for (std::size_t i = 3 * far; i < std::min(3 * (far + 20), cloud.xyz.size()); ++i)
     cloud.xyz[i] += static_cast<T>((i % 7) * 11) - 33;
   return cloud;
+}
+
+// The device lists the points that can be a support; equal coordinates on a face of a box are all listed.
+TEST(GpuFit, ListsEverySupportPointAndFewOthers) {
+  PCL_BV_NEEDS_DEVICE();
+  const TestCloud<float> points = large_cloud<float>(100'000, 3);
+  const GpuCloud cloud(small_buffers(), points.view());
+  const std::vector<std::int32_t> near =
+      detail::find_extremes(cloud.on_device(), detail::DirectionSet::dop26, true).near_points;
+  EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+  EXPECT_LT(near.size(), 200U);
+  const detail::Supports supports =
+      detail::find_supports(points.view(), detail::DirectionSet::dop26, detail::SupportDetail::points, {});
+  for (std::size_t k = 0; k < 13; ++k) {
+    for (const detail::SupportPoint& support : {supports.along[k].low_point, supports.along[k].high_point})
+      EXPECT_TRUE(std::binary_search(near.begin(), near.end(), static_cast<std::int32_t>(support.index)));
+  }
+}
+
+TEST(GpuFit, SearchesBlocksIfManyPointsCanBeASupport) {
+  PCL_BV_NEEDS_DEVICE();
+  TestCloud<float> points = test::gaussian<float>(100'000, 4);
+  for (std::size_t i = 0; i < detail::max_near_points + 1; ++i)
+    points.xyz[3 * (30'000 + i)] = 50;
+  const GpuCloud cloud(small_buffers(), points.view());
+  const detail::DeviceExtremes found =
+      detail::find_extremes(cloud.on_device(), detail::DirectionSet::dop26, true);
+  EXPECT_TRUE(found.complete);
+  EXPECT_TRUE(found.near_points.empty());
+  expect_same_fits(points.view(), HostPoints::keep);
 }
 
 TEST(GpuFit, HasTheBitsOfTheProcessorOnNastyClouds) {

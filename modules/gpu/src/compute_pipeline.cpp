@@ -17,9 +17,13 @@ struct ShaderLayout {
 ShaderLayout layout_of(Shader shader) {
   switch (shader) {
     case Shader::extremes:
-      return {extremes_code(), 3, 28};
+      return {extremes_code(), 3, 24};
+    case Shader::cloud_keys:
+      return {cloud_keys_code(), 2, 4};
     case Shader::candidates:
       return {candidates_code(), 3, 20};
+    case Shader::near_points:
+      return {near_points_code(), 4, 32};
     case Shader::clusters:
       return {clusters_code(), 5, 20};
     case Shader::distances:

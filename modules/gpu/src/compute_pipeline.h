@@ -12,8 +12,10 @@ namespace pcl_bv::detail {
 
 /// The shaders in modules/gpu/shaders.
 enum class Shader : std::uint8_t {
-  extremes,      ///< extremes.comp: the extremes of each block and of the cloud.
+  extremes,      ///< extremes.comp: the extremes of each block.
+  cloud_keys,    ///< cloud_keys.comp: the extremes of the cloud.
   candidates,    ///< candidates.comp: lists the blocks that can have a support.
+  near_points,   ///< near_points.comp: lists the points of those blocks that can be a support.
   clusters,      ///< clusters.comp: the slabs of clusters.
   distances,     ///< distances.comp: lists the blocks with points far from a centre.
   morton,        ///< morton.comp: sort keys of points.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/select_points.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -243,6 +244,12 @@ std::vector<PointView> DevicePoints::in_memory(std::vector<PointView> views,
     at += view.count * stride_;
   }
   return views;
+}
+
+PointView DevicePoints::gathered(std::vector<std::int32_t>& indices) const {
+  for (std::int32_t& index : indices)
+    index = static_cast<std::int32_t>(host_.index(static_cast<std::size_t>(index)));
+  return select_points(host_, indices);
 }
 
 PointView DevicePoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {

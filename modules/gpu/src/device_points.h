@@ -60,6 +60,13 @@ class DevicePoints : public PointSource {
   bool numbered_from_zero() const { return !kept_ || (host_.indices == nullptr && host_.first == 0); }
   bool kept() const { return kept_; }
 
+  /// Whether the processor can read single points of points() fast.
+  bool gathers() const { return kept_ && host_.source == nullptr; }
+
+  /// Returns a view of points at ascending positions in the cloud. gathers() must be true. `indices` must
+  /// outlive the view and becomes the points' indices.
+  PointView gathered(std::vector<std::int32_t>& indices) const;
+
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:

@@ -15,7 +15,9 @@ struct ShaderCode {
 };
 
 ShaderCode extremes_code();
+ShaderCode cloud_keys_code();
 ShaderCode candidates_code();
+ShaderCode near_points_code();
 ShaderCode clusters_code();
 ShaderCode distances_code();
 ShaderCode morton_code();

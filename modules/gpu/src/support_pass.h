@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The pass over a cloud on a device that leaves a few blocks in which all support points are.
+// The pass over a cloud on a device that leaves a few points and blocks in which all support points are.
 #pragma once
 
 #include <array>
@@ -22,7 +22,13 @@ struct DeviceExtremes {
   /// float projections of the points could overflow.
   bool complete = false;
   std::vector<std::uint32_t> candidates;  ///< Numbers of blocks of kBlockPoints points, ascending.
+  /// Positions of all points that can be support points, ascending. Empty if the cloud's points cannot be
+  /// gathered (DevicePoints::gathers()) or these are more than max_near_points.
+  std::vector<std::int32_t> near_points;
 };
+
+/// Largest number of points that are listed one by one. Measured clouds have 30 to 100.
+inline constexpr std::uint32_t max_near_points = 4096;
 
 /// Largest number of candidates of a cloud; the processor is as fast for more.
 constexpr std::size_t max_candidates(std::size_t blocks) {
