@@ -3,7 +3,6 @@
 
 #include "codecs.h"
 
-#include <libdeflate.h>
 #include <lz4frame.h>
 #include <zstd.h>
 
@@ -131,10 +130,6 @@ void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std:
     if (made > max_bytes) refuse("zstd", "more than " + std::to_string(max_bytes) + " bytes");
   }
   to.resize(made);
-}
-
-std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc) {
-  return libdeflate_crc32(crc, data, size);
 }
 
 }  // namespace pcl_bv::detail

@@ -51,8 +51,4 @@ class Decompressor {
   std::unique_ptr<Contexts> contexts_;
 };
 
-/// Returns the CRC-32 of IEEE 802.3 (as in MCAP, zip and png). `crc` is the CRC of the preceding data, or 0
-/// at the beginning.
-std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc = 0);
-
 }  // namespace pcl_bv::detail

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mcap_scan.h"
+#include "pcl_bv/io/crc32.h"
 
 namespace pcl_bv::detail {
 namespace mcap {

@@ -13,6 +13,7 @@
 
 #include "codecs.h"
 #include "mcap_records.h"
+#include "pcl_bv/io/crc32.h"
 #include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv::detail {

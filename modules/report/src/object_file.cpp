@@ -4,12 +4,12 @@
 #include "pcl_bv/report/object_file.h"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <cstring>
 #include <fstream>
 #include <new>
 
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/crc32.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_json.h"
 
@@ -32,10 +32,10 @@ std::string_view bytes_of(const std::vector<T>& items) {
 }
 
 std::uint32_t check_sum(std::initializer_list<std::string_view> parts) {
-  boost::crc_32_type sum;
+  std::uint32_t sum = 0;
   for (const std::string_view part : parts)
-    sum.process_bytes(part.data(), part.size());
-  return sum.checksum();
+    sum = crc32_of(part.data(), part.size(), sum);
+  return sum;
 }
 
 std::string_view bytes_of(const ObjectFilePreamble& preamble) {

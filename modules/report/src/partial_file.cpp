@@ -4,11 +4,11 @@
 #include "pcl_bv/report/partial_file.h"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <cstring>
 #include <stdexcept>
 
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/crc32.h"
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_json.h"
@@ -24,9 +24,7 @@ constexpr std::string_view kVersion = "1\n";
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 std::string check_sum(std::string_view content) {
-  boost::crc_32_type sum;
-  sum.process_bytes(content.data(), content.size());
-  const std::uint32_t value = sum.checksum();
+  const std::uint32_t value = crc32_of(content.data(), content.size());
   std::string bytes(sizeof value, '\0');
   std::memcpy(bytes.data(), &value, sizeof value);
   return bytes;
