@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares ratios of a short run with those of benchmarks/results, to find what a change has made slower.
 
-A ratio divides the time of another program, or of another way, by ours in turns in one run. So it changes
+A ratio divides the time of another program, or of another way, by ours; both run alternately. So it changes
 less than times do when others use the machine.
 """
 import re
 
 from results import number, table
 
-# Part: which of its rows. All together take less than five minutes on two processors.
+# Part: which of its rows. All together take about four minutes on two processors.
 ROWS = {
     "pairs": "^(over|of)-",
     "obb": "^turns/.*(gauss|car|street)",
@@ -38,7 +38,7 @@ def best(now, again):
 def exactly(names):
     """A filter for these rows, whatever Google Benchmark appends to their names."""
     # re.escape() quotes more than POSIX permits.
-    quoted = [re.sub(r"([][.*+?^$|(){}\\])", r"\\\1", name) for name in names]
+    quoted = [re.sub(r"([.[\\()*+?{|^$])", r"\\\1", name) for name in names]
     return f"^({'|'.join(quoted)})(/|$)"
 
 
@@ -53,16 +53,24 @@ def measure(part, before, run):
     return now
 
 
+def missing_rows(before, now):
+    """Rows of the file that this run should have had: their peer is not installed, or they have another name."""
+    return [name for name in before if name not in now and any(re.match(rows, name) for rows in ROWS.values())]
+
+
 def report(before, now):
     """What to print, and whether a row has fallen."""
     names = fallen(before, now)
     compared = sum(name in before for name in now)
+    missing = missing_rows(before, now)
+    gap = f"\n{len(missing)} rows of the file were not measured: {', '.join(missing[:3])} ..." if missing else ""
     if not compared:
         return "There are no results of this processor to compare with.", False
     if not names:
-        return f"{compared} ratios: none fell by more than {round(100 - 100 * FALLEN)} %.", False
+        return f"{compared} ratios: none fell by more than {round(100 - 100 * FALLEN)} %.{gap}", False
     lines = [[f"`{n}`", number(before[n]), number(now[n]), f"{100 * now[n] / before[n] - 100:+.0f} %"] for n in names]
     return (
         f"{len(names)} of {compared} ratios fell by more than {round(100 - 100 * FALLEN)} %, best of {TRIES} runs:\n\n"
         + table(["row", "before", "now", "change"], lines)
+        + gap
     ), True

@@ -48,6 +48,10 @@ class Regressions(unittest.TestCase):
         regressions.measure("pairs", {"a": 10}, run)
         self.assertEqual(len(run.filters), 1)
 
+    def test_rows_that_were_not_measured_are_named(self):
+        text, _ = regressions.report({"over-pcl/a": 1, "over-pcl/b": 1, "mask/other": 1}, {"over-pcl/a": 1})
+        self.assertIn("1 rows of the file were not measured: over-pcl/b", text)
+
     def test_a_filter_matches_only_its_rows(self):
         name = "turns/PCL (cheapest) over obb-pca/gauss:300"
         found = re.compile(regressions.exactly([name, "mask/x.y"]))
@@ -55,6 +59,7 @@ class Regressions(unittest.TestCase):
         self.assertTrue(found.match("mask/x.y"))
         self.assertFalse(found.match("mask/xzy"))
         self.assertFalse(found.match(name + "0"))
+        self.assertEqual(regressions.exactly(["a]}"]), "^(a]})(/|$)")
         self.assertNotIn("\\-", regressions.exactly([name]))  # which POSIX does not permit
 
 

@@ -56,6 +56,7 @@ template <typename Prepare, typename Call, typename Check>
 void fail_each_allocation(int at_least, const Prepare& prepare, const Call& call, const Check& check) {
   int allocations = 0;
   for (bool failed = true; failed; ++allocations) {
+    ASSERT_LT(allocations, 100);
     SCOPED_TRACE(allocations);
     const GpuDevice device = failing_device();
     calls_before_failure = -1;
@@ -66,7 +67,7 @@ void fail_each_allocation(int at_least, const Prepare& prepare, const Call& call
       call(prepared);
     } catch (const GpuError& error) {
       failed = true;
-      EXPECT_EQ(error.failure(), GpuFailure::out_of_memory);
+      ASSERT_EQ(error.failure(), GpuFailure::out_of_memory);
     }
     calls_before_failure = -1;
     check(prepared);

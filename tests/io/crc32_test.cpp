@@ -46,6 +46,11 @@ TEST(Crc32, ContinuesThatOfThePrecedingBytes) {
   }
 }
 
+TEST(Crc32, IsUnchangedByNoBytes) {
+  EXPECT_EQ(detail::crc32_of(nullptr, 0, 0x1234), 0x1234U);
+  EXPECT_EQ(detail::crc32_of(nullptr, 0), 0U);
+}
+
 TEST(Crc32, NoticesAChangedBitAnywhere) {
   std::vector<std::byte> bytes = random_bytes(4096);
   const std::uint32_t expected = detail::crc32_of(bytes.data(), bytes.size());

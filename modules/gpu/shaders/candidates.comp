@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists the blocks that can have a support point, one thread per block: those with a key that reaches the limit
-// of a support.
+// Lists the blocks that can have a support point, one thread per block: those with a key at or above the limit
+// of that support.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "float_keys.glsl"

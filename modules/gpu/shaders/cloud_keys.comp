@@ -19,7 +19,7 @@ layout(std430, binding = 1) buffer Cloud {
 };
 layout(push_constant) uniform Blocks { uint blocks; };
 
-const uint kSupportThreads = 32;  // threads of consecutive supports, of which the last ones idle
+const uint kSupportThreads = 32;  // one thread per support in each row; the last ones are idle
 const uint kRows = 64 / kSupportThreads;
 const uint kBatch = 8;
 const uint kGroupBlocks = 256;

@@ -101,7 +101,7 @@ void include_point(uvec3 bits) {
 }
 
 void store_extremes() {
-  const bool any_valid = x_bits.low != kNoBits.low;
+  const bool any_valid = x_bits.low != kNoBits.low;  // 0x7fffffff is a NaN, which is_valid() rejects
   store(0, x_bits, any_valid);
   store(2, y_bits, any_valid);
   store(4, z_bits, any_valid);

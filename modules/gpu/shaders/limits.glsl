@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Limits of the keys that can be those of a support point: keys within the error band of the cloud's extreme.
-// docs/numerics.md proves that every support point reaches one of them.
+// The limit of a support is the cloud's extreme minus an error bound, as a key. Every support point has a key at
+// or above the limit of its support (docs/numerics.md). Needs `cloud_keys` and supports.glsl before it.
 
 // The largest magnitude of p - center along an axis.
 float magnitude(uint axis, float center) {
@@ -30,7 +30,7 @@ bool edge_has(uint edge, uint axis) {
 int limit_of(uint support, vec3 center) {
   const int key = cloud_keys[support];
   if (support < 6) return key;
-  float sum = 0;
+  precise float sum = 0;
   for (uint axis = 0; axis < 3; ++axis) {
     const bool counts = support < kEdgeSupport || edge_has((support - kEdgeSupport) / 2, axis);
     if (counts) sum += magnitude(axis, center[axis]);

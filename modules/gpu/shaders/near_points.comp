@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists the points of listed blocks that can be a support point: those with a key that reaches the limit of a
-// support. A workgroup takes every so many blocks.
+// Lists the points of listed blocks that can be a support point: those with a key at or above the limit of that
+// support. Workgroup g processes entries g, g + gl_NumWorkGroups.x, ... of the list of blocks.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "float_keys.glsl"
@@ -33,13 +33,13 @@ layout(push_constant) uniform Part {
 
 shared int limits[kSupports];
 
-bool reaches(uint support, int low_key, int high_key) {
+bool is_within_limit(uint support, int low_key, int high_key) {
   return ~low_key >= limits[support] || high_key >= limits[support + 1];
 }
 
-bool reaches(uint support, float projection) {
+bool is_within_limit(uint support, float projection) {
   const int key = key_of(floatBitsToUint(projection));
-  return reaches(support, key, key);
+  return is_within_limit(support, key, key);
 }
 
 bool is_near(uvec3 bits) {
@@ -47,13 +47,13 @@ bool is_near(uvec3 bits) {
   bool near = false;
   for (uint axis = 0; axis < 3; ++axis) {
     const int key = key_of(without_negative_zero(bits[axis]));
-    near = near || reaches(2 * axis, key, key);
+    near = near || is_within_limit(2 * axis, key, key);
   }
   const Projections projections = project(bits, vec3(center_x, center_y, center_z));
   for (uint k = 0; kCorners && k < 4; ++k)
-    near = near || reaches(kCornerSupport + 2 * k, projections.corners[k]);
+    near = near || is_within_limit(kCornerSupport + 2 * k, projections.corners[k]);
   for (uint k = 0; kEdges && k < 6; ++k)
-    near = near || reaches(kEdgeSupport + 2 * k, projections.edges[k]);
+    near = near || is_within_limit(kEdgeSupport + 2 * k, projections.edges[k]);
   return near;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Directions of a k-DOP and projections on them. Support 2k is the minimum along direction k, support 2k + 1
-// the maximum. The key of a minimum is inverted, so that of all keys the largest counts.
+// the maximum. Keys of minima are inverted (~key), so that the extreme of every support is its largest key.
 
 layout(constant_id = 0) const uint kSet = 3;  // directions: 0 axes, 1 dop14, 2 dop18, 3 dop26
 

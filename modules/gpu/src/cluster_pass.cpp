@@ -66,7 +66,7 @@ struct SlabSearch {
   std::size_t most_clusters, most_indices;
 };
 
-// The buffers of one slice at a time. Two of them take turns, so that the device computes one slice while the
+// The buffers of one slice at a time. Two of them alternate, so that the device computes one slice while the
 // processor copies the results of the one before it.
 class SlabPass {
  public:
@@ -129,6 +129,16 @@ class SlabPass {
   std::optional<Submission> submission_;  // destroyed, and waited for, before the buffers
 };
 
+// Adds two passes, or one if there is one slice or the device has too little memory for two.
+void add_passes(const SlabSearch& search, std::size_t slices, std::deque<SlabPass>& passes) {
+  passes.emplace_back(search);
+  try {
+    if (slices > 1) passes.emplace_back(search);
+  } catch (const GpuError& error) {
+    if (error.failure() != GpuFailure::out_of_memory) throw;
+  }
+}
+
 }  // namespace
 
 bool can_find_slabs(const DevicePoints& cloud, bool lists) {
@@ -172,11 +182,13 @@ ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& cluster
           search.most_indices, clusters.offsets[slice.first + slice.count] - clusters.offsets[slice.first]);
   }
   std::deque<SlabPass> passes;
-  for (std::size_t i = 0; i < std::min<std::size_t>(slices.size(), 2); ++i)
-    passes.emplace_back(search).start(slices[i]);
+  add_passes(search, slices.size(), passes);
+  const std::size_t count = passes.size();
+  for (std::size_t i = 0; i < count; ++i)
+    passes[i].start(slices[i]);
   for (std::size_t i = 0; i < slices.size(); ++i) {
-    passes[i % 2].finish(out, execution);
-    if (i + 2 < slices.size()) passes[i % 2].start(slices[i + 2]);
+    passes[i % count].finish(out, execution);
+    if (i + count < slices.size()) passes[i % count].start(slices[i + count]);
   }
   return out;
 }

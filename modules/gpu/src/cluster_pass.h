@@ -43,7 +43,7 @@ ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& cluster
                         const Execution& execution);
 
 /// Returns an array whose elements have no value yet. That of 10^6 clusters has 208 MB, so it gets huge
-/// pages: setting it to 0, or 52 000 faults of small pages, would take longer than everything else.
+/// pages: setting it to 0, or 51 000 faults of small pages, would take longer than everything else.
 std::shared_ptr<double[]> make_slabs(std::size_t directions, std::size_t clusters);
 
 }  // namespace pcl_bv::detail

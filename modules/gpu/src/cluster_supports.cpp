@@ -31,7 +31,7 @@ std::optional<Supports> supports_on_device(const DevicePoints& cloud, DirectionS
   std::vector<std::byte> storage;
   std::vector<std::int32_t> near = found.near_points;
   const std::vector<PointView> candidates =
-      near.empty() ? cloud.blocks(found.candidates, storage) : std::vector<PointView>{cloud.gathered(near)};
+      near.empty() ? cloud.blocks(found.candidates, storage) : std::vector<PointView>{cloud.select(near)};
   Supports supports = find_supports_among(points, candidates, set, found.dropped, execution);
   if (!cloud.rounded()) require_same_box(found, supports);
   return supports;

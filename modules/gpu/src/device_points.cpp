@@ -246,10 +246,10 @@ std::vector<PointView> DevicePoints::in_memory(std::vector<PointView> views,
   return views;
 }
 
-PointView DevicePoints::gathered(std::vector<std::int32_t>& indices) const {
-  for (std::int32_t& index : indices)
-    index = static_cast<std::int32_t>(host_.index(static_cast<std::size_t>(index)));
-  return select_points(host_, indices);
+PointView DevicePoints::select(std::vector<std::int32_t>& positions) const {
+  for (std::int32_t& position : positions)
+    position = static_cast<std::int32_t>(host_.index(static_cast<std::size_t>(position)));
+  return select_points(host_, positions);
 }
 
 PointView DevicePoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {

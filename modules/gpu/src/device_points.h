@@ -60,12 +60,15 @@ class DevicePoints : public PointSource {
   bool numbered_from_zero() const { return !kept_ || (host_.indices == nullptr && host_.first == 0); }
   bool kept() const { return kept_; }
 
-  /// Whether the processor can read single points of points() fast.
-  bool gathers() const { return kept_ && host_.source == nullptr; }
+  /// Whether the processor can read single points of points(): they are in memory, with indices below 2^31.
+  bool has_points_in_memory() const {
+    return kept_ && host_.source == nullptr &&
+           (host_.indices != nullptr || host_.first + size_ <= std::size_t{1} << 31);
+  }
 
-  /// Returns a view of points at ascending positions in the cloud. gathers() must be true. `indices` must
-  /// outlive the view and becomes the points' indices.
-  PointView gathered(std::vector<std::int32_t>& indices) const;
+  /// Returns a view of points at ascending positions in the cloud. has_points_in_memory() must be true.
+  /// `positions` must outlive the view and becomes the points' indices.
+  PointView select(std::vector<std::int32_t>& positions) const;
 
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 

@@ -249,10 +249,11 @@ void GpuContext::wait(const CommandSlot& slot) {
   check(vk.vkResetFences(device, 1, &slot.fence), "reset a fence");
 }
 
-void GpuContext::abandon(const CommandSlot& slot) noexcept {
+void GpuContext::wait_noexcept(const CommandSlot& slot) noexcept {
+  if (lost_) return;
   try {
     wait(slot);
-  } catch (const GpuError&) {
+  } catch (...) {
     lost_ = true;  // so that nothing is used again that the device may still write
   }
 }

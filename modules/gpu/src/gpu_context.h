@@ -58,7 +58,7 @@ class VulkanInstance {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-/// Sets that a pool of descriptors has.
+/// Descriptor sets per descriptor pool.
 inline constexpr std::uint32_t kSetsPerPool = 32;
 
 /// A command pool with its command buffer, descriptors and fence. Submissions borrow and return them.
@@ -111,8 +111,8 @@ class GpuContext {
   void start(const CommandSlot& slot);
   /// Waits until the device has executed what was submitted.
   void wait(const CommandSlot& slot);
-  /// Like wait(), after a failure elsewhere: does not throw.
-  void abandon(const CommandSlot& slot) noexcept;
+  /// Waits like wait(). A failure marks the device as lost.
+  void wait_noexcept(const CommandSlot& slot) noexcept;
 
   VulkanApi vk;
   VkDevice device = VK_NULL_HANDLE;

@@ -16,7 +16,7 @@ Submission::Submission(std::shared_ptr<GpuContext> context)
 }
 
 Submission::~Submission() {
-  if (started_) context_->abandon(slot_);
+  if (pending_) context_->wait_noexcept(slot_);
   for (const VkDescriptorPool pool : more_pools_)
     context_->vk.vkDestroyDescriptorPool(context_->device, pool, nullptr);
   context_->return_slot(slot_);
@@ -96,12 +96,12 @@ void Submission::dispatch(const ComputePipeline& pipeline, std::initializer_list
 void Submission::start() {
   begin_command(Order::after_earlier);  // the processor sees what the last command has written
   context_->start(slot_);
-  started_ = true;
+  pending_ = true;
 }
 
 void Submission::wait() {
-  started_ = false;
   context_->wait(slot_);
+  pending_ = false;
 }
 
 }  // namespace pcl_bv::detail

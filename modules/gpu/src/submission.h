@@ -53,6 +53,7 @@ class Submission {
   }
   /// Lets the device execute the commands. To be called once, before wait().
   void start();
+  /// Waits for the commands. The destructor waits, too, if this was not called.
   void wait();
 
  private:
@@ -65,7 +66,7 @@ class Submission {
   CommandSlot slot_;
   std::vector<VkDescriptorPool> more_pools_;  // that follow the one of the slot
   std::size_t sets_in_pool_ = 0;
-  bool started_ = false;  // and not waited for
+  bool pending_ = false;  // whether the device may still execute the commands
 };
 
 }  // namespace pcl_bv::detail

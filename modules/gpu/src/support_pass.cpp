@@ -62,7 +62,7 @@ class ExtremesPass {
       : cloud_(cloud),
         set_(static_cast<std::uint32_t>(set)),
         list_(list),
-        list_points_(list && cloud.gathers()),
+        list_points_(list && cloud.has_points_in_memory()),
         blocks_(static_cast<std::uint32_t>(block_count(cloud.size()))),
         capacity_(static_cast<std::uint32_t>(max_candidates(blocks_))),
         list_bytes_(list ? 4 * capacity_ : 4),

@@ -22,12 +22,12 @@ struct DeviceExtremes {
   /// float projections of the points could overflow.
   bool complete = false;
   std::vector<std::uint32_t> candidates;  ///< Numbers of blocks of kBlockPoints points, ascending.
-  /// Positions of all points that can be support points, ascending. Empty if the cloud's points cannot be
-  /// gathered (DevicePoints::gathers()) or these are more than max_near_points.
+  /// Positions of all points that can be support points, ascending. Empty if the processor cannot read single
+  /// points (DevicePoints::has_points_in_memory()), or if these are more than max_near_points.
   std::vector<std::int32_t> near_points;
 };
 
-/// Largest number of points that are listed one by one. Measured clouds have 30 to 100.
+/// Largest number of points that are listed one by one. Measured clouds have 25 to 100.
 inline constexpr std::uint32_t max_near_points = 4096;
 
 /// Largest number of candidates of a cloud; the processor is as fast for more.

@@ -20,8 +20,8 @@ constexpr std::size_t kFoldedBytes = 256;  // of one step: four vectors, which d
 
 #define PCL_BV_FOLDS __attribute__((target("avx512f,avx512vl,avx512bw,vpclmulqdq,pclmul,sse4.1")))
 
-// Returns what 16 bytes of each lane contribute to the bytes that follow them at the distance of `powers`:
-// the first half times the even element, the second one times the odd one.
+// Moves the 16 bytes of each lane over the distance of `powers`: their first half times the even element,
+// plus their second half times the odd one (carry-less).
 PCL_BV_FOLDS inline __m512i folded(__m512i bytes, __m512i powers) {
   return _mm512_clmulepi64_epi128(bytes, powers, 0x00) ^ _mm512_clmulepi64_epi128(bytes, powers, 0x11);
 }
@@ -35,8 +35,8 @@ PCL_BV_FOLDS inline __m512i load(const std::byte* data) {
 }
 
 // Folds `steps` times 256 bytes, at least once (Gopal et al. 2009). Returns their CRC.
-// The powers are x^(d + 32) and x^(d - 32) modulo the polynomial, with reversed bits and shifted by one, for
-// the distance d in bits.
+// The even elements are x^(d + 32) modulo the polynomial for the distance d in bits, the odd ones x^(d - 32),
+// with reversed bits and shifted by one.
 PCL_BV_FOLDS std::uint32_t folded_crc(const std::byte* data, std::size_t steps, std::uint32_t crc) {
   const __m512i over_2048 = _mm512_set4_epi64(0x1322d1430, 0x11542778a, 0x1322d1430, 0x11542778a);
   const __m512i over_512 = _mm512_set4_epi64(0x1c6e41596, 0x154442bd4, 0x1c6e41596, 0x154442bd4);
@@ -58,7 +58,7 @@ PCL_BV_FOLDS std::uint32_t folded_crc(const std::byte* data, std::size_t steps, 
   _mm512_store_si512(words, lanes);
   const std::uint64_t rest[2] = {words[0] ^ words[2] ^ words[4] ^ words[6],
                                  words[1] ^ words[3] ^ words[5] ^ words[7]};
-  // The inverted CRC of nothing is 0, so that libdeflate adds nothing to the folded bytes.
+  // libdeflate inverts the CRC at both ends: 0xffffffff starts with the remainder 0.
   return libdeflate_crc32(0xffffffff, rest, sizeof rest);
 }
 
@@ -72,6 +72,7 @@ bool can_fold() {
 #endif
 
 std::uint32_t crc32_of(const void* data, std::size_t size, std::uint32_t crc) {
+  if (size == 0) return crc;  // libdeflate starts anew at a null address
 #if defined(__x86_64__)
   const std::size_t steps = size / kFoldedBytes;
   if (steps >= 4 && can_fold()) {

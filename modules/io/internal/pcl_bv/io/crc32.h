@@ -13,5 +13,5 @@ namespace [[gnu::visibility("default")]] detail {
 /// at the beginning.
 std::uint32_t crc32_of(const void* data, std::size_t size, std::uint32_t crc = 0);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
