@@ -185,14 +185,20 @@ TEST_F(PcdBvTiledMaps, OfSharesWithClassesAreThoseOfOneProcess) {
         const Result made = run(share);
         ASSERT_EQ(made.status, 0) << made.err;
       }
-      for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--check"}}) {
+      for (const std::vector<std::string>& more :
+           std::vector<std::vector<std::string>>{{}, {"--check"}, {"--labels"}}) {
         std::vector<std::string> merge = {"--merge"}, together = {"--together"};
         merge.insert(merge.end(), more.begin(), more.end());
         together.insert(together.end(), more.begin(), more.end());
+        if (merge.back() == "--labels") {
+          merge.push_back(parts + "_labels");
+          together.push_back(parts + "_expected");
+        }
         const Result merged = objects(options[seed - 1], merge, parts);
         EXPECT_EQ(merged.status, 0) << merged.err;
         EXPECT_TRUE(merged.out == objects(options[seed - 1], together, tiles).out) << count << " shares";
       }
+      expect_same_files(parts + "_labels", parts + "_expected", 5);
       const Result other = objects({"--cluster", "0.6"}, {"--merge"}, parts);
       EXPECT_EQ(other.status, 1);
       EXPECT_THAT(other.err, HasSubstr(" --class class"));

@@ -96,6 +96,19 @@ class Tiled : public PcdBv {
     EXPECT_EQ(result.error_lines(), 2U);
   }
 
+  /// Expects a number of files with the same names and bytes in two folders.
+  static void expect_same_files(const std::string& found, const std::string& expected, std::size_t count) {
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(expected)) {
+      const std::filesystem::path same = std::filesystem::path(found) / entry.path().filename();
+      EXPECT_TRUE(std::filesystem::exists(same) && read_file(same) == read_file(entry.path())) << same;
+      ++files;
+    }
+    EXPECT_EQ(files, count);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(found), {}),
+              static_cast<std::ptrdiff_t>(count));
+  }
+
   /// What a report says of the cloud, whatever it is called.
   static Json found(const Result& result) {
     EXPECT_EQ(result.status, 0) << result.err;

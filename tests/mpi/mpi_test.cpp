@@ -204,8 +204,8 @@ TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
 
 TEST_F(Mpi, ObjectsHaveTheBytesOfOneProcess) {
   const std::string folder = tiles("tiles", yard(1), 9);
-  const std::vector<std::string> options = {"--together", "--format", "jsonl",      "--cluster", "0.4",
-                                            "--volume",   "all",      "--min-size", "20",        folder};
+  std::vector<std::string> options = {"--together", "--format", "jsonl",      "--cluster", "0.4",
+                                      "--volume",   "all",      "--min-size", "20",        folder};
   const Result expected = run(options);
   ASSERT_EQ(expected.status, 0) << expected.err;
   for (const int count : {1, 2, 5}) {
@@ -213,13 +213,28 @@ TEST_F(Mpi, ObjectsHaveTheBytesOfOneProcess) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(result.out == expected.out) << count << " ranks";
   }
+  options.insert(options.end(), {"--labels", at("expected")});
+  EXPECT_EQ(run(options).status, 0);
+  options.back() = at("labels");
+  const Result labelled = ranks(3, options);
+  EXPECT_EQ(labelled.status, 0) << labelled.err;
+  EXPECT_TRUE(labelled.out == expected.out);
+  expect_same_files(at("labels"), at("expected"), 9);
 }
 
 TEST_F(Mpi, ObjectsOfAnInputThatFailsAreLeftOut) {
   const std::string folder = tiles("tiles", yard(1), 8);
   add_bad_tiles("tiles");
-  const Result expected = run({"--together", "--format", "jsonl", "--cluster", "0.4", folder});
-  const Result result = ranks(3, {"--together", "--format", "jsonl", "--cluster", "0.4", folder});
+  const std::vector<std::string> options = {"--together", "--format", "jsonl",   "--cluster",
+                                            "0.4",        folder,     "--labels"};
+  const auto with_labels = [&](const std::string& labels) {
+    std::vector<std::string> all = options;
+    all.push_back(at(labels));
+    return all;
+  };
+  const Result expected = run(with_labels("expected"));
+  const Result result = ranks(3, with_labels("labels"));
+  expect_same_files(at("labels"), at("expected"), 8);
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(expected.status, 1);
   for (std::size_t at = 0; at < expected.err.size();) {  // each input that failed is named once

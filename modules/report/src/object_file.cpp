@@ -23,7 +23,7 @@ constexpr char kObjectFormat[sizeof ObjectFilePreamble::format] = "pcl_bv object
 static_assert(sizeof(ObjectFilePreamble) == 72);
 static_assert(sizeof(ShareRun) == 24 && sizeof(ShareComponent) == 16);
 
-constexpr std::uint64_t kMaxHeader = 1U << 24U, kMaxItems = (std::uint64_t{1} << 32U) - 1;
+constexpr std::uint64_t kMaxHeader = 1U << 28U, kMaxItems = (std::uint64_t{1} << 32U) - 1;
 constexpr std::size_t kBlock = 1U << 22U;
 
 template <typename T>
@@ -53,6 +53,30 @@ void require_good(bool good, const char* what) {
   if (!good) throw IoError(what);
 }
 
+nlohmann::ordered_json json_of(const ObjectInput& input) {
+  nlohmann::ordered_json json{{"number", input.number}, {"points", input.points}, {"path", input.path}};
+  if (input.recorded) json["recorded"] = *input.recorded;
+  return json;
+}
+
+ObjectInput input_of(const UntrustedJson& json) {
+  ObjectInput input{json.at("number").get<std::size_t>(), json.at("points").get<std::size_t>(),
+                    json.at("path").get<std::string>()};
+  if (json.contains("recorded")) input.recorded = json.at("recorded").get<std::size_t>();
+  return input;
+}
+
+std::optional<ObjectInputs> inputs_of(const UntrustedJson& header) {
+  if (!header.contains("inputs")) return std::nullopt;
+  ObjectInputs inputs{{},
+                      header.at("bin_fields").get<std::size_t>(),
+                      header.at("columns").get<std::string>(),
+                      header.at("topic").get<std::string>()};
+  for (const UntrustedJson& input : header.at("inputs"))
+    inputs.list.push_back(input_of(input));
+  return inputs;
+}
+
 std::string header_text(const ObjectFileHeader& header, ScalarType scalar) {
   nlohmann::ordered_json json{{"scalar", scalar == ScalarType::float32 ? "float32" : "float64"},
                               {"nonfinite", header.nonfinite},
@@ -60,7 +84,17 @@ std::string header_text(const ObjectFileHeader& header, ScalarType scalar) {
                               {"volumes", header.volumes},
                               {"dropped_class", header.dropped_class}};
   if (header.class_value) json["class"] = *header.class_value;
-  return json.dump(-1, ' ', true, UntrustedJson::error_handler_t::replace) + '\n';
+  if (header.inputs) {
+    json["bin_fields"] = header.inputs->bin_fields;
+    json["columns"] = header.inputs->columns;
+    json["topic"] = header.inputs->topic;
+    json["inputs"] = nlohmann::ordered_json::array();
+    for (const ObjectInput& input : header.inputs->list)
+      json["inputs"].push_back(json_of(input));
+  }
+  std::string text = json.dump(-1, ' ', true, UntrustedJson::error_handler_t::replace) + '\n';
+  require_good(text.size() <= kMaxHeader, "has too many inputs: make more shares");
+  return text;
 }
 
 void write(std::ostream& out, std::string_view bytes) {
@@ -208,6 +242,7 @@ void ObjectFile::read_header(std::string_view content) {
     header_.clusters = json.at("clusters").get<std::string>();
     header_.volumes = json.at("volumes").get<std::string>();
     header_.dropped_class = json.at("dropped_class").get<std::size_t>();
+    header_.inputs = inputs_of(json);
     if (json.contains("class")) header_.class_value = json.at("class").get<std::int64_t>();
   } catch (const UntrustedJson::exception&) {
     throw IoError("its header cannot be read");

@@ -150,14 +150,21 @@ std::vector<Job> list_inputs(const Options& options) {
   return jobs;
 }
 
+fs::path label_file(const fs::path& folder, const std::string& input) {
+  return folder / (stem(input) + ".pcd");
+}
+
 namespace {
 
-// Plans a file in the folder for each input of a tiled cloud.
-void claim_tile_labels(const fs::path& folder, Job& job, OutputClaims& claims) {
+// Plans a file in the folder for each input of a tiled cloud. Those of merged shares are not known yet.
+void claim_tile_labels(const Options& options, Job& job, OutputClaims& claims) {
+  const fs::path& folder = *options.labels;
+  const std::string needs = options.merge ? "--merge needs" : "--together needs";
   if (folder.has_extension() && !is_folder(folder.string()))
-    reject_value("--labels", folder.string(), "is no folder, which --together needs");
+    reject_value("--labels", folder.string(), "is no folder, which " + needs);
+  if (!job.tiles) return;
   for (const Job& tile : job.tiles->jobs()) {
-    job.tile_labels.push_back(folder / (stem(tile.input) + ".pcd"));
+    job.tile_labels.push_back(label_file(folder, tile.input));
     if (!tile.error) claims.claim(job.tile_labels.back());
   }
 }
@@ -199,8 +206,8 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   for (Job& job : jobs) {
     if (jobs.size() > 1) job.frame = static_cast<std::size_t>(&job - jobs.data());
     if (job.error) continue;
-    if (options.labels && job.tiles) {
-      claim_tile_labels(*options.labels, job, claims);
+    if (options.labels && one) {
+      claim_tile_labels(options, job, claims);
     } else if (options.labels)
       claims.claim(job.labels.emplace(target("--labels", *options.labels, job, ".pcd")));
     if (options.mesh) claims.claim(job.mesh.emplace(target("--mesh", *options.mesh, job, mesh_extension)));

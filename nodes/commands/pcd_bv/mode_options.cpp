@@ -24,7 +24,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   const bool over_ranks = command == PcdBvCommand::mpi;
   const bool shares = options.merge || options.partial || over_ranks;
-  if (shares || !options.clusters()) reject_combinations(line, option, {"--labels"});
+  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--labels"});
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };

@@ -12,6 +12,7 @@
 #include "object_fitter.h"
 #include "object_texts.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "share_inputs.h"
 #include "shares.h"
 #include "tile_progress.h"
 
@@ -22,6 +23,7 @@ namespace {
 std::vector<std::string> fit_share(const MadeClusterShare& share, const ClusterOptions& clusters,
                                    const Options& options, ObjectFitter& fitter) {
   StoredClusterOptions store = store_options(options, share.scalar());
+  store.has_labels = false;
   store.is_known = [&](const ComponentOfShare& component) {
     return share.visit(component.number).has_value();
   };
@@ -49,6 +51,7 @@ class ShareWriter {
         table_(options.pipeline) {
     header_.cloud = describe_cloud(tiles, options.origin.at, options);
     header_.clusters = clusters_text(options.pipeline);
+    header_.inputs = inputs_of_share(tiles, range_, options);
     if (range_.first < range_.second) header_.cloud.shares = {range_};
   }
 
@@ -117,7 +120,7 @@ void write_share(const Tiles& tiles, const ShareOption& share, const Options& op
 }  // namespace
 
 bool needs_all_records(const Options& options) {
-  return options.check || options.objects || options.pipeline.cluster.class_field;
+  return options.check || options.objects || options.labels || options.pipeline.cluster.class_field;
 }
 
 void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,

@@ -20,6 +20,21 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
+/// An input of a cloud.
+struct ObjectInput {
+  std::size_t number = 0;  ///< Among the inputs of the cloud.
+  std::size_t points = 0;
+  std::string path;                       ///< Absolute, or the name of a generated cloud.
+  std::optional<std::size_t> recorded{};  ///< Number of the cloud, if the file is a recording.
+};
+
+/// The inputs that have points of a share, and how they are read.
+struct ObjectInputs {
+  std::vector<ObjectInput> list;
+  std::size_t bin_fields = 0;
+  std::string columns, topic;
+};
+
 /// What a file says about its share.
 struct ObjectFileHeader {
   PartialFile cloud;          ///< The cloud, the points of the share, and counts; without a Partial.
@@ -29,9 +44,12 @@ struct ObjectFileHeader {
   /// With classes, a share is a share of the cloud for each class. The first one has the counts of all.
   std::optional<std::int64_t> class_value{};
   std::size_t dropped_class = 0;  ///< Number of points of the share whose class is dropped.
+  /// Nothing in files of older versions.
+  std::optional<ObjectInputs> inputs{};
 
-  /// Removes points and counts, for the next class of the same points.
+  /// Removes points, counts and inputs, for the next class of the same points.
   void without_points() {
+    if (inputs) inputs->list.clear();
     cloud.shares.clear();
     cloud.counts = Counts();
     nonfinite = dropped_class = 0;
