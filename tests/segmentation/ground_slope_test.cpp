@@ -10,10 +10,13 @@
 #include <numbers>
 
 #include "ground_scenes.h"
+#include "pcl_bv/segmentation/slope_surface.h"
 
 namespace pcl_bv {
 namespace {
 
+using detail::LowestPoints;
+using detail::SlopeSurface;
 using testing::HasSubstr;
 
 template <typename T>
@@ -191,6 +194,43 @@ TEST(GroundBySlope, DoesNotDependOnOrderThreadsAxesOrScalarType) {
     options.up = 3 * axis_up(axis);
     EXPECT_EQ(split(turned(floats, axis), options).ground, once.ground) << axis;
   }
+}
+
+TEST(GroundBySlope, OfSharesIsThatOfTheWholeCloudForAnyTilingAndOrder) {
+  std::size_t moved = 0;  // points that are ground of a share alone, or not, but otherwise in the cloud
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    Cloud<double> cloud = landscape(seed, 500 + 400 * (seed % 5), 20 + seed);
+    if (seed % 2 == 0) std::sort(cloud.begin(), cloud.end());
+    cloud[seed][1] = NAN;
+    const PointView points = scene_view(cloud);
+    GroundSlopeOptions options;
+    options.cell_size = number_in(random, 0.4, 3);
+    std::vector<LowestPoints> shares;
+    std::vector<std::uint8_t> expected(points.count), found(points.count), alone(points.count);
+    for (std::size_t begin = 0, end = 0; begin < points.count; begin = end) {
+      end = std::min(points.count, begin + 1 + random() % points.count);
+      const PointView part = points.slice(begin, end - begin);
+      shares.emplace_back(options).add(part, Threads{2});
+      SlopeSurface(part, options, {}).classify(part, &alone[begin]);
+    }
+    std::shuffle(shares.begin(), shares.end(), random);
+    LowestPoints all(options), whole(options);
+    for (const LowestPoints& share : shares)
+      for (std::size_t i = 0; i < share.size(); ++i)
+        all.add(share[i]);
+    whole.add(points, Serial{});
+    EXPECT_EQ(all.check_sum(), whole.check_sum());
+    if (shares.size() > 1) {
+      EXPECT_NE(all.check_sum(), shares.front().check_sum());
+    }
+    EXPECT_EQ(whole.valid_points(), points.count - 1);
+    SlopeSurface(points, options, {}).classify(points, expected.data());
+    SlopeSurface(std::move(all), Threads{3}).classify(points, found.data());
+    EXPECT_EQ(found, expected) << seed;
+    moved += alone != expected;
+  }
+  EXPECT_GT(moved, 10U);
 }
 
 TEST(GroundBySlope, MovesWithTheCloud) {

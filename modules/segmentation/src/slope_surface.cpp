@@ -4,11 +4,13 @@
 #include "pcl_bv/segmentation/slope_surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ground_checks.h"
@@ -61,9 +63,13 @@ struct Lows {
 
 }  // namespace
 
-struct SlopeSurface::State {
-  State(const GroundSlopeOptions& options, const UpFrame& up_frame)
-      : frame(up_frame), cell_size(options.cell_size), distance(options.distance) {}
+struct LowestPoints::State {
+  explicit State(const GroundSlopeOptions& options)
+      : frame(options.up), cell_size(options.cell_size), distance(options.distance) {
+    // The last bit of a tangent depends on the processor, so it is rounded to float.
+    const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
+    rise = double{slope} * options.cell_size;
+  }
 
   GridPoint point(const Coordinates& p) const {
     const Eigen::Vector3d at{p.x, p.y, p.z};
@@ -90,21 +96,71 @@ struct SlopeSurface::State {
   }
 
   UpFrame frame;
-  double cell_size, distance;
+  double cell_size, distance, rise = 0;
   SlopeCells cells;
   std::size_t valid = 0;
 };
 
-SlopeSurface::SlopeSurface(const PointView& points, const GroundSlopeOptions& options,
-                           const Execution& execution) {
+LowestPoints::LowestPoints(const GroundSlopeOptions& options) {
   const FloatEnvironment environment;
   check(options);
-  state_ = std::make_unique<State>(options, UpFrame(options.up));
-  state_->read(points, execution.parallel);
-  // The last bit of a tangent depends on the processor, so it is rounded to float.
-  const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
-  const double rise = double{slope} * options.cell_size;
-  find_envelope(low_outliers(state_->cells, rise, options.distance, execution.parallel), rise,
+  state_ = std::make_unique<State>(options);
+}
+
+LowestPoints::~LowestPoints() = default;
+LowestPoints::LowestPoints(LowestPoints&&) noexcept = default;
+LowestPoints& LowestPoints::operator=(LowestPoints&&) noexcept = default;
+
+void LowestPoints::add(const PointView& points, const ParallelPolicy& policy) {
+  const FloatEnvironment environment;
+  state_->read(points, policy);
+}
+
+void LowestPoints::add(const LowestPoint& point) {
+  state_->cells.add({point.x, point.y}, point.height);
+}
+
+std::size_t LowestPoints::valid_points() const {
+  return state_->valid;
+}
+
+std::size_t LowestPoints::size() const {
+  return state_->cells.size();
+}
+
+LowestPoint LowestPoints::operator[](std::size_t cell) const {
+  const SlopeCell& found = state_->cells[cell];
+  return {found.at.x, found.at.y, found.height};
+}
+
+// Heights of 0 and -0 are the same.
+std::uint64_t LowestPoints::check_sum() const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const SlopeCell& cell = state_->cells[i];
+    std::uint64_t mixed = 0;
+    for (const std::uint64_t part : {std::uint64_t{static_cast<std::uint32_t>(cell.at.x)},
+                                     std::uint64_t{static_cast<std::uint32_t>(cell.at.y)},
+                                     std::bit_cast<std::uint64_t>(cell.height + 0.0)}) {
+      mixed = (mixed ^ part) * 0x9e3779b97f4a7c15;
+      mixed ^= mixed >> 29U;
+    }
+    sum += mixed;
+  }
+  return sum;
+}
+
+SlopeSurface::SlopeSurface(const PointView& points, const GroundSlopeOptions& options,
+                           const Execution& execution) {
+  LowestPoints lowest(options);
+  lowest.add(points, execution.parallel);
+  *this = SlopeSurface(std::move(lowest), execution);
+}
+
+SlopeSurface::SlopeSurface(LowestPoints lowest, const Execution& execution)
+    : state_(std::move(lowest.state_)) {
+  const FloatEnvironment environment;
+  find_envelope(low_outliers(state_->cells, state_->rise, state_->distance, execution.parallel), state_->rise,
                 execution.parallel, state_->cells);
   find_rises(execution.parallel, state_->cells);
 }
