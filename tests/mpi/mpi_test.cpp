@@ -165,7 +165,7 @@ TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
         {"--partial", "p", "x.pcd"},
         {},
         {"--together", "--info", "x.pcd"},
-        {"--together", "--cluster", "1", "--ground", "slope", "x.pcd"},
+        {"--together", "--cluster", "1", "--ground", "plane", "x.pcd"},
         {"--output", at("x.pcd"), at("x.pcd")}}) {
     const Result result = ranks(3, wrong);
     EXPECT_EQ(result.status, 2);
@@ -220,6 +220,25 @@ TEST_F(Mpi, ObjectsHaveTheBytesOfOneProcess) {
   EXPECT_EQ(labelled.status, 0) << labelled.err;
   EXPECT_TRUE(labelled.out == expected.out);
   expect_same_files(at("labels"), at("expected"), 9);
+}
+
+TEST_F(Mpi, ObjectsAboveTheGroundHaveTheBytesOfOneProcess) {
+  const std::string folder = tiles("tiles", yard(3), 9);
+  add_bad_tiles("tiles");
+  std::vector<std::string> options = {"--together", "--format", "jsonl", "--cluster",     "0.4",
+                                      "--ground",   "slope",    folder,  "--ground-cell", "2"};
+  options.insert(options.end(), {"--labels", at("expected")});
+  const Result expected = run(options);
+  EXPECT_GT(Json::parse(expected.out)["counts"]["ground"], 1000);
+  options.back() = at("labels");
+  for (const int count : {1, 3}) {
+    const Result result = ranks(count, options);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr(folder + "/99.pcd: "));
+    EXPECT_THAT(result.err, HasSubstr(folder + "/00a.pcd: "));
+    EXPECT_TRUE(result.out == expected.out) << count << " ranks";
+    expect_same_files(at("labels"), at("expected"), 9);
+  }
 }
 
 TEST_F(Mpi, ObjectsOfAnInputThatFailsAreLeftOut) {

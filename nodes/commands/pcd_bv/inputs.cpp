@@ -88,8 +88,9 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   }
 }
 
-// Returns the argument or, if it is a folder, all files in it that are not hidden, ordered by name.
-std::vector<Job> expand_partials(const std::string& argument) {
+}  // namespace
+
+std::vector<Job> list_partials(const std::string& argument) {
   if (!is_folder(argument)) return {{argument}};
   std::vector<Job> jobs;
   std::error_code unreadable;
@@ -101,6 +102,8 @@ std::vector<Job> expand_partials(const std::string& argument) {
   if (jobs.empty()) return {{argument, "no file of partial results in this folder"}};
   return jobs;
 }
+
+namespace {
 
 // Makes one job of all inputs.
 Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
@@ -141,7 +144,7 @@ bool is_synth(const std::string& input) {
 std::vector<Job> list_inputs(const Options& options) {
   std::vector<Job> jobs;
   for (const std::string& argument : options.inputs) {
-    for (Job& job : options.merge ? expand_partials(argument) : expand(argument, options.topic)) {
+    for (Job& job : options.merge ? list_partials(argument) : expand(argument, options.topic)) {
       job.bin_fields = options.bin_fields;
       job.columns = options.columns;
       jobs.push_back(std::move(job));
@@ -195,6 +198,10 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
     claims.add_input(region.file);
   for (const Job& job : inputs) {
     if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
+  }
+  if (options.ground_parts) {
+    for (const Job& part : list_partials(options.ground_parts->string()))
+      claims.add_input(part.input);
   }
   if (options.partial) claims.claim(*options.partial);
   std::vector<Job> jobs =

@@ -60,6 +60,10 @@ class MergedClouds {
   std::vector<PartialFile> clouds_;
 };
 
+bool have_same_ground(const ObjectFileHeader& a, const ObjectFileHeader& b) {
+  return a.ground ? b.ground && a.ground->check_sum == b.ground->check_sum : !b.ground;
+}
+
 // Opens the files. Reports each that cannot be opened or does not belong to the others; then returns false.
 bool open_files(const std::vector<std::string>& files, const Options& options, OpenShares& open,
                 MergedClouds& clouds) {
@@ -72,6 +76,8 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
           throw IoError("was made with " + share->header().clusters + ": give the same options");
         if (!open.shares.empty() && open.shares.front()->scalar() != share->scalar())
           throw IoError("has points of another type (float32, float64) than the files before");
+        if (!open.shares.empty() && !have_same_ground(open.shares.front()->header(), share->header()))
+          throw IoError("has another ground than the files before: --ground-parts were not the same");
         clouds.add(share->header());
         open.shares.push_back(std::move(share));
         open.names.push_back(name);
@@ -98,6 +104,7 @@ void describe(const OpenShares& open, const MergedClouds& clouds, Report& report
   }
   for (const auto& share : open.shares) {
     report.counts.nonfinite += share->header().nonfinite;
+    if (share->header().ground) report.counts.ground += share->header().ground->points;
     report.counts.dropped_class += share->header().dropped_class;
   }
 }
@@ -248,7 +255,7 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
   if (job.objects) status = worse(status, list.write_points(*job.objects));
   if (options.labels) {
     const ScalarType scalar = open.shares.front()->scalar();
-    status = worse(status, write_input_labels(labelled, report.origin, scalar, list));
+    status = worse(status, write_input_labels(labelled, open, report.origin, scalar, list));
   }
   return worse(status, report_failures(report));
 }

@@ -12,6 +12,7 @@
 #include "commands/shared/output_claims.h"
 #include "commands/shared/values.h"
 #include "copy_points.h"
+#include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/segmentation/cluster_share.h"
 #include "shifted_points.h"
@@ -183,14 +184,35 @@ void require_points(PointView points, const std::optional<Eigen::Vector3d>& orig
   }
 }
 
-void write_labels_of(const LabelledInput& input, const std::optional<Eigen::Vector3d>& origin,
-                     ScalarType scalar, const ObjectList& list) {
+// Sets the labels of points of the ground, the first of which has the number `first` among all clouds.
+void label_ground(const OpenShares& open, std::size_t first, std::vector<std::uint32_t>& labels) {
+  for (std::size_t s = 0; s < open.shares.size(); ++s) {
+    const ObjectFile& share = *open.shares[s];
+    const ObjectFileHeader& header = share.header();
+    const std::size_t last = share.first_number + header.cloud.cloud_points;  // of the cloud
+    if (!header.ground || first < share.first_number || first >= last) continue;
+    std::vector<std::uint8_t> ground(labels.size());
+    try {
+      share.mark_ground(first - share.first_number, ground);
+    } catch (const IoError& error) {
+      throw IoError(open.names[s] + ": " + error.what());
+    }
+    for (std::size_t i = 0; i < ground.size(); ++i)
+      if (ground[i] != 0) labels[i] = kLabelGround;
+  }
+}
+
+void write_labels_of(const LabelledInput& input, const OpenShares& open,
+                     const std::optional<Eigen::Vector3d>& origin, ScalarType scalar,
+                     const ObjectList& list) {
   RawCloud cloud = load_cloud(input.job, {Serial{}, Isa::scalar});
   const std::size_t first = input.points.first, count = input.points.second - first;
   if (cloud.size() != count) throw IoError("has changed since the shares were made");
   require_points(cloud.xyz(), origin, scalar, list.check_sums(first, count));
+  std::vector<std::uint32_t> labels = list.labels(first, count);
+  label_ground(open, first, labels);
   try {
-    write_labelled(input.file, std::move(cloud), list.labels(first, count));
+    write_labelled(input.file, std::move(cloud), labels);
   } catch (const IoError& error) {
     throw IoError(input.file.string() + ": " + error.what());
   }
@@ -198,13 +220,13 @@ void write_labels_of(const LabelledInput& input, const std::optional<Eigen::Vect
 
 }  // namespace
 
-Status write_input_labels(const std::vector<LabelledInput>& inputs,
+Status write_input_labels(const std::vector<LabelledInput>& inputs, const OpenShares& open,
                           const std::optional<Eigen::Vector3d>& origin, ScalarType scalar,
                           const ObjectList& list) {
   Status status = Status::done;
   for (const LabelledInput& input : inputs) {
     try {
-      write_labels_of(input, origin, scalar, list);
+      write_labels_of(input, open, origin, scalar, list);
     } catch (const std::bad_alloc&) {
       report_problem(input.job.input + ": not enough memory");
       status = Status::failed;

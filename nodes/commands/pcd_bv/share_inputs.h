@@ -43,7 +43,7 @@ std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const std::ve
 
 /// Writes each input with a field `label`. Reports those that are missing or have other points than the
 /// shares, and files that cannot be written; the others are written.
-Status write_input_labels(const std::vector<LabelledInput>& inputs,
+Status write_input_labels(const std::vector<LabelledInput>& inputs, const OpenShares& open,
                           const std::optional<Eigen::Vector3d>& origin, ScalarType scalar,
                           const ObjectList& list);
 
