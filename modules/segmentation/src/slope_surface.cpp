@@ -4,7 +4,6 @@
 #include "pcl_bv/segmentation/slope_surface.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -29,6 +28,13 @@ void check(const GroundSlopeOptions& options) {
   check_ground(who, options.distance, options.max_slope_degrees, {});
   require(options.cell_size >= 0.01 && options.cell_size <= 1000, who, "cell_size", options.cell_size,
           "0.01 to 1000");
+}
+
+// Returns the rise of the maximum slope over a cell. The last bit of a tangent depends on the processor, so
+// it is rounded to float.
+double rise_of(const GroundSlopeOptions& options) {
+  const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
+  return double{slope} * options.cell_size;
 }
 
 // A point in the grid. The position in its cell is from -0.5 to 0.5.
@@ -63,13 +69,46 @@ struct Lows {
 
 }  // namespace
 
+bool CellRange::intersects(const CellRange& other) const {
+  return !empty() && !other.empty() && min_x <= other.max_x && max_x >= other.min_x && min_y <= other.max_y &&
+         max_y >= other.min_y;
+}
+
+void CellRange::merge(const CellRange& other) {
+  if (other.empty()) return;
+  if (empty()) {
+    *this = other;
+    return;
+  }
+  min_x = std::min(min_x, other.min_x);
+  min_y = std::min(min_y, other.min_y);
+  max_x = std::max(max_x, other.max_x);
+  max_y = std::max(max_y, other.max_y);
+}
+
+CellRange CellRange::grown(double cells) const {
+  if (empty()) return {};
+  return {cell_of(min_x - cells), cell_of(min_y - cells), cell_of(max_x + cells), cell_of(max_y + cells)};
+}
+
+// The surface in a cell is the lowest of the cones on the cells that are no outliers. In the range and next
+// to it, it is at most `highest` plus the rise over kFarFromOutlier cells: a cell is the source of a cone
+// itself, or there is a source at most so far away. A cone that is `reach` away is higher. Whether a cell is
+// an outlier depends on cells within kFarFromOutlier, and on the sizes of their patches up to kPatchCells
+// cells, each at most kLinkedCells from the one before.
+CellRange cells_that_matter(const CellRange& range, double lowest, double highest,
+                            const GroundSlopeOptions& options) {
+  const FloatEnvironment environment;
+  static_assert(kCellsOfHighest >= kFarFromOutlier + 1);
+  const double rise = rise_of(options), difference = std::max(highest - lowest, 0.0);
+  const double reach = difference > 0 ? kFarFromOutlier + difference / rise : kFarFromOutlier;
+  constexpr int for_outliers = kFarFromOutlier + kPatchCells * kLinkedCells;
+  return range.grown(reach + for_outliers + 2);  // the neighbours of cells, and roundings
+}
+
 struct LowestPoints::State {
   explicit State(const GroundSlopeOptions& options)
-      : frame(options.up), cell_size(options.cell_size), distance(options.distance) {
-    // The last bit of a tangent depends on the processor, so it is rounded to float.
-    const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
-    rise = double{slope} * options.cell_size;
-  }
+      : frame(options.up), cell_size(options.cell_size), distance(options.distance), rise(rise_of(options)) {}
 
   GridPoint point(const Coordinates& p) const {
     const Eigen::Vector3d at{p.x, p.y, p.z};
@@ -96,7 +135,7 @@ struct LowestPoints::State {
   }
 
   UpFrame frame;
-  double cell_size, distance, rise = 0;
+  double cell_size, distance, rise;
   SlopeCells cells;
   std::size_t valid = 0;
 };
@@ -131,23 +170,6 @@ std::size_t LowestPoints::size() const {
 LowestPoint LowestPoints::operator[](std::size_t cell) const {
   const SlopeCell& found = state_->cells[cell];
   return {found.at.x, found.at.y, found.height};
-}
-
-// Heights of 0 and -0 are the same.
-std::uint64_t LowestPoints::check_sum() const {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const SlopeCell& cell = state_->cells[i];
-    std::uint64_t mixed = 0;
-    for (const std::uint64_t part : {std::uint64_t{static_cast<std::uint32_t>(cell.at.x)},
-                                     std::uint64_t{static_cast<std::uint32_t>(cell.at.y)},
-                                     std::bit_cast<std::uint64_t>(cell.height + 0.0)}) {
-      mixed = (mixed ^ part) * 0x9e3779b97f4a7c15;
-      mixed ^= mixed >> 29U;
-    }
-    sum += mixed;
-  }
-  return sum;
 }
 
 SlopeSurface::SlopeSurface(const PointView& points, const GroundSlopeOptions& options,

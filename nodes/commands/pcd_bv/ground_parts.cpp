@@ -3,6 +3,8 @@
 
 #include "ground_parts.h"
 
+#include <algorithm>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -29,35 +31,79 @@ void write_ground_part(const Tiles& tiles, const ShareOption& share, const Optio
   write_ground_file(path, life, header, lowest);
 }
 
-CloudGround read_ground_parts(const Tiles& tiles, const Options& options,
-                              const std::vector<std::string>& files) {
-  LowestPoints lowest(slope_settings(options.pipeline.ground));
+namespace {
+
+// Calls work(), and adds the name of the file to its errors.
+template <typename Work>
+void with_file(const std::string& file, const Work& work) {
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw IoError(file + ": " + error.what());
+  }
+}
+
+using GroundFiles = std::vector<std::unique_ptr<GroundFile>>;
+
+// Returns the range of the cells of a share: it has no points but those of the files that have its numbers.
+CellRange cells_of_share(const GroundFiles& files, const PointRange& share) {
+  CellRange cells;
+  for (const auto& file : files)
+    for (const auto& [first, end] : file->header().cloud.shares)
+      if (first < share.second && share.first < end) cells.merge(file->bounds().cells);
+  return cells;
+}
+
+CellRange cells_for_share(const GroundFiles& files, const PointRange& share,
+                          const GroundSlopeOptions& options) {
+  const CellRange own = cells_of_share(files, share);
+  GroundBounds all, near;
+  for (const auto& file : files) {
+    all.lowest = std::min(all.lowest, file->bounds().lowest);
+    if (file->bounds().cells.intersects(own.grown(kCellsOfHighest)))
+      near.highest = std::max(near.highest, file->bounds().highest);
+  }
+  return cells_that_matter(own, all.lowest, near.highest, options);
+}
+
+}  // namespace
+
+CloudGround read_ground_parts(const Tiles& tiles, const ShareOption& share, const Options& options,
+                              const std::vector<std::string>& names) {
   PartialFile cloud = describe_cloud(tiles, options.origin.at, options);
   const std::string text = ground_text(options.pipeline.ground);
-  for (const std::string& file : files) {
-    try {
-      const GroundFileHeader header = read_ground_file(file, lowest);
+  GroundFiles files;
+  std::uint64_t check_sum = 0;
+  for (const std::string& name : names) {
+    with_file(name, [&] {
+      files.push_back(std::make_unique<GroundFile>(name));
+      const GroundFileHeader& header = files.back()->header();
       if (header.options != text)
         throw IoError("was made with " + header.options + ": give the same options");
       cloud.merge(header.cloud);
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      throw IoError(file + ": " + error.what());
-    }
+      check_sum += files.back()->check_sum();
+    });
   }
   if (!cloud.is_whole()) throw IoError("--ground-parts: shares are missing: " + cloud.missing());
-  const std::uint64_t check_sum = lowest.check_sum();
+  const GroundSlopeOptions slope = slope_settings(options.pipeline.ground);
+  const CellRange cells = cells_for_share(files, tiles.share(share.number, share.count), slope);
+  LowestPoints lowest(slope);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!files[i]->bounds().cells.intersects(cells)) continue;
+    with_file(names[i], [&] { files[i]->read(cells, lowest); });
+  }
   return {SlopeSurface(std::move(lowest), execution_of(options)), check_sum};
 }
 
-CloudGround read_ground_parts(const Tiles& tiles, const Options& options) {
+CloudGround read_ground_parts(const Tiles& tiles, const ShareOption& share, const Options& options) {
   std::vector<std::string> files;
   for (const Job& job : list_partials(options.ground_parts->string())) {
     if (job.error) throw IoError(job.input + ": " + *job.error);
     files.push_back(job.input);
   }
-  return read_ground_parts(tiles, options, files);
+  return read_ground_parts(tiles, share, options, files);
 }
 
 Status make_ground_part(const Job& job, const Options& options) {

@@ -157,7 +157,7 @@ namespace {
 std::optional<CloudGround> ground_of_parts(const Tiles& tiles, const Options& options) {
   if (!options.ground_parts) return std::nullopt;
   try {
-    return read_ground_parts(tiles, options);
+    return read_ground_parts(tiles, options.share, options);
   } catch (const IoError& error) {
     report_problem(error.what());
     return std::nullopt;

@@ -160,7 +160,11 @@ std::optional<TileFailure> find_ground(Ranks& ranks, const Tiles& tiles, const O
   for (std::size_t rank = 0; rank < ranks.size(); ++rank)
     files.push_back(folder.ground_file(rank));
   return run_on_all(
-      ranks, [&] { ground = read_ground_parts(tiles, options, files); }, no_more);
+      ranks,
+      [&] {
+        ground = read_ground_parts(tiles, {ranks.rank(), ranks.size()}, options, files);
+      },
+      no_more);
 }
 
 // Writes the file of a rank. Returns the input that fails on any rank. Throws IoError on all ranks if a rank

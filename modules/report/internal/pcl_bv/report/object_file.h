@@ -38,7 +38,7 @@ struct ObjectInputs {
 /// The ground that was removed from a share.
 struct ShareGround {
   std::size_t points = 0;       ///< Number of points of the share that are ground.
-  std::uint64_t check_sum = 0;  ///< LowestPoints::check_sum() of the surface.
+  std::uint64_t check_sum = 0;  ///< Of the files from which the surface was computed.
 };
 
 /// What a file says about its share.

@@ -22,6 +22,29 @@ struct LowestPoint {
   double height = 0;
 };
 
+/// A rectangle of cells, of which the last ones belong to it, too.
+struct CellRange {
+  std::int32_t min_x = 0, min_y = 0, max_x = -1, max_y = -1;
+
+  bool empty() const { return min_x > max_x || min_y > max_y; }
+  bool contains(const LowestPoint& p) const {
+    return p.x >= min_x && p.x <= max_x && p.y >= min_y && p.y <= max_y;
+  }
+  bool intersects(const CellRange& other) const;
+  void merge(const CellRange& other);
+  /// Returns the range with `cells` more on each side, at most the whole grid.
+  CellRange grown(double cells) const;
+};
+
+/// Number of cells around a range to which CellsNear::highest extends.
+inline constexpr int kCellsOfHighest = 11;
+
+/// Returns the range of all cells whose lowest points can change the surface in a range. `lowest` is the
+/// smallest height of the cloud. `highest` is at least the height of each cell (LowestPoint) in
+/// range.grown(kCellsOfHighest).
+CellRange cells_that_matter(const CellRange& range, double lowest, double highest,
+                            const GroundSlopeOptions& options);
+
 /// The lowest points of all cells that have points, from which the surface is computed. Those of shares of a
 /// cloud are added to each other.
 class LowestPoints {
@@ -43,8 +66,6 @@ class LowestPoints {
   std::size_t size() const;
   /// Cells are in no particular order.
   LowestPoint operator[](std::size_t cell) const;
-  /// Returns a number that is the same for the same lowest points in any order.
-  std::uint64_t check_sum() const;
 
  private:
   friend class SlopeSurface;
@@ -59,7 +80,7 @@ class SlopeSurface {
   /// order of the points nor on the execution. Takes up to 150 bytes for each cell with points;
   /// 115 were measured. Throws std::invalid_argument for an option outside its range.
   SlopeSurface(const PointView& points, const GroundSlopeOptions& options, const Execution& execution);
-  /// Computes the surface of a cloud from its lowest points.
+  /// Computes the surface of a cloud from its lowest points, or in a range from those of cells_that_matter().
   SlopeSurface(LowestPoints lowest, const Execution& execution);
   ~SlopeSurface();
   SlopeSurface(SlopeSurface&&) noexcept;
