@@ -4,6 +4,7 @@
 #include "ground_parts.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <new>
 #include <utility>
@@ -59,13 +60,16 @@ CellRange cells_of_share(const GroundFiles& files, const PointRange& share) {
 CellRange cells_for_share(const GroundFiles& files, const PointRange& share,
                           const GroundSlopeOptions& options) {
   const CellRange own = cells_of_share(files, share);
-  GroundBounds all, near;
-  for (const auto& file : files) {
-    all.lowest = std::min(all.lowest, file->bounds().lowest);
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const auto& file : files)
     if (file->bounds().cells.intersects(own.grown(kCellsOfHighest)))
-      near.highest = std::max(near.highest, file->bounds().highest);
+      highest = std::max(highest, file->bounds().highest);
+  CellRange all;
+  for (const auto& file : files) {  // the low points of a file that is too far away do not matter
+    const CellRange cells = cells_that_matter(own, file->bounds().lowest, highest, options);
+    if (cells.intersects(file->bounds().cells)) all.merge(cells);
   }
-  return cells_that_matter(own, all.lowest, near.highest, options);
+  return all;
 }
 
 }  // namespace
