@@ -94,11 +94,12 @@ void GroundBounds::add(const LowestPoint& point) {
   highest = std::max(highest, point.height);
 }
 
-GroundFile::GroundFile(const std::filesystem::path& path) : file_(path) {
+GroundFile::GroundFile(const std::filesystem::path& path) : path_(path) {
+  const InputFile file(path);
   constexpr const char* other = "is no file of the ground, as --partial --ground writes it";
   GroundPreamble preamble;
-  require_ground(file_.size() >= sizeof preamble, other);
-  file_.read(0, &preamble, sizeof preamble);
+  require_ground(file.size() >= sizeof preamble, other);
+  file.read(0, &preamble, sizeof preamble);
   require_ground(std::memcmp(preamble.format, kGroundFormat, 14) == 0, other);
   require_ground(std::memcmp(preamble.format, kGroundFormat, sizeof kGroundFormat) == 0,
                  "was written by another version of pcl_bv: this one reads version 1");
@@ -108,13 +109,13 @@ GroundFile::GroundFile(const std::filesystem::path& path) : file_(path) {
   std::uint32_t sum, points_sum;
   first_point_ = sizeof preamble + text.size() + sizeof sum;
   points_ = preamble.points;
-  require_ground(first_point_ + sizeof points_sum <= file_.size() &&
-                     points_ == (file_.size() - first_point_ - sizeof points_sum) / sizeof(LowestPoint) &&
-                     (file_.size() - first_point_ - sizeof points_sum) % sizeof(LowestPoint) == 0,
+  require_ground(first_point_ + sizeof points_sum <= file.size() &&
+                     points_ == (file.size() - first_point_ - sizeof points_sum) / sizeof(LowestPoint) &&
+                     (file.size() - first_point_ - sizeof points_sum) % sizeof(LowestPoint) == 0,
                  "is truncated");
-  file_.read(sizeof preamble, text.data(), text.size());
-  file_.read(first_point_ - sizeof sum, &sum, sizeof sum);
-  file_.read(file_.size() - sizeof points_sum, &points_sum, sizeof points_sum);
+  file.read(sizeof preamble, text.data(), text.size());
+  file.read(first_point_ - sizeof sum, &sum, sizeof sum);
+  file.read(file.size() - sizeof points_sum, &points_sum, sizeof points_sum);
   boost::crc_32_type expected;
   expected.process_bytes(&preamble, sizeof preamble);
   expected.process_bytes(text.data(), text.size());
@@ -126,12 +127,13 @@ GroundFile::GroundFile(const std::filesystem::path& path) : file_(path) {
 }
 
 void GroundFile::read(const CellRange& cells, LowestPoints& lowest) const {
+  const InputFile file(path_);
   std::vector<LowestPoint> block;
   boost::crc_32_type expected;
   for (std::uint64_t first = 0; first < points_; first += block.size()) {
     block.resize(std::min<std::uint64_t>(points_ - first, kLowestPerBlock));
     const std::size_t bytes = block.size() * sizeof(LowestPoint);
-    file_.read(first_point_ + first * sizeof(LowestPoint), block.data(), bytes);
+    file.read(first_point_ + first * sizeof(LowestPoint), block.data(), bytes);
     expected.process_bytes(block.data(), bytes);
     for (const LowestPoint& point : block)
       if (cells.contains(point)) lowest.add(point);

@@ -9,7 +9,6 @@
 #include <limits>
 #include <string>
 
-#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/report/object_file.h"
 #include "pcl_bv/report/partial_file.h"
 #include "pcl_bv/segmentation/slope_surface.h"
@@ -51,7 +50,7 @@ class GroundFile {
   void read(const CellRange& cells, LowestPoints& lowest) const;
 
  private:
-  InputFile file_;
+  std::filesystem::path path_;
   GroundFileHeader header_;
   GroundBounds bounds_;
   std::uint64_t first_point_ = 0, points_ = 0, check_sum_ = 0;

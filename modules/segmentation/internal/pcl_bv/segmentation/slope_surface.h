@@ -36,11 +36,11 @@ struct CellRange {
   CellRange grown(double cells) const;
 };
 
-/// Number of cells around a range to which CellsNear::highest extends.
+/// Number of cells around a range that `highest` of cells_that_matter() includes.
 inline constexpr int kCellsOfHighest = 11;
 
-/// Returns the range of all cells whose lowest points can change the surface in a range. `lowest` is the
-/// smallest height of the cloud. `highest` is at least the height of each cell (LowestPoint) in
+/// Returns the range of all cells whose lowest points can change the surface in a range. `lowest` is at most
+/// the height of each of them. `highest` is at least the height of each cell (LowestPoint) in
 /// range.grown(kCellsOfHighest).
 CellRange cells_that_matter(const CellRange& range, double lowest, double highest,
                             const GroundSlopeOptions& options);
