@@ -56,5 +56,5 @@ class GroundFile {
   std::uint64_t first_point_ = 0, points_ = 0, check_sum_ = 0;
 };
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
