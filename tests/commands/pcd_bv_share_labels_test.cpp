@@ -93,6 +93,15 @@ TEST_F(PcdBvShareLabels, OfOtherInputsAreThoseOfOneProcess) {
                                2);
 }
 
+TEST_F(PcdBvShareLabels, OfInputsWithAnyBytesInTheirNamesAreThoseOfOneProcess) {
+  std::string all = "t";
+  for (int byte = 1; byte < 256; ++byte)
+    if (byte != '/' && byte != '#') all += static_cast<char>(byte);
+  all.resize(240);
+  expect_labels_of_one_process("names", {"--cluster", "0.4"}, {},
+                               {binary(all + ".pcd", yard(1)), binary("\xe9t\xc3\xa9.pcd", yard(2))}, 2);
+}
+
 TEST_F(PcdBvShareLabels, OfIndependentInputsAreThoseOfOneCloud) {
   const Points points = yard(2);
   const auto half = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);

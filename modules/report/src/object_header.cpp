@@ -9,15 +9,42 @@
 namespace pcl_bv::detail {
 namespace {
 
+// Texts of JSON are UTF-8, but names of files have any bytes: each byte becomes a character.
+std::string to_json_text(const std::string& bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xc0 | byte >> 6);
+      text += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return text;
+}
+
+std::string from_json_text(const std::string& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const bool pair = (first & 0xfc) == 0xc0 && i + 1 < text.size();
+    bytes +=
+        pair ? static_cast<char>((first & 3) << 6 | (static_cast<unsigned char>(text[++i]) & 0x3f)) : text[i];
+  }
+  return bytes;
+}
+
 nlohmann::ordered_json json_of(const ObjectInput& input) {
-  nlohmann::ordered_json json{{"number", input.number}, {"points", input.points}, {"path", input.path}};
+  nlohmann::ordered_json json{
+      {"number", input.number}, {"points", input.points}, {"path", to_json_text(input.path)}};
   if (input.recorded) json["recorded"] = *input.recorded;
   return json;
 }
 
 ObjectInput input_of(const UntrustedJson& json) {
   ObjectInput input{json.at("number").get<std::size_t>(), json.at("points").get<std::size_t>(),
-                    json.at("path").get<std::string>()};
+                    from_json_text(json.at("path").get<std::string>())};
   if (json.contains("recorded")) input.recorded = json.at("recorded").get<std::size_t>();
   return input;
 }
