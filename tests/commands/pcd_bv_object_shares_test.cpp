@@ -17,21 +17,6 @@ using testing::HasSubstr;
 
 class PcdBvObjectShares : public TiledObjects {
  protected:
-  // Writes the shares of the inputs to a folder of their own, which is returned.
-  std::string shares(const std::string& name, std::size_t count, const std::vector<std::string>& options,
-                     const std::vector<std::string>& inputs) const {
-    for (std::size_t k = 0; k < count; ++k) {
-      std::vector<std::string> all{"--partial", at(name + "/" + std::to_string(k)), "--part",
-                                   std::to_string(k) + "/" + std::to_string(count)};
-      all.insert(all.end(), options.begin(), options.end());
-      all.insert(all.end(), inputs.begin(), inputs.end());
-      const Result result = run(all);
-      EXPECT_EQ(result.status, 0) << result.err;
-      EXPECT_EQ(result.out, "");
-    }
-    return at(name);
-  }
-
   static std::streamoff size_of(const std::string& path) {
     return static_cast<std::streamoff>(std::filesystem::file_size(path));
   }

@@ -96,6 +96,34 @@ class Tiled : public PcdBv {
     EXPECT_EQ(result.error_lines(), 2U);
   }
 
+  /// Writes the shares of the inputs to a folder of their own, which is returned.
+  std::string shares(const std::string& name, std::size_t count, const std::vector<std::string>& options,
+                     const std::vector<std::string>& inputs) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      std::vector<std::string> all{"--partial", at(name + "/" + std::to_string(k)), "--part",
+                                   std::to_string(k) + "/" + std::to_string(count)};
+      all.insert(all.end(), options.begin(), options.end());
+      all.insert(all.end(), inputs.begin(), inputs.end());
+      const Result result = run(all);
+      EXPECT_EQ(result.status, 0) << result.err;
+      EXPECT_EQ(result.out, "");
+    }
+    return at(name);
+  }
+
+  /// Expects a number of files with the same names and bytes in two folders.
+  static void expect_same_files(const std::string& found, const std::string& expected, std::size_t count) {
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(expected)) {
+      const std::filesystem::path same = std::filesystem::path(found) / entry.path().filename();
+      EXPECT_TRUE(std::filesystem::exists(same) && read_file(same) == read_file(entry.path())) << same;
+      ++files;
+    }
+    EXPECT_EQ(files, count);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(found), {}),
+              static_cast<std::ptrdiff_t>(count));
+  }
+
   /// What a report says of the cloud, whatever it is called.
   static Json found(const Result& result) {
     EXPECT_EQ(result.status, 0) << result.err;

@@ -165,7 +165,7 @@ TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
         {"--partial", "p", "x.pcd"},
         {},
         {"--together", "--info", "x.pcd"},
-        {"--together", "--cluster", "1", "--ground", "slope", "x.pcd"},
+        {"--together", "--cluster", "1", "--ground", "plane", "x.pcd"},
         {"--output", at("x.pcd"), at("x.pcd")}}) {
     const Result result = ranks(3, wrong);
     EXPECT_EQ(result.status, 2);
@@ -204,8 +204,8 @@ TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
 
 TEST_F(Mpi, ObjectsHaveTheBytesOfOneProcess) {
   const std::string folder = tiles("tiles", yard(1), 9);
-  const std::vector<std::string> options = {"--together", "--format", "jsonl",      "--cluster", "0.4",
-                                            "--volume",   "all",      "--min-size", "20",        folder};
+  std::vector<std::string> options = {"--together", "--format", "jsonl",      "--cluster", "0.4",
+                                      "--volume",   "all",      "--min-size", "20",        folder};
   const Result expected = run(options);
   ASSERT_EQ(expected.status, 0) << expected.err;
   for (const int count : {1, 2, 5}) {
@@ -213,13 +213,47 @@ TEST_F(Mpi, ObjectsHaveTheBytesOfOneProcess) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(result.out == expected.out) << count << " ranks";
   }
+  options.insert(options.end(), {"--labels", at("expected")});
+  EXPECT_EQ(run(options).status, 0);
+  options.back() = at("labels");
+  const Result labelled = ranks(3, options);
+  EXPECT_EQ(labelled.status, 0) << labelled.err;
+  EXPECT_TRUE(labelled.out == expected.out);
+  expect_same_files(at("labels"), at("expected"), 9);
+}
+
+TEST_F(Mpi, ObjectsAboveTheGroundHaveTheBytesOfOneProcess) {
+  const std::string folder = tiles("tiles", yard(3), 9);
+  add_bad_tiles("tiles");
+  std::vector<std::string> options = {"--together", "--format", "jsonl", "--cluster",     "0.4",
+                                      "--ground",   "slope",    folder,  "--ground-cell", "2"};
+  options.insert(options.end(), {"--labels", at("expected")});
+  const Result expected = run(options);
+  EXPECT_GT(Json::parse(expected.out)["counts"]["ground"], 1000);
+  options.back() = at("labels");
+  for (const int count : {1, 3}) {
+    const Result result = ranks(count, options);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr(folder + "/99.pcd: "));
+    EXPECT_THAT(result.err, HasSubstr(folder + "/00a.pcd: "));
+    EXPECT_TRUE(result.out == expected.out) << count << " ranks";
+    expect_same_files(at("labels"), at("expected"), 9);
+  }
 }
 
 TEST_F(Mpi, ObjectsOfAnInputThatFailsAreLeftOut) {
   const std::string folder = tiles("tiles", yard(1), 8);
   add_bad_tiles("tiles");
-  const Result expected = run({"--together", "--format", "jsonl", "--cluster", "0.4", folder});
-  const Result result = ranks(3, {"--together", "--format", "jsonl", "--cluster", "0.4", folder});
+  const std::vector<std::string> options = {"--together", "--format", "jsonl",   "--cluster",
+                                            "0.4",        folder,     "--labels"};
+  const auto with_labels = [&](const std::string& labels) {
+    std::vector<std::string> all = options;
+    all.push_back(at(labels));
+    return all;
+  };
+  const Result expected = run(with_labels("expected"));
+  const Result result = ranks(3, with_labels("labels"));
+  expect_same_files(at("labels"), at("expected"), 8);
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(expected.status, 1);
   for (std::size_t at = 0; at < expected.err.size();) {  // each input that failed is named once

@@ -35,6 +35,18 @@ void expect_components_to_match(const Shares& shares, ClusterOptions options, co
   }
 }
 
+// The points of clusters have their labels, and all valid points have their check sums.
+void expect_labels(const PointView& cloud, const Clusters& expected, const StoredClusters& joined) {
+  std::vector<std::uint32_t> labels(cloud.count, StoredClusters::kNoCluster), sums(cloud.count);
+  for (std::size_t c = 0; c < expected.size(); ++c)
+    for (std::size_t i = 0; i < expected.list_size(c); ++i)
+      labels[expected.list(c)[i]] = static_cast<std::uint32_t>(c);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (is_valid(load_point(cloud, i))) sums[i] = point_check_sum(cloud.address(i), cloud.scalar);
+  EXPECT_EQ(joined.labels(0, cloud.count), labels);
+  EXPECT_EQ(joined.check_sums(0, cloud.count), sums);
+}
+
 template <typename T>
 class ClusterSharesOf : public testing::Test {};
 using ScalarTypes = testing::Types<float, double>;
@@ -59,12 +71,16 @@ TYPED_TEST(ClusterSharesOf, AreJoinedToThoseOfTheWholeCloudForAnyTilingAndOrder)
       if (own_numbers) shares.back()->first_number = ends[i];
     }
     std::shuffle(shares.begin(), shares.end(), random);
-    const StoredClusters joined(pointers(shares), options, {in_memory, {}});
+    StoredClusterOptions store{in_memory, {}};
+    store.has_labels = true;
+    store.points_of_shares = cloud.size();
+    const StoredClusters joined(pointers(shares), options, store);
     const Clusters expected = cluster(cloud.view(), options);
     EXPECT_EQ(bytes_of(joined), bytes_of(cloud.view(), expected));
     EXPECT_EQ(joined.counts().small, expected.small_points);
     EXPECT_EQ(joined.counts().large, expected.large_points);
     EXPECT_EQ(joined.counts().noise, expected.noise_points);
+    expect_labels(cloud.view(), expected, joined);
     expect_components_to_match(shares, options, joined);
     if (testing::Test::HasFailure()) return;
   }
@@ -118,6 +134,21 @@ TEST(ClusterShares, OfMoreRunsThanAreReadAtATimeKeepTheOrderOfTheCloud) {
   EXPECT_GT(shares[0]->runs().size() + shares[1]->runs().size(), 2048U);
   EXPECT_EQ(bytes_of(StoredClusters(pointers(shares), options)),
             bytes_of(cloud.view(), cluster(cloud.view(), options)));
+}
+
+TEST(ClusterShares, WithNumbersBehindTheCloudAreNotLabelled) {
+  const test::TestCloud<float> cloud = two_clumps_and_a_line();
+  ClusterOptions options;
+  options.tolerance = 0.5F;
+  Shares shares;
+  for (const std::size_t first : {0U, 150U})
+    shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(first, 150), options));
+  StoredClusterOptions store;
+  store.has_labels = true;
+  store.points_of_shares = 299;
+  EXPECT_THROW(StoredClusters(pointers(shares), options, store), ShareError);
+  shares.front()->first_number = std::uint64_t{1} << 60;
+  EXPECT_THROW(StoredClusters(pointers(shares), options, store), ShareError);
 }
 
 TEST(ClusterShares, OfNoPointAreNone) {

@@ -43,6 +43,15 @@ class DamagedShare final : public ClusterShare {
   std::vector<std::uint64_t> damaged_;  // first bytes of runs
 };
 
+// Each cluster has as many labels as points.
+void expect_labels_of_points(std::size_t points, const StoredClusters& joined) {
+  std::vector<std::size_t> counts(joined.size());
+  for (const std::uint32_t label : joined.labels(0, points))
+    if (label != StoredClusters::kNoCluster) ++counts[label];
+  for (std::size_t i = 0; i < joined.size(); ++i)
+    EXPECT_EQ(counts[i], joined.point_count(i));
+}
+
 TYPED_TEST(DamagedSharesOf, LeaveClustersThatAreRightOrIncomplete) {
   std::size_t complete = 0, incomplete = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -63,7 +72,10 @@ TYPED_TEST(DamagedSharesOf, LeaveClustersThatAreRightOrIncomplete) {
     StoredClusterOptions store;
     std::uint64_t lost = 0;
     store.on_lost = [&](const ShareError&, std::uint64_t points) { lost += points; };
+    store.has_labels = seed % 2 == 0;
+    store.points_of_shares = cloud.size();
     const StoredClusters joined(all, options, store);
+    if (store.has_labels) expect_labels_of_points(cloud.size(), joined);
     const ClusterBytes found = bytes_of(joined),
                        expected = bytes_of(cloud.view(), cluster(cloud.view(), options));
     const std::set<std::vector<std::byte>> right(expected.begin(), expected.end());

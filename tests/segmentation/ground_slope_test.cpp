@@ -10,10 +10,17 @@
 #include <numbers>
 
 #include "ground_scenes.h"
+#include "pcl_bv/segmentation/slope_surface.h"
 
 namespace pcl_bv {
 namespace {
 
+using detail::CellRange;
+using detail::cells_that_matter;
+using detail::kCellsOfHighest;
+using detail::LowestPoint;
+using detail::LowestPoints;
+using detail::SlopeSurface;
 using testing::HasSubstr;
 
 template <typename T>
@@ -191,6 +198,110 @@ TEST(GroundBySlope, DoesNotDependOnOrderThreadsAxesOrScalarType) {
     options.up = 3 * axis_up(axis);
     EXPECT_EQ(split(turned(floats, axis), options).ground, once.ground) << axis;
   }
+}
+
+TEST(GroundBySlope, OfSharesIsThatOfTheWholeCloudForAnyTilingAndOrder) {
+  std::size_t moved = 0;  // points that are ground of a share alone, or not, but otherwise in the cloud
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    Cloud<double> cloud = landscape(seed, 500 + 400 * (seed % 5), 20 + seed);
+    if (seed % 2 == 0) std::sort(cloud.begin(), cloud.end());
+    cloud[seed][1] = NAN;
+    const PointView points = scene_view(cloud);
+    GroundSlopeOptions options;
+    options.cell_size = number_in(random, 0.4, 3);
+    std::vector<LowestPoints> shares;
+    std::vector<std::uint8_t> expected(points.count), found(points.count), alone(points.count);
+    for (std::size_t begin = 0, end = 0; begin < points.count; begin = end) {
+      end = std::min(points.count, begin + 1 + random() % points.count);
+      const PointView part = points.slice(begin, end - begin);
+      shares.emplace_back(options).add(part, Threads{2});
+      SlopeSurface(part, options, {}).classify(part, &alone[begin]);
+    }
+    std::shuffle(shares.begin(), shares.end(), random);
+    LowestPoints all(options);
+    for (const LowestPoints& share : shares)
+      for (std::size_t i = 0; i < share.size(); ++i)
+        all.add(share[i]);
+    SlopeSurface(points, options, {}).classify(points, expected.data());
+    SlopeSurface(std::move(all), Threads{3}).classify(points, found.data());
+    EXPECT_EQ(found, expected) << seed;
+    moved += alone != expected;
+  }
+  EXPECT_GT(moved, 10U);
+}
+
+TEST(GroundBySlope, InARangeDependsOnlyOnTheCellsThatMatter) {
+  std::size_t all_cells = 0, used_cells = 0, ground = 0, rest = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    std::mt19937 random(seed);
+    const Cloud<double> cloud = landscape(seed, 60'000, 120);
+    GroundSlopeOptions options;
+    options.cell_size = number_in(random, 0.3, 1);
+    options.max_slope_degrees = std::array{0.0, 20.0, 45.0, 70.0}[seed % 4];
+    const double x = number_in(random, -120, 100), y = number_in(random, -120, 100),
+                 side = number_in(random, 1, 60);
+    Cloud<double> part;
+    for (const auto& p : cloud)
+      if (p[0] >= x && p[0] < x + side && p[1] >= y && p[1] < y + side) part.push_back(p);
+    LowestPoints whole(options), own(options), used(options);
+    whole.add(scene_view(cloud), Serial{});
+    own.add(scene_view(part), Serial{});
+    CellRange cells;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      cells.merge({own[i].x, own[i].y, own[i].x, own[i].y});
+    double lowest = INFINITY, highest = -INFINITY;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      lowest = std::min(lowest, whole[i].height);
+      if (cells.grown(kCellsOfHighest).contains(whole[i])) highest = std::max(highest, whole[i].height);
+    }
+    const CellRange that_matter = cells_that_matter(cells, lowest, highest, options);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      if (that_matter.contains(whole[i])) used.add(whole[i]);
+    all_cells += whole.size();
+    used_cells += used.size();
+    std::vector<std::uint8_t> expected(part.size()), found(part.size());
+    SlopeSurface(std::move(whole), {}).classify(scene_view(part), expected.data());
+    SlopeSurface(std::move(used), {}).classify(scene_view(part), found.data());
+    EXPECT_EQ(found, expected) << seed;
+    const auto count = static_cast<std::size_t>(std::count(found.begin(), found.end(), 1));
+    ground += count;
+    rest += found.size() - count;
+  }
+  EXPECT_LT(used_cells, all_cells / 10 * 9);
+  EXPECT_GT(ground, 1000U);
+  EXPECT_GT(rest, 1000U);
+}
+
+TEST(GroundBySlope, OfAFarLowPlaceMattersNearASlopeOnlyUpToItsReach) {
+  GroundSlopeOptions options;
+  options.max_slope_degrees = 45;
+  EXPECT_EQ(cells_that_matter({0, 0, 4, 0}, 0, 100, options).max_x, 4 + 10 + 100 + 72);
+  EXPECT_EQ(cells_that_matter({0, 0, 4, 0}, 100, 100, options).min_y, -82);
+  options.max_slope_degrees = 0;
+  EXPECT_EQ(cells_that_matter({0, 0, 4, 0}, 0, 1, options).max_x, std::numeric_limits<std::int32_t>::max());
+  EXPECT_TRUE(cells_that_matter({}, 0, 1, options).empty());
+}
+
+// The lowest cells are one patch, which is too large for an outlier, so they lower the ground next to them.
+TEST(GroundBySlope, InARangeDependsOnWholePatchesBesideIt) {
+  GroundSlopeOptions options;
+  options.max_slope_degrees = 45;
+  const CellRange range{0, 0, 4, 4};
+  LowestPoints used(options);
+  const CellRange that_matter = cells_that_matter(range, -20, 0, options);
+  for (std::int32_t x = 0; x < 200; ++x) {
+    for (std::int32_t y = 0; y < 5; ++y) {
+      const bool low = y == 2 && x >= 14 && x < 14 + 20 * 3 && (x - 14) % 3 == 0;
+      const LowestPoint point{x, y, low ? -20.0 : 0.0};
+      if (that_matter.contains(point)) used.add(point);
+    }
+  }
+  EXPECT_LT(used.size(), 200U * 5);
+  const Cloud<double> point{{4.5, 2.5, 0}};
+  std::uint8_t ground = 1;
+  SlopeSurface(std::move(used), {}).classify(scene_view(point), &ground);
+  EXPECT_EQ(ground, 0);
 }
 
 TEST(GroundBySlope, MovesWithTheCloud) {

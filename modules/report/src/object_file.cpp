@@ -8,23 +8,25 @@
 #include <fstream>
 #include <new>
 
+#include "object_header.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/crc32.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/io/read_json.h"
 
 namespace pcl_bv::detail {
 namespace {
 
-// A share is a preamble, the records of the points, the texts of components, and the index: the header as
-// JSON, what it says about the cloud, runs, components, begins of texts, and a CRC-32 of preamble and index.
-// The records come first, because their number is known before the index is.
+// A share is a preamble, the records of the points, the texts of components, blocks of bits of the ground,
+// each with its CRC-32, and the index: the header as JSON, what it says about the cloud, runs, components,
+// begins of texts, and a CRC-32 of preamble and index. The records come first, because their number is known
+// before the index is.
 constexpr char kObjectFormat[sizeof ObjectFilePreamble::format] = "pcl_bv objects 1\n";
 static_assert(sizeof(ObjectFilePreamble) == 72);
 static_assert(sizeof(ShareRun) == 24 && sizeof(ShareComponent) == 16);
 
-constexpr std::uint64_t kMaxHeader = 1U << 24U, kMaxItems = (std::uint64_t{1} << 32U) - 1;
+constexpr std::uint64_t kMaxItems = (std::uint64_t{1} << 32U) - 1;
 constexpr std::size_t kBlock = 1U << 22U;
+constexpr std::size_t kGroundPoints = 1U << 20U;  // in a block
 
 template <typename T>
 std::string_view bytes_of(const std::vector<T>& items) {
@@ -53,19 +55,30 @@ void require_good(bool good, const char* what) {
   if (!good) throw IoError(what);
 }
 
-std::string header_text(const ObjectFileHeader& header, ScalarType scalar) {
-  nlohmann::ordered_json json{{"scalar", scalar == ScalarType::float32 ? "float32" : "float64"},
-                              {"nonfinite", header.nonfinite},
-                              {"clusters", header.clusters},
-                              {"volumes", header.volumes},
-                              {"dropped_class", header.dropped_class}};
-  if (header.class_value) json["class"] = *header.class_value;
-  return json.dump(-1, ' ', true, UntrustedJson::error_handler_t::replace) + '\n';
+std::size_t points_with_ground(const ObjectFileHeader& header) {
+  if (!header.ground || header.cloud.shares.empty()) return 0;
+  return header.cloud.shares.back().second - header.cloud.shares.front().first;
+}
+
+// Returns the size of the first bytes of the ground that have a number of points.
+std::uint64_t ground_bytes(std::uint64_t points) {
+  return (points + 7) / 8 + (points + kGroundPoints - 1) / kGroundPoints * sizeof(std::uint32_t);
 }
 
 void write(std::ostream& out, std::string_view bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!out) throw IoError("cannot be written: is the disk full?");
+}
+
+void write_ground_bits(std::ostream& out, const std::vector<std::uint64_t>& words, std::size_t points) {
+  const std::string_view bytes = bytes_of(words);
+  require_good(bytes.size() >= (points + 7) / 8, "its ground is incomplete");
+  for (std::size_t first = 0; first < points; first += kGroundPoints) {
+    const std::string_view block = bytes.substr(first / 8, (std::min(kGroundPoints, points - first) + 7) / 8);
+    const std::uint32_t sum = check_sum({block});
+    write(out, block);
+    write(out, {reinterpret_cast<const char*>(&sum), sizeof sum});
+  }
 }
 
 template <typename Stream>
@@ -99,7 +112,8 @@ void write_object_file(const std::filesystem::path& path, FileLife life,
 
 std::uint64_t complete_object_file(const std::filesystem::path& file, std::uint64_t begin,
                                    const ObjectFileHeader& header, const ClusterShare& share,
-                                   const std::function<std::string(std::uint32_t component)>& text) {
+                                   const std::function<std::string(std::uint32_t component)>& text,
+                                   const std::vector<std::uint64_t>& ground) {
   std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
   require_good(out.is_open(), "cannot be opened for writing");
   const std::uint64_t records = points_in(share.runs()) * share_record_bytes(share.scalar());
@@ -111,10 +125,13 @@ std::uint64_t complete_object_file(const std::filesystem::path& file, std::uint6
     texts.back().check_sum = check_sum({each});
     texts.push_back({texts.back().begin + each.size(), 0});
   }
-  const std::string own = header_text(header, share.scalar()), cloud = partial_file_content(header.cloud);
+  const std::size_t with_ground = points_with_ground(header);
+  write_ground_bits(out, ground, with_ground);
+  const std::string own = object_header_text(header, share.scalar()),
+                    cloud = partial_file_content(header.cloud);
   ObjectFilePreamble preamble{{},
                               records,
-                              texts.back().begin,
+                              texts.back().begin + ground_bytes(with_ground),
                               own.size(),
                               cloud.size(),
                               share.runs().size(),
@@ -141,7 +158,7 @@ ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begi
                "is no file of objects, as --partial writes them");
   require_good(std::memcmp(preamble_.format, kObjectFormat, sizeof kObjectFormat) == 0,
                "was written by another version of pcl_bv: this one reads version 1");
-  require_good(preamble_.header_bytes <= kMaxHeader && preamble_.cloud_bytes <= kMaxHeader &&
+  require_good(preamble_.header_bytes <= kMaxObjectHeader && preamble_.cloud_bytes <= kMaxObjectHeader &&
                    preamble_.runs <= kMaxItems && preamble_.components <= kMaxItems,
                "is damaged: its index is too large");
   const std::uint64_t left = file_->size() - begin - sizeof preamble_;
@@ -180,7 +197,7 @@ void ObjectFile::read_index() {
   require_good(sum == check_sum({bytes_of(preamble_), header, bytes_of(runs_), bytes_of(components_),
                                  bytes_of(texts_)}),
                "is damaged: the checksum does not match");
-  read_header(std::string_view(header).substr(0, preamble_.header_bytes));
+  header_ = parse_object_header(std::string_view(header).substr(0, preamble_.header_bytes), scalar_);
   header_.cloud = parse_partial_file(std::string_view(header).substr(preamble_.header_bytes), false);
 }
 
@@ -196,22 +213,9 @@ void ObjectFile::require_right_index() const {
   const bool sorted = std::is_sorted(texts_.begin(), texts_.end(),
                                      [](const auto& a, const auto& b) { return a.begin < b.begin; });
   require_good(right && left == 0 && sorted && texts_.front().begin == 0 &&
-                   texts_.back().begin == preamble_.text_bytes,
+                   texts_.back().begin <= preamble_.text_bytes &&
+                   preamble_.text_bytes - texts_.back().begin == ground_bytes(points_with_ground(header_)),
                "its index is wrong");
-}
-
-void ObjectFile::read_header(std::string_view content) {
-  try {
-    const UntrustedJson json = read_json(content);
-    scalar_ = json.at("scalar").get<std::string>() == "float64" ? ScalarType::float64 : ScalarType::float32;
-    header_.nonfinite = json.at("nonfinite").get<std::size_t>();
-    header_.clusters = json.at("clusters").get<std::string>();
-    header_.volumes = json.at("volumes").get<std::string>();
-    header_.dropped_class = json.at("dropped_class").get<std::size_t>();
-    if (json.contains("class")) header_.class_value = json.at("class").get<std::int64_t>();
-  } catch (const UntrustedJson::exception&) {
-    throw IoError("its header cannot be read");
-  }
 }
 
 void ObjectFile::read(std::uint64_t first_byte, std::byte* to, std::size_t count) const {
@@ -229,6 +233,28 @@ std::optional<std::string> ObjectFile::text(std::uint32_t component) const {
   file_->read(first_text + texts_[component].begin, text.data(), text.size());
   require_good(check_sum({text}) == texts_[component].check_sum, "is damaged: a volume has changed");
   return text;
+}
+
+void ObjectFile::mark_ground(std::size_t first, std::vector<std::uint8_t>& ground) const {
+  const std::size_t points = points_with_ground(header_);
+  if (points == 0) return;
+  const std::size_t own = header_.cloud.shares.front().first;
+  const std::uint64_t section = begin_ + sizeof preamble_ + preamble_.record_bytes + texts_.back().begin;
+  const std::size_t begin = std::max(first, own), end = std::min(first + ground.size(), own + points);
+  std::vector<char> block;
+  for (std::size_t number = begin; number < end;) {
+    const std::size_t block_first = (number - own) / kGroundPoints * kGroundPoints;
+    const std::size_t count = std::min(kGroundPoints, points - block_first), bytes = (count + 7) / 8;
+    block.resize(bytes + sizeof(std::uint32_t));
+    file_->read(section + ground_bytes(block_first), block.data(), block.size());
+    std::uint32_t sum;
+    std::memcpy(&sum, &block[bytes], sizeof sum);
+    require_good(sum == check_sum({{block.data(), bytes}}), "is damaged: its ground has changed");
+    for (; number < end && number - own < block_first + count; ++number) {
+      const std::size_t bit = number - own - block_first;
+      if ((static_cast<unsigned char>(block[bit / 8]) >> bit % 8 & 1U) != 0) ground[number - first] = 1;
+    }
+  }
 }
 
 void join_object_files(const std::filesystem::path& path,

@@ -159,6 +159,7 @@ std::string partial_file_content(const PartialFile& file) {
 
 PartialFile parse_partial_file(std::string_view content, bool has_partial) {
   require(!content.starts_with("pcl_bv objects "), "has objects: give --cluster as for --partial");
+  require(!content.starts_with("pcl_bv ground "), "has the ground of a share: name it by --ground-parts");
   require(content.starts_with(kFormat), "is no file of partial results, as --partial writes them");
   std::string_view rest = content.substr(kFormat.size());
   require(rest.size() > 6, "is truncated");

@@ -17,12 +17,6 @@ namespace {
 constexpr std::size_t kCellsAtATime = 4096;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Cells at most this far from each other can be linked, and a cell at most kFar from an outlier is above it.
-constexpr int kNear = 3, kFar = 10;
-// Smallest number of linked cells that are certainly no reflection. The reflections of a road that were seen
-// in recorded sweeps have up to 8 cells of 1 m.
-constexpr std::uint32_t kPatch = 20;
-
 struct Offset {
   int dx, dy;
   double distance;
@@ -85,12 +79,12 @@ class LowOutliers {
     return cells_[cell].height > cells_[base].height + rise_ * distance + margin_;
   }
 
-  bool is_large(std::uint32_t cell) const { return size_[root_[cell]] >= kPatch; }
+  bool is_large(std::uint32_t cell) const { return size_[root_[cell]] >= kPatchCells; }
 
   const SlopeCells& cells_;
   double rise_, margin_;
   std::vector<std::uint32_t> root_, size_;  // of the patch of each cell; sizes are stored at the root
-  std::vector<Offset> near_ = offsets_within(kNear), far_ = offsets_within(kFar);
+  std::vector<Offset> near_ = offsets_within(kLinkedCells), far_ = offsets_within(kFarFromOutlier);
 };
 
 // Inserts a 0 before each bit.

@@ -60,6 +60,11 @@ class SlopeCells {
   std::vector<SlopeCell> cells_;
 };
 
+/// Cells at most kLinkedCells from each other can be linked, and a cell at most kFarFromOutlier from an
+/// outlier is above it. A patch of at least kPatchCells linked cells is certainly no reflection. The
+/// reflections of a road that were seen in recorded sweeps have up to 8 cells of 1 m.
+inline constexpr int kLinkedCells = 3, kFarFromOutlier = 10, kPatchCells = 20;
+
 /// Returns a 1 for each cell whose height is an outlier, as described at split_ground_by_slope(). A cell is
 /// above another one if it is higher by more than rise * (distance in cells) + margin.
 std::vector<std::uint8_t> low_outliers(const SlopeCells& cells, double rise, double margin,

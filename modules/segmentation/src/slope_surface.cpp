@@ -9,6 +9,7 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ground_checks.h"
@@ -27,6 +28,13 @@ void check(const GroundSlopeOptions& options) {
   check_ground(who, options.distance, options.max_slope_degrees, {});
   require(options.cell_size >= 0.01 && options.cell_size <= 1000, who, "cell_size", options.cell_size,
           "0.01 to 1000");
+}
+
+// Returns the rise of the maximum slope over a cell. The last bit of a tangent depends on the processor, so
+// it is rounded to float.
+double rise_of(const GroundSlopeOptions& options) {
+  const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
+  return double{slope} * options.cell_size;
 }
 
 // A point in the grid. The position in its cell is from -0.5 to 0.5.
@@ -61,9 +69,46 @@ struct Lows {
 
 }  // namespace
 
-struct SlopeSurface::State {
-  State(const GroundSlopeOptions& options, const UpFrame& up_frame)
-      : frame(up_frame), cell_size(options.cell_size), distance(options.distance) {}
+bool CellRange::intersects(const CellRange& other) const {
+  return !empty() && !other.empty() && min_x <= other.max_x && max_x >= other.min_x && min_y <= other.max_y &&
+         max_y >= other.min_y;
+}
+
+void CellRange::merge(const CellRange& other) {
+  if (other.empty()) return;
+  if (empty()) {
+    *this = other;
+    return;
+  }
+  min_x = std::min(min_x, other.min_x);
+  min_y = std::min(min_y, other.min_y);
+  max_x = std::max(max_x, other.max_x);
+  max_y = std::max(max_y, other.max_y);
+}
+
+CellRange CellRange::grown(double cells) const {
+  if (empty()) return {};
+  return {cell_of(min_x - cells), cell_of(min_y - cells), cell_of(max_x + cells), cell_of(max_y + cells)};
+}
+
+// The surface in a cell is the lowest of the cones on the cells that are no outliers. In the range and next
+// to it, it is at most `highest` plus the rise over kFarFromOutlier cells: a cell is the source of a cone
+// itself, or there is a source at most so far away. A cone that is `reach` away is higher. Whether a cell is
+// an outlier depends on cells within kFarFromOutlier, and on the sizes of their patches up to kPatchCells
+// cells, each at most kLinkedCells from the one before.
+CellRange cells_that_matter(const CellRange& range, double lowest, double highest,
+                            const GroundSlopeOptions& options) {
+  const FloatEnvironment environment;
+  static_assert(kCellsOfHighest >= kFarFromOutlier + 1);
+  const double rise = rise_of(options), difference = std::max(highest - lowest, 0.0);
+  const double reach = difference > 0 ? kFarFromOutlier + difference / rise : kFarFromOutlier;
+  constexpr int for_outliers = kFarFromOutlier + kPatchCells * kLinkedCells;
+  return range.grown(reach + for_outliers + 2);  // the neighbours of cells, and roundings
+}
+
+struct LowestPoints::State {
+  explicit State(const GroundSlopeOptions& options)
+      : frame(options.up), cell_size(options.cell_size), distance(options.distance), rise(rise_of(options)) {}
 
   GridPoint point(const Coordinates& p) const {
     const Eigen::Vector3d at{p.x, p.y, p.z};
@@ -90,21 +135,54 @@ struct SlopeSurface::State {
   }
 
   UpFrame frame;
-  double cell_size, distance;
+  double cell_size, distance, rise;
   SlopeCells cells;
   std::size_t valid = 0;
 };
 
-SlopeSurface::SlopeSurface(const PointView& points, const GroundSlopeOptions& options,
-                           const Execution& execution) {
+LowestPoints::LowestPoints(const GroundSlopeOptions& options) {
   const FloatEnvironment environment;
   check(options);
-  state_ = std::make_unique<State>(options, UpFrame(options.up));
-  state_->read(points, execution.parallel);
-  // The last bit of a tangent depends on the processor, so it is rounded to float.
-  const auto slope = static_cast<float>(std::tan(options.max_slope_degrees * std::numbers::pi / 180));
-  const double rise = double{slope} * options.cell_size;
-  find_envelope(low_outliers(state_->cells, rise, options.distance, execution.parallel), rise,
+  state_ = std::make_unique<State>(options);
+}
+
+LowestPoints::~LowestPoints() = default;
+LowestPoints::LowestPoints(LowestPoints&&) noexcept = default;
+LowestPoints& LowestPoints::operator=(LowestPoints&&) noexcept = default;
+
+void LowestPoints::add(const PointView& points, const ParallelPolicy& policy) {
+  const FloatEnvironment environment;
+  state_->read(points, policy);
+}
+
+void LowestPoints::add(const LowestPoint& point) {
+  state_->cells.add({point.x, point.y}, point.height);
+}
+
+std::size_t LowestPoints::valid_points() const {
+  return state_->valid;
+}
+
+std::size_t LowestPoints::size() const {
+  return state_->cells.size();
+}
+
+LowestPoint LowestPoints::operator[](std::size_t cell) const {
+  const SlopeCell& found = state_->cells[cell];
+  return {found.at.x, found.at.y, found.height};
+}
+
+SlopeSurface::SlopeSurface(const PointView& points, const GroundSlopeOptions& options,
+                           const Execution& execution) {
+  LowestPoints lowest(options);
+  lowest.add(points, execution.parallel);
+  *this = SlopeSurface(std::move(lowest), execution);
+}
+
+SlopeSurface::SlopeSurface(LowestPoints lowest, const Execution& execution)
+    : state_(std::move(lowest.state_)) {
+  const FloatEnvironment environment;
+  find_envelope(low_outliers(state_->cells, state_->rise, state_->distance, execution.parallel), state_->rise,
                 execution.parallel, state_->cells);
   find_rises(execution.parallel, state_->cells);
 }

@@ -88,8 +88,9 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   }
 }
 
-// Returns the argument or, if it is a folder, all files in it that are not hidden, ordered by name.
-std::vector<Job> expand_partials(const std::string& argument) {
+}  // namespace
+
+std::vector<Job> list_partials(const std::string& argument) {
   if (!is_folder(argument)) return {{argument}};
   std::vector<Job> jobs;
   std::error_code unreadable;
@@ -101,6 +102,8 @@ std::vector<Job> expand_partials(const std::string& argument) {
   if (jobs.empty()) return {{argument, "no file of partial results in this folder"}};
   return jobs;
 }
+
+namespace {
 
 // Makes one job of all inputs.
 Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
@@ -141,7 +144,7 @@ bool is_synth(const std::string& input) {
 std::vector<Job> list_inputs(const Options& options) {
   std::vector<Job> jobs;
   for (const std::string& argument : options.inputs) {
-    for (Job& job : options.merge ? expand_partials(argument) : expand(argument, options.topic)) {
+    for (Job& job : options.merge ? list_partials(argument) : expand(argument, options.topic)) {
       job.bin_fields = options.bin_fields;
       job.columns = options.columns;
       jobs.push_back(std::move(job));
@@ -150,14 +153,21 @@ std::vector<Job> list_inputs(const Options& options) {
   return jobs;
 }
 
+fs::path label_file(const fs::path& folder, const std::string& input) {
+  return folder / (stem(input) + ".pcd");
+}
+
 namespace {
 
-// Plans a file in the folder for each input of a tiled cloud.
-void claim_tile_labels(const fs::path& folder, Job& job, OutputClaims& claims) {
+// Plans a file in the folder for each input of a tiled cloud. Those of merged shares are not known yet.
+void claim_tile_labels(const Options& options, Job& job, OutputClaims& claims) {
+  const fs::path& folder = *options.labels;
+  const std::string needs = options.merge ? "--merge needs" : "--together needs";
   if (folder.has_extension() && !is_folder(folder.string()))
-    reject_value("--labels", folder.string(), "is no folder, which --together needs");
+    reject_value("--labels", folder.string(), "is no folder, which " + needs);
+  if (!job.tiles) return;
   for (const Job& tile : job.tiles->jobs()) {
-    job.tile_labels.push_back(folder / (stem(tile.input) + ".pcd"));
+    job.tile_labels.push_back(label_file(folder, tile.input));
     if (!tile.error) claims.claim(job.tile_labels.back());
   }
 }
@@ -189,6 +199,10 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   for (const Job& job : inputs) {
     if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
   }
+  if (options.ground_parts) {
+    for (const Job& part : list_partials(options.ground_parts->string()))
+      claims.add_input(part.input);
+  }
   if (options.partial) claims.claim(*options.partial);
   std::vector<Job> jobs =
       one ? std::vector{merged_job(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
@@ -199,8 +213,8 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   for (Job& job : jobs) {
     if (jobs.size() > 1) job.frame = static_cast<std::size_t>(&job - jobs.data());
     if (job.error) continue;
-    if (options.labels && job.tiles) {
-      claim_tile_labels(*options.labels, job, claims);
+    if (options.labels && one) {
+      claim_tile_labels(options, job, claims);
     } else if (options.labels)
       claims.claim(job.labels.emplace(target("--labels", *options.labels, job, ".pcd")));
     if (options.mesh) claims.claim(job.mesh.emplace(target("--mesh", *options.mesh, job, mesh_extension)));

@@ -54,6 +54,13 @@ inline std::vector<Job> plan_jobs(const Options& options) {
   return plan_jobs(options, list_inputs(options));
 }
 
+/// Returns the argument or, if it is a folder, all files in it that are not hidden, ordered by name. If there
+/// is none, the job has an error.
+std::vector<Job> list_partials(const std::string& argument);
+
+/// Returns the file in a folder for the labels of an input.
+std::filesystem::path label_file(const std::filesystem::path& folder, const std::string& input);
+
 /// Loads the cloud of a job. Throws IoError if that fails, and std::invalid_argument for an unknown scene.
 RawCloud load_cloud(const Job& job, const Execution& execution);
 

@@ -23,8 +23,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   const bool over_ranks = command == PcdBvCommand::mpi;
-  const bool shares = options.merge || options.partial || over_ranks;
-  if (shares || !options.clusters()) reject_combinations(line, option, {"--labels"});
+  if (options.partial || !options.clusters()) reject_combinations(line, option, {"--labels"});
   const auto reject = [&](bool given, const char* what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
@@ -34,7 +33,6 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     const std::string with_clusters = std::string(option) + " --cluster";
     reject_combinations(line, with_clusters.c_str(), {"--image", "--view-html"});
     if (!over_ranks) reject_combinations(line, with_clusters.c_str(), {"--gpu"});
-    reject(ground && shares, "--ground (ground.method)");
     reject(ground && config.ground.method != GroundMethod::slope,
            "--ground plane or zones (ground.method), only with --ground slope");
     reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
@@ -42,7 +40,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject(config.track.enabled, "track.enabled");
     reject(config.effective_refine() != Refine::off, "cluster.refine");
   } else {
-    reject(ground, "--ground (ground.method)");
+    reject(ground && !options.writes_ground_part(), "--ground (ground.method)");
     reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
            "cluster.min_size or max_size");
   }
@@ -59,7 +57,8 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
-  for (const Method* method : options.clusters() ? std::vector<const Method*>() : config.methods()) {
+  const bool all_methods = options.clusters() || options.writes_ground_part();
+  for (const Method* method : all_methods ? std::vector<const Method*>() : config.methods()) {
     if (!Partial::can_fit(*method, config.method_options()))
       throw UsageError(std::string("--volume: ")
                            .append(method->name)
@@ -72,10 +71,11 @@ void read_update(const CommandLine& line, Options& options) {
   options.update = true;
   reject_combinations(
       line, "--update",
-      {"--bin-fields", "--columns", "--topic",  "--origin",    "--together",    "--memory",      "--objects",
-       "--partial",    "--part",    "--merge",  "--gpu",       "--format",      "--object-type", "--output",
-       "--labels",     "--mesh",    "--image",  "--view-html", "--check",       "--info",        "--timings",
-       "--progress",   "--cluster", "--ground", "--range",     "--drop-inside", "--keep-inside"});
+      {"--bin-fields", "--columns",     "--topic",       "--origin",       "--together", "--memory",
+       "--objects",    "--partial",     "--part",        "--ground-parts", "--merge",    "--gpu",
+       "--format",     "--object-type", "--output",      "--labels",       "--mesh",     "--image",
+       "--view-html",  "--check",       "--info",        "--timings",      "--progress", "--cluster",
+       "--ground",     "--range",       "--drop-inside", "--keep-inside"});
   if (!line.given("--volume")) options.pipeline.volumes = {"aabb", "obb-dito14"};
 }
 
@@ -83,8 +83,8 @@ void read_watch(const CommandLine& line, const std::string& folder, const std::s
                 Options& options) {
   options.watch = true;
   reject_combinations(line, "--watch",
-                      {"--together", "--memory", "--partial", "--part", "--merge", "--update", "--output",
-                       "--topic", "--progress"});
+                      {"--together", "--memory", "--partial", "--part", "--ground-parts", "--merge",
+                       "--update", "--output", "--topic", "--progress"});
   if (has_one_input(options.format)) throw UsageError("--watch: cannot be combined with --format " + format);
   std::error_code missing;
   for (const auto* output :

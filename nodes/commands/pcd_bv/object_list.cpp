@@ -57,6 +57,16 @@ std::vector<std::uint32_t> ObjectList::labels(std::size_t first, std::size_t cou
   return labels;
 }
 
+std::vector<std::uint32_t> ObjectList::check_sums(std::size_t first, std::size_t count) const {
+  std::vector<std::uint32_t> sums(count);
+  for (const auto& clusters : kept_) {
+    const std::vector<std::uint32_t> found = clusters->check_sums(first, count);
+    for (std::size_t i = 0; i < count; ++i)
+      if (found[i] != 0) sums[i] = found[i];
+  }
+  return sums;
+}
+
 Status ObjectList::write_points(const std::filesystem::path& folder) const {
   return write_objects(folder, objects_.size(), options_.pipeline.execution().parallel, [&](std::size_t id) {
     write_object(folder, id, objects_[id].clusters->points(objects_[id].cluster).view());

@@ -33,6 +33,9 @@ class ObjectList {
   /// Returns the labels of points as labels_of() does, without those of the ground.
   std::vector<std::uint32_t> labels(std::size_t first, std::size_t count) const;
 
+  /// Returns the check sums of points of shares, as StoredClusters::check_sums().
+  std::vector<std::uint32_t> check_sums(std::size_t first, std::size_t count) const;
+
   /// Writes the points of each object to a file.
   Status write_points(const std::filesystem::path& folder) const;
 

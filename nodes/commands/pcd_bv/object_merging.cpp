@@ -18,6 +18,7 @@
 #include "object_texts.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "process.h"
+#include "share_inputs.h"
 #include "stopwatch.h"
 
 namespace pcl_bv::detail {
@@ -59,14 +60,13 @@ class MergedClouds {
   std::vector<PartialFile> clouds_;
 };
 
-struct OpenShares {
-  std::vector<std::unique_ptr<ObjectFile>> shares;
-  std::vector<std::string> names;  // of the files of the shares
-  MergedClouds clouds;
-};
+bool have_same_ground(const ObjectFileHeader& a, const ObjectFileHeader& b) {
+  return a.ground ? b.ground && a.ground->check_sum == b.ground->check_sum : !b.ground;
+}
 
 // Opens the files. Reports each that cannot be opened or does not belong to the others; then returns false.
-bool open_files(const std::vector<std::string>& files, const Options& options, OpenShares& open) {
+bool open_files(const std::vector<std::string>& files, const Options& options, OpenShares& open,
+                MergedClouds& clouds) {
   bool good = true;
   const std::string clusters = clusters_text(options.pipeline);
   for (const std::string& name : files) {
@@ -76,7 +76,9 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
           throw IoError("was made with " + share->header().clusters + ": give the same options");
         if (!open.shares.empty() && open.shares.front()->scalar() != share->scalar())
           throw IoError("has points of another type (float32, float64) than the files before");
-        open.clouds.add(share->header());
+        if (!open.shares.empty() && !have_same_ground(open.shares.front()->header(), share->header()))
+          throw IoError("has another ground than the files before: --ground-parts were not the same");
+        clouds.add(share->header());
         open.shares.push_back(std::move(share));
         open.names.push_back(name);
       }
@@ -90,9 +92,9 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
   return good;
 }
 
-void describe(const OpenShares& open, Report& report) {
+void describe(const OpenShares& open, const MergedClouds& clouds, Report& report) {
   report.parts = 0;
-  for (const PartialFile& cloud : open.clouds.clouds()) {
+  for (const PartialFile& cloud : clouds.clouds()) {
     if (!cloud.is_whole()) throw IoError("shares are missing: " + cloud.missing());
     *report.parts += cloud.inputs;
     report.points += cloud.cloud_points;
@@ -102,6 +104,7 @@ void describe(const OpenShares& open, Report& report) {
   }
   for (const auto& share : open.shares) {
     report.counts.nonfinite += share->header().nonfinite;
+    if (share->header().ground) report.counts.ground += share->header().ground->points;
     report.counts.dropped_class += share->header().dropped_class;
   }
 }
@@ -110,9 +113,10 @@ void describe(const OpenShares& open, Report& report) {
 class ClassMerger {
  public:
   ClassMerger(const Options& options, const ClassTable& table, FileLife life,
-              std::optional<std::int64_t> value)
+              std::optional<std::int64_t> value, std::size_t points)
       : options_(options),
         table_(table),
+        points_(points),
         value_(value),
         volumes_(volumes_text(options.pipeline, table, value)),
         life_(life) {}
@@ -138,6 +142,7 @@ class ClassMerger {
   // Returns false if texts are damaged. They are not used in the next attempt.
   bool attempt(ObjectList& list, double& fit_seconds) {
     StoredClusterOptions store = store_options(options_, shares_.front()->scalar());
+    store.points_of_shares = points_;
     store.is_known = [&](const ComponentOfShare& component) {
       return !options_.objects && has_volumes(component);
     };
@@ -196,6 +201,7 @@ class ClassMerger {
 
   const Options& options_;
   const ClassTable& table_;
+  std::size_t points_;  // of all shares and classes
   std::optional<std::int64_t> value_;
   std::string volumes_;
   std::vector<const ObjectFile*> shares_;
@@ -212,7 +218,8 @@ class ClassMerger {
 
 bool join_object_files(const std::vector<std::string>& files, const Options& options) {
   OpenShares open;
-  if (!open_files(files, options, open)) return false;
+  MergedClouds clouds;
+  if (!open_files(files, options, open, clouds)) return false;
   join_object_files(*options.partial, open.shares);
   return true;
 }
@@ -221,18 +228,22 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
                           const Options& options, Report& report) {
   const Stopwatch watch;
   OpenShares open;
-  if (!open_files(files, options, open)) {
+  MergedClouds clouds;
+  if (!open_files(files, options, open, clouds)) {
     report.error = "some partial results cannot be merged";
     return Status::failed;
   }
-  describe(open, report);
+  describe(open, clouds, report);
+  const std::vector<LabelledInput> labelled =
+      options.labels ? inputs_to_label(open, clouds.clouds(), options) : std::vector<LabelledInput>();
   const ClassTable table(options.pipeline);
   std::map<std::optional<std::int64_t>, ClassMerger> classes;
   for (std::size_t i = 0; i < open.shares.size(); ++i) {
     ObjectFile& share = *open.shares[i];
-    share.first_number = open.clouds.points_before(share.header());
+    share.first_number = clouds.points_before(share.header());
     const auto value = share.header().class_value;
-    classes.try_emplace(value, options, table, life, value).first->second.add(share, open.names[i]);
+    classes.try_emplace(value, options, table, life, value, report.points)
+        .first->second.add(share, open.names[i]);
   }
   ObjectList list(options, report);
   double fit_seconds = 0;
@@ -242,6 +253,10 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
   list.write_report();
   if (options.timings) report.seconds = {0, watch.seconds() - fit_seconds, fit_seconds};
   if (job.objects) status = worse(status, list.write_points(*job.objects));
+  if (options.labels) {
+    const ScalarType scalar = open.shares.front()->scalar();
+    status = worse(status, write_input_labels(labelled, open, report.origin, scalar, list));
+  }
   return worse(status, report_failures(report));
 }
 

@@ -12,6 +12,8 @@
 #include "object_fitter.h"
 #include "object_texts.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pipeline/ground_view.h"
+#include "share_inputs.h"
 #include "shares.h"
 #include "tile_progress.h"
 
@@ -22,6 +24,7 @@ namespace {
 std::vector<std::string> fit_share(const MadeClusterShare& share, const ClusterOptions& clusters,
                                    const Options& options, ObjectFitter& fitter) {
   StoredClusterOptions store = store_options(options, share.scalar());
+  store.has_labels = false;
   store.is_known = [&](const ComponentOfShare& component) {
     return share.visit(component.number).has_value();
   };
@@ -39,28 +42,37 @@ std::vector<std::string> fit_share(const MadeClusterShare& share, const ClusterO
 class ShareWriter {
  public:
   ShareWriter(const Tiles& tiles, const ShareOption& share, const Options& options,
-              const std::filesystem::path& file, const GatherCells& gather)
+              const std::optional<CloudGround>& ground, const std::filesystem::path& file,
+              const GatherCells& gather)
       : tiles_(tiles),
         options_(options),
         file_(file),
         gather_(gather),
         range_(tiles.share(share.number, share.count)),
-        points_(tiles, range_, options.origin.at, options),
+        filtered_(tiles, range_, options.origin.at, options),
+        points_(filtered_.view()),
+        ground_(range_.first, ground ? range_.second - range_.first : 0),
         table_(options.pipeline) {
+    if (ground) {
+      above_ = remove_slope_ground(points_, ground->surface, ground_);
+      points_ = above_.points;
+      header_.ground = {0, ground->check_sum};
+    }
     header_.cloud = describe_cloud(tiles, options.origin.at, options);
     header_.clusters = clusters_text(options.pipeline);
+    header_.inputs = inputs_of_share(tiles, range_, options);
     if (range_.first < range_.second) header_.cloud.shares = {range_};
   }
 
   void write() {
     const auto& field = options_.pipeline.cluster.class_field;
-    field ? write_classes(field->name) : add(points_.view(), std::nullopt);
+    field ? write_classes(field->name) : add(points_, std::nullopt);
     tiles_.require_unchanged();
   }
 
  private:
   void write_classes(const std::string& field) {
-    const ClassifiedPoints cloud{points_.view(), tiles_, field};
+    const ClassifiedPoints cloud{points_, tiles_, field};
     const Classes classes = find_classes(cloud, table_, options_.pipeline.execution().parallel);
     set_counts(cloud.points.count - classes.valid);
     header_.dropped_class = classes.dropped;
@@ -73,9 +85,11 @@ class ShareWriter {
   }
 
   void set_counts(std::size_t invalid) {
-    header_.cloud.counts.range = points_.counts().range;
-    header_.cloud.counts.inside = points_.counts().inside;
-    header_.nonfinite = invalid - points_.counts().range - points_.counts().inside;
+    const Counts& counts = filtered_.counts();
+    header_.cloud.counts.range = counts.range;
+    header_.cloud.counts.inside = counts.inside;
+    if (header_.ground) header_.ground->points = ground_.count();
+    header_.nonfinite = invalid - counts.range - counts.inside - ground_.count();
   }
 
   void add(const PointView& points, std::optional<std::int64_t> value) {
@@ -91,8 +105,9 @@ class ShareWriter {
     if (!options_.pipeline.cluster.class_field) set_counts(share.invalid_points());
     header_.class_value = value;
     header_.volumes = volumes_text(options_.pipeline, table_, value);
-    begin_ = complete_object_file(file_, begin_, header_, share,
-                                  [&](std::uint32_t component) { return texts[component]; });
+    begin_ = complete_object_file(
+        file_, begin_, header_, share, [&](std::uint32_t component) { return texts[component]; },
+        ground_.words());
     header_.without_points();
   }
 
@@ -101,35 +116,55 @@ class ShareWriter {
   const std::filesystem::path& file_;
   const GatherCells& gather_;
   PointRange range_;
-  SharePoints points_;
+  SharePoints filtered_;
+  PointView points_;  // those that are clustered
+  GroundBits ground_;
+  GroundView above_;
   ClassTable table_;
   ObjectFileHeader header_;
   std::uint64_t begin_ = 0;  // of the next share in the file
 };
 
 void write_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                 const std::filesystem::path& path, FileLife life, const GatherCells& gather) {
+                 const std::optional<CloudGround>& ground, const std::filesystem::path& path, FileLife life,
+                 const GatherCells& gather) {
   write_object_file(path, life, [&](const std::filesystem::path& file) {
-    ShareWriter(tiles, share, options, file, gather).write();
+    ShareWriter(tiles, share, options, ground, file, gather).write();
   });
 }
 
 }  // namespace
 
 bool needs_all_records(const Options& options) {
-  return options.check || options.objects || options.pipeline.cluster.class_field;
+  return options.check || options.objects || options.labels || options.pipeline.cluster.class_field;
 }
 
 void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                        const std::filesystem::path& path) {
-  write_share(tiles, share, options, path, FileLife::lasting, {});
+                        const std::optional<CloudGround>& ground, const std::filesystem::path& path) {
+  write_share(tiles, share, options, ground, path, FileLife::lasting, {});
 }
 
 void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                                  const std::filesystem::path& path, const GatherCells& gather) {
-  write_share(tiles, share, options, path, FileLife::temporary,
+                                  const std::optional<CloudGround>& ground, const std::filesystem::path& path,
+                                  const GatherCells& gather) {
+  write_share(tiles, share, options, ground, path, FileLife::temporary,
               needs_all_records(options) ? GatherCells() : gather);
 }
+
+namespace {
+
+// Reports the file that cannot be used; then returns nothing.
+std::optional<CloudGround> ground_of_parts(const Tiles& tiles, const Options& options) {
+  if (!options.ground_parts) return std::nullopt;
+  try {
+    return read_ground_parts(tiles, options.share, options);
+  } catch (const IoError& error) {
+    report_problem(error.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace
 
 Status make_object_file(const Job& job, const Options& options) {
   const Interruption interruption([] {});
@@ -138,7 +173,9 @@ Status make_object_file(const Job& job, const Options& options) {
       return join_object_files(job.partials, options) ? Status::done : Status::failed;
     if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
     const TileProgress progress(*job.tiles, options);
-    write_object_share(*job.tiles, options.share, options, *options.partial);
+    const std::optional<CloudGround> ground = ground_of_parts(*job.tiles, options);
+    if (options.ground_parts && !ground) return Status::failed;
+    write_object_share(*job.tiles, options.share, options, ground, *options.partial);
     report_notes(*job.tiles);
     return Status::done;
   } catch (const TileError& error) {

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "ground_parts.h"
 #include "inputs.h"
 #include "options.h"
 #include "pcl_bv/report/object_file.h"
@@ -18,15 +20,16 @@
 namespace pcl_bv::detail {
 
 /// Finds the clusters of a share, fits their volumes and writes them to a file. Throws TileError for an input
-/// that fails, and std::runtime_error if a file cannot be written.
+/// that fails, and std::runtime_error if a file cannot be written. Points of the ground are left out.
 void write_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                        const std::filesystem::path& path);
+                        const std::optional<CloudGround>& ground, const std::filesystem::path& path);
 
 /// As write_object_share(), for a file that is merged with those of all other shares by the same run of a
 /// program. Only what this needs is written (ShareRecords::gather). `gather` is not called if the options
 /// need all records.
 void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, const Options& options,
-                                  const std::filesystem::path& path, const GatherCells& gather);
+                                  const std::optional<CloudGround>& ground, const std::filesystem::path& path,
+                                  const GatherCells& gather);
 
 bool needs_all_records(const Options& options);
 

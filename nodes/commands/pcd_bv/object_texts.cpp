@@ -5,6 +5,7 @@
 
 #include "pcl_bv/report/cluster_json.h"
 #include "pipeline/config/settings.h"
+#include "pipeline/ground.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -15,9 +16,17 @@ constexpr const char* kLarge = "large";
 
 }  // namespace
 
+std::string ground_text(const GroundConfig& config) {
+  const GroundSlopeOptions options = slope_settings(config);
+  return "--ground slope --ground-cell " + to_text(options.cell_size) + " --ground-slope " +
+         to_text(options.max_slope_degrees) + " --ground-distance " + to_text(options.distance) + " --up " +
+         to_text(options.up);
+}
+
 std::string clusters_text(const PipelineConfig& config) {
   std::string text = "--cluster " + to_text(config.cluster.tolerance) + " --min-points " +
                      to_text(config.cluster.min_points);
+  if (config.ground.method == GroundMethod::slope) text += ' ' + ground_text(config.ground);
   if (!config.cluster.class_field) return text;
   text += " --class " + config.cluster.class_field->name;
   const ClassTable table(config);

@@ -12,6 +12,9 @@
 
 namespace pcl_bv::detail {
 
+/// Returns a text of all that the ground of --ground slope depends on.
+std::string ground_text(const GroundConfig& config);
+
 /// Returns a text of all that components depend on.
 std::string clusters_text(const PipelineConfig& config);
 

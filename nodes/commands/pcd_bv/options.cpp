@@ -48,7 +48,7 @@ const char* name_of(PcdBvCommand command) {
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part,
-      gpu, memory, objects, object_type, columns, watch;
+      ground_parts, gpu, memory, objects, object_type, columns, watch;
   bool together = false, merge = false, update = false, check = false, info = false, timings = false,
        progress = false;
 };
@@ -81,6 +81,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
         "With --cluster: write the points of each object as DIR/ID.pcd;\nseveral inputs: DIR/NAME/ID.pcd");
     line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
+    line.option("--ground-parts", texts.ground_parts, "PATH",
+                "With --partial, --cluster and --ground slope: folder of the files\nof all shares that "
+                "--partial --ground slope wrote before");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
     line.option("--gpu", texts.gpu, "DEVICE",
                 "Fit on a graphics card: auto, its number or a part of its name;\nwith --version: list them");
@@ -192,6 +195,14 @@ void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   options.tiled = texts.together || (options.partial && !options.merge);
   if (line.given("--part")) options.share = parse_share(texts.part);
   if (line.given("--part") && !options.partial) throw UsageError("--part: only useful with --partial");
+  options.ground_parts = path_or_none(texts.ground_parts);
+  const bool objects = options.partial && !options.merge && options.clusters() && options.slope_ground();
+  if (options.ground_parts && !objects)
+    throw UsageError("--ground-parts: only useful with --partial, --cluster and --ground slope");
+  if (objects && !options.ground_parts)
+    throw UsageError(
+        "--partial --cluster: --ground slope needs --ground-parts: files of all shares that --partial and "
+        "--ground slope wrote without --cluster");
 }
 
 Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config, PcdBvCommand command) {

@@ -57,6 +57,7 @@ struct Options {
   bool tiled = false;  ///< Whether all inputs are one cloud (--together, --partial).
   bool merge = false;  ///< Whether inputs are files of partial results.
   std::optional<std::filesystem::path> partial;  ///< File for partial results instead of volumes.
+  std::optional<std::filesystem::path> ground_parts;  ///< File or folder with the ground of all shares.
   ShareOption share;                             ///< The share of points that the partial results cover.
   std::string gpu;                               ///< Value of --gpu; empty without it.
   std::size_t memory_bytes = 600'000'000;        ///< For clustering a tiled cloud.
@@ -69,6 +70,9 @@ struct Options {
   bool progress = false;
 
   bool clusters() const { return pipeline.cluster.tolerance > 0; }
+  bool slope_ground() const { return pipeline.ground.method == GroundMethod::slope; }
+  /// Whether the file of --partial has the ground of a share, for --ground-parts.
+  bool writes_ground_part() const { return partial && !merge && !clusters() && slope_ground(); }
 };
 
 /// Returns whether a file of this format has the results of only one input.

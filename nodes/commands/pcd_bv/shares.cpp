@@ -11,6 +11,7 @@
 
 #include "commands/shared/interruption.h"
 #include "commands/shared/messages.h"
+#include "ground_parts.h"
 #include "object_shares.h"
 #include "pipeline/config/settings.h"
 #include "shifted_points.h"
@@ -152,6 +153,7 @@ Status write_or_report(const std::filesystem::path& path, const PartialFile& fil
 
 Status detail::make_partial_file(const Job& job, const Options& options) {
   if (options.clusters()) return make_object_file(job, options);
+  if (options.writes_ground_part()) return make_ground_part(job, options);
   const Interruption interruption([] {});
   if (!job.partials.empty()) {
     const std::optional<PartialFile> merged = merge_files(job.partials);

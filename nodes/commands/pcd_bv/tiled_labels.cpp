@@ -4,6 +4,7 @@
 #include "tiled_labels.h"
 
 #include <new>
+#include <utility>
 
 #include "commands/shared/messages.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -29,6 +30,13 @@ RawCloud load_tile(const Tiles& tiles, std::size_t tile, std::size_t points) {
 
 }  // namespace
 
+void write_labelled(const std::filesystem::path& path, RawCloud cloud,
+                    const std::vector<std::uint32_t>& labels) {
+  set_uint32_field(cloud, "label", labels);
+  create_parent_folders(path);
+  write_pcd(path, cloud);
+}
+
 Status write_tile_labels(
     const Job& job,
     const std::function<std::vector<std::uint32_t>(std::size_t first, std::size_t count)>& labels) {
@@ -39,9 +47,8 @@ Status write_tile_labels(
     const PointRange range = tiles.points_of(tile);
     RawCloud cloud = load_tile(tiles, tile, range.second - range.first);
     try {
-      set_uint32_field(cloud, "label", labels(range.first, range.second - range.first));
-      create_parent_folders(job.tile_labels[tile]);
-      write_pcd(job.tile_labels[tile], cloud);
+      write_labelled(job.tile_labels[tile], std::move(cloud),
+                     labels(range.first, range.second - range.first));
     } catch (const IoError& error) {
       report_problem(job.tile_labels[tile].string() + ": " + error.what());
       status = Status::failed;

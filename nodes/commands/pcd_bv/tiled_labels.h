@@ -10,9 +10,14 @@
 #include <vector>
 
 #include "inputs.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "status.h"
 
 namespace pcl_bv::detail {
+
+/// Writes a cloud with a field `label`, and creates missing folders. Throws IoError.
+void write_labelled(const std::filesystem::path& path, RawCloud cloud,
+                    const std::vector<std::uint32_t>& labels);
 
 /// Writes each input that is not excluded with a field `label` to its file of Job::tile_labels. `labels`
 /// returns the labels of points by their numbers in the cloud. Reports files that cannot be written; the

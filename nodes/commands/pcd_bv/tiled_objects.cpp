@@ -88,10 +88,14 @@ class TiledObjects {
                                     std::size_t count) const {
     std::vector<std::uint32_t> labels = list_.labels(first, count);
     if (remaining.ground.owner == nullptr) return labels;
-    const LoadedPoints before(remaining.filtered.points, first, count), after(remaining.points, first, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool ground = is_valid(load_point(before.view(), i)) && !is_valid(load_point(after.view(), i));
-      if (ground) labels[i] = kLabelGround;
+    for (std::size_t done = 0; done < count; done += kChunkPoints) {
+      const std::size_t n = std::min(count - done, kChunkPoints);
+      const LoadedPoints before(remaining.filtered.points, first + done, n);
+      const LoadedPoints after(remaining.points, first + done, n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const bool ground = is_valid(load_point(before.view(), i)) && !is_valid(load_point(after.view(), i));
+        if (ground) labels[done + i] = kLabelGround;
+      }
     }
     return labels;
   }

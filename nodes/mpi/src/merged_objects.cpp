@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include "commands/pcd_bv/object_shares.h"
@@ -46,6 +47,7 @@ class CommonFolder {
   }
 
   std::string file(std::size_t rank) const { return (path_ / std::to_string(rank)).string(); }
+  std::string ground_file(std::size_t rank) const { return file(rank) + ".ground"; }
 
  private:
   // Makes the folder, which a signal removes, too. Returns the problem, or an empty text.
@@ -119,17 +121,14 @@ class CellExchange {
   bool failed_ = false;
 };
 
-// Writes the file of a rank. Returns the input that fails on any rank. Throws IoError on all ranks if a rank
-// cannot write.
-std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
-                                        const CommonFolder& folder) {
+// Runs work() of a rank, and then end(), even if it fails. Returns the input that fails on any rank. Throws
+// IoError on all ranks if the work of a rank fails otherwise.
+template <typename Work, typename End>
+std::optional<TileFailure> run_on_all(Ranks& ranks, const Work& work, const End& end) {
   std::string problem;
-  CellExchange messages(ranks);
   const auto failure = run_and_catch([&] {
     try {
-      write_temporary_object_share(tiles, {ranks.rank(), ranks.size()}, options, folder.file(ranks.rank()),
-                                   [&](const auto& cells) { return messages.gather(cells); });
-    } catch (const CellExchange::OtherRankFailed&) {  // which reports the reason
+      work();
     } catch (const TileError&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -138,10 +137,56 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
       problem = error.what();
     }
   });
-  if (!needs_all_records(options)) messages.end();
+  end();
   for (const std::string& each : ranks.all_gather(problem))
     if (!each.empty()) throw IoError(each);
   return first_failure(ranks, failure);
+}
+
+// Writes the files of the ground, and reads those of all ranks. Returns the input that fails on any rank.
+std::optional<TileFailure> find_ground(Ranks& ranks, const Tiles& tiles, const Options& options,
+                                       const CommonFolder& folder, std::optional<CloudGround>& ground) {
+  if (!options.slope_ground()) return std::nullopt;
+  const auto no_more = [] {};
+  const auto failure = run_on_all(
+      ranks,
+      [&] {
+        write_ground_part(tiles, {ranks.rank(), ranks.size()}, options, folder.ground_file(ranks.rank()),
+                          FileLife::temporary);
+      },
+      no_more);
+  if (failure) return failure;
+  std::vector<std::string> files;
+  for (std::size_t rank = 0; rank < ranks.size(); ++rank)
+    files.push_back(folder.ground_file(rank));
+  return run_on_all(
+      ranks,
+      [&] {
+        ground = read_ground_parts(tiles, {ranks.rank(), ranks.size()}, options, files);
+      },
+      no_more);
+}
+
+// Writes the file of a rank. Returns the input that fails on any rank. Throws IoError on all ranks if a rank
+// cannot write.
+std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
+                                        const CommonFolder& folder) {
+  std::optional<CloudGround> ground;
+  if (const auto failure = find_ground(ranks, tiles, options, folder, ground)) return failure;
+  CellExchange messages(ranks);
+  return run_on_all(
+      ranks,
+      [&] {
+        try {
+          write_temporary_object_share(tiles, {ranks.rank(), ranks.size()}, options, ground,
+                                       folder.file(ranks.rank()),
+                                       [&](const auto& cells) { return messages.gather(cells); });
+        } catch (const CellExchange::OtherRankFailed&) {  // which reports the reason
+        }
+      },
+      [&] {
+        if (!needs_all_records(options)) messages.end();
+      });
 }
 
 }  // namespace

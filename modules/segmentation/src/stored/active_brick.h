@@ -41,9 +41,10 @@ constexpr std::size_t active_record_bytes(ScalarType scalar) {
 class ActiveWorker {
  public:
   ActiveWorker(const Bricks& bricks, ScalarType scalar, const ClusterOptions& options,
-               const Execution& execution, SpillFile& file, std::vector<ActiveBrick>& results)
+               const Execution& execution, SpillFile& file, LabelFile* labels,
+               std::vector<ActiveBrick>& results)
       : components_(bricks, scalar, options, PieceRule::all, execution, file),
-        clusters_(components_, options, store_, execution, file),
+        clusters_(components_, options, store_, execution, file, labels),
         results_(results) {}
   ActiveWorker(const ActiveWorker&) = delete;
   ActiveWorker& operator=(const ActiveWorker&) = delete;

@@ -30,12 +30,13 @@ std::pair<std::size_t, std::uint32_t> list_and_position(const std::vector<std::u
 
 MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
                            const ClusterOptions& options, const StoredClusterOptions& store,
-                           const Execution& execution, SpillFile& file)
+                           const Execution& execution, SpillFile& file, ShareLabels* labels)
     : shares_(shares),
       lost_(lost),
       options_(options),
       store_(store),
       file_(file),
+      labels_(labels),
       scalar_(ScalarType::float32) {
   if (!shares.empty()) scalar_ = shares.front()->scalar();
   std::size_t components = 0;
@@ -53,6 +54,7 @@ MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const
   std::vector<SpillList> lists(bricks.size());
   distribute(bricks, lists);
   cluster_active(bricks, lists, execution);
+  label(execution.parallel);
   join();
 }
 
@@ -60,17 +62,13 @@ MergedShares::MergedShares(const std::vector<const ClusterShare*>& shares, const
 void MergedShares::count_runs(const ParallelPolicy& policy, Bricks& bricks) {
   std::uint64_t active_points = 0;
   first_run_.assign(passive_points_.size() + 1, 0);
-  const auto kind_of = [&](const ShareRun& run) {
-    const auto found = cells_.find(run.cell);
-    return found == cells_.end() ? CellKind::passive : found->second;
-  };
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     for (std::size_t r = 0; r < shares_[s]->runs().size(); ++r) {
       const ShareRun& run = shares_[s]->runs()[r];
       if (run.component != ShareRun::kNoise && lost_.is_near(run.cell))
         is_near_lost_[component_number(s, run.component)] = 1;
       if (lost_.contains(s, r)) continue;
-      if (kind_of(run) == CellKind::active) {
+      if (is_active(run)) {
         bricks.count(run.cell, run.points);
         active_points += run.points;
       } else if (run.component == ShareRun::kNoise) {
@@ -90,7 +88,7 @@ void MergedShares::count_runs(const ParallelPolicy& policy, Bricks& bricks) {
     std::uint64_t offset = 0;
     for (std::uint32_t r = 0; r < shares_[s]->runs().size(); ++r) {
       const ShareRun& run = shares_[s]->runs()[r];
-      if (run.component != ShareRun::kNoise && kind_of(run) != CellKind::active && !lost_.contains(s, r))
+      if (run.component != ShareRun::kNoise && !is_active(run) && !lost_.contains(s, r))
         passive_runs_[next[component_number(s, run.component)]++] = {s, r, offset};
       offset += run.points * record_bytes(scalar_);
     }
@@ -120,6 +118,7 @@ void MergedShares::add_points_of_run(const RunPosition& position, bool active, c
   const std::uint32_t component =
       (run.component == ShareRun::kNoise ? kNoComponent : component_number(position.share, run.component)) |
       (lost_.is_near(run.cell) ? kNearLost : 0);
+  const std::uint64_t max_number = labels_ == nullptr ? kNumberMask : labels_->points - 1;
   PieceReader reader(file_, {position.offset, run.points, {&share, position.share, run.check_sum}}, scalar_,
                      kRunBytes);
   std::byte record[record_bytes(ScalarType::float64) + sizeof component];
@@ -131,7 +130,7 @@ void MergedShares::add_points_of_run(const RunPosition& position, bool active, c
     view.data = reader.record();
     const Coordinates point = load_point(view, 0);
     if (!is_valid(point)) throw ShareError(position.share, "has points that are not finite");
-    if (reader.number() > kNumberMask)
+    if (reader.number() > max_number)
       throw ShareError(position.share, "has numbers of points that are too large");
     const Bricks::Place at = bricks.place(point, cursor);
     const std::uint64_t number = reader.number() | (number_of_record(reader.record(), scalar_) & kCore);
@@ -155,8 +154,23 @@ void MergedShares::cluster_active(const Bricks& bricks, const std::vector<SpillL
                                   const Execution& execution) {
   bricks_.resize(lists.size());
   for_each_brick(lists, store_, execution, file_, [&](const Execution& part) {
-    return ActiveWorker(bricks, scalar_, options_, part, file_, bricks_);
+    return ActiveWorker(bricks, scalar_, options_, part, file_,
+                        labels_ == nullptr ? nullptr : &labels_->labels, bricks_);
   });
+}
+
+// Labels the points of components. Those of active cells have the labels of pieces.
+void MergedShares::label(const ParallelPolicy& policy) {
+  if (labels_ == nullptr) return;
+  first_label_ = labels_->labels.take(passive_points_.size());
+  cluster_of_label_.assign(labels_->labels.label_count(), StoredClusters::kNoCluster);
+  const auto label_of = [&](std::uint32_t share, std::uint32_t number) -> std::optional<std::uint32_t> {
+    const ShareRun& run = shares_[share]->runs()[number];
+    if (lost_.contains(share, number)) return std::nullopt;
+    if (run.component == ShareRun::kNoise || is_active(run)) return 0;
+    return first_label_ + component_number(share, run.component);
+  };
+  label_runs(shares_, label_of, policy, file_, *labels_);
 }
 
 void MergedShares::join() {
@@ -225,6 +239,19 @@ void MergedShares::add_cluster(const std::vector<std::uint32_t>& group, std::uin
   cluster.component = component;
   cluster.incomplete = is_incomplete(group);
   clusters_.push_back(cluster);
+  if (labels_ != nullptr) label_group(group);
+}
+
+// Tells that the labels of components and pieces are those of the last cluster.
+void MergedShares::label_group(const std::vector<std::uint32_t>& group) {
+  for (const std::uint32_t set : group) {
+    std::uint32_t label = first_label_ + set;
+    if (set >= passive_points_.size()) {
+      const auto [brick, piece] = list_and_position(first_piece_, set);
+      label = bricks_[brick].result.first_label + piece;
+    }
+    cluster_of_label_[label] = static_cast<std::uint32_t>(clusters_.size() - 1);
+  }
 }
 
 bool MergedShares::is_incomplete(const std::vector<std::uint32_t>& group) const {

@@ -15,6 +15,7 @@
 #include "distributed_points.h"
 #include "lost_runs.h"
 #include "pcl_bv/segmentation/cluster_share.h"
+#include "run_labels.h"
 #include "union_find.h"
 
 namespace pcl_bv::detail {
@@ -25,13 +26,15 @@ namespace pcl_bv::detail {
 /// clusters that have a core point in common.
 class MergedShares {
  public:
-  /// Leaves out lost runs. Clusters near them may lack points and are incomplete.
+  /// Leaves out lost runs. Clusters near them may lack points and are incomplete. `labels` may be null.
   MergedShares(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
                const ClusterOptions& options, const StoredClusterOptions& store, const Execution& execution,
-               SpillFile& file);
+               SpillFile& file, ShareLabels* labels = nullptr);
 
   /// Clusters of allowed sizes.
   std::vector<StoredCluster> take_clusters() { return std::move(clusters_); }
+  /// For each label, the number of its cluster in take_clusters(), or StoredClusters::kNoCluster.
+  std::vector<std::uint32_t> take_cluster_of_label() { return std::move(cluster_of_label_); }
   const Counts& counts() const { return counts_; }
   std::size_t brick_count() const { return bricks_.size(); }
 
@@ -49,12 +52,18 @@ class MergedShares {
                          std::vector<SpillList>& lists);
   void cluster_active(const Bricks& bricks, const std::vector<SpillList>& lists, const Execution& execution);
   void join();
+  void label(const ParallelPolicy& policy);
   void add_group(const std::vector<std::uint32_t>& group);
   void add_cluster(const std::vector<std::uint32_t>& group, std::uint32_t only, std::uint64_t points);
+  void label_group(const std::vector<std::uint32_t>& group);
   bool is_incomplete(const std::vector<std::uint32_t>& group) const;
   std::vector<Piece> pieces_of(const std::vector<std::uint32_t>& group) const;
   std::uint32_t component_number(std::size_t share, std::uint32_t component) const {
     return first_component_[share] + component;
+  }
+  bool is_active(const ShareRun& run) const {
+    const auto found = cells_.find(run.cell);
+    return found != cells_.end() && found->second == CellKind::active;
   }
 
   const std::vector<const ClusterShare*>& shares_;
@@ -62,6 +71,7 @@ class MergedShares {
   ClusterOptions options_;
   const StoredClusterOptions& store_;
   SpillFile& file_;
+  ShareLabels* labels_;  // or null
   ScalarType scalar_;
   std::unordered_map<std::uint64_t, CellKind> cells_;
   std::vector<std::uint32_t> first_component_;  // of each share, among all components
@@ -72,6 +82,8 @@ class MergedShares {
   std::vector<ActiveBrick> bricks_;
   std::vector<std::uint32_t> first_piece_;  // of each brick, among all sets; components come first
   std::vector<StoredCluster> clusters_;
+  std::uint32_t first_label_ = 0;                // of the components
+  std::vector<std::uint32_t> cluster_of_label_;  // if there are labels
   Counts counts_;
 };
 

@@ -16,6 +16,7 @@
 #include "lost_runs.h"
 #include "merged_shares.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "run_labels.h"
 #include "spill_file.h"
 
 namespace pcl_bv::detail {
@@ -71,6 +72,7 @@ struct StoredClusters::State {
 
   SpillFile file;
   std::unique_ptr<LabelFile> labels;            // or null
+  std::unique_ptr<ShareLabels> share_labels;    // or null
   std::vector<std::uint32_t> cluster_of_label;  // if there are labels
   ScalarType scalar = ScalarType::float32;
   std::vector<StoredCluster> clusters;
@@ -108,7 +110,7 @@ void StoredClusters::State::sort() {
   std::sort(clusters.begin(), clusters.end(), [](const StoredCluster& a, const StoredCluster& b) {
     return a.points != b.points ? a.points > b.points : a.first_number < b.first_number;
   });
-  if (!labels) return;
+  if (cluster_of_label.empty()) return;
   std::vector<std::uint32_t> position(clusters.size());
   for (std::size_t i = 0; i < clusters.size(); ++i)
     position[clusters[i].number] = static_cast<std::uint32_t>(i);
@@ -201,9 +203,11 @@ StoredClusters::StoredClusters(const std::vector<const ClusterShare*>& shares, c
 void StoredClusters::State::merge(const std::vector<const ClusterShare*>& shares, const LostRuns& lost,
                                   const ClusterOptions& options, const StoredClusterOptions& store,
                                   const Execution& execution) {
-  MergedShares merged(shares, lost, options, store, execution, file);
+  if (store.has_labels) share_labels = std::make_unique<ShareLabels>(store.folder, store.points_of_shares);
+  MergedShares merged(shares, lost, options, store, execution, file, share_labels.get());
   if (!shares.empty()) scalar = shares.front()->scalar();
   clusters = merged.take_clusters();
+  cluster_of_label = merged.take_cluster_of_label();
   counts = merged.counts();
   brick_count = merged.brick_count();
   sort();
@@ -234,11 +238,18 @@ std::optional<StoredVisit> StoredClusters::visit(std::size_t cluster) const {
 }
 
 std::vector<std::uint32_t> StoredClusters::labels(std::size_t first, std::size_t count) const {
-  if (!state_->labels) throw std::logic_error("labels were not asked for");
-  std::vector<std::uint32_t> labels = state_->labels->read(first, count);
+  const State& state = *state_;
+  if (!state.labels && !state.share_labels) throw std::logic_error("labels were not asked for");
+  std::vector<std::uint32_t> labels =
+      (state.labels ? *state.labels : state.share_labels->labels).read(first, count);
   for (std::uint32_t& label : labels)
-    label = label == 0 ? kNoCluster : state_->cluster_of_label[label];
+    label = label == 0 ? kNoCluster : state.cluster_of_label[label];
   return labels;
+}
+
+std::vector<std::uint32_t> StoredClusters::check_sums(std::size_t first, std::size_t count) const {
+  if (!state_->share_labels) throw std::logic_error("labels of shares were not asked for");
+  return state_->share_labels->check_sums.read(first, count);
 }
 
 std::optional<ComponentOfShare> StoredClusters::component(std::size_t cluster) const {

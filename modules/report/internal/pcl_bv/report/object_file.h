@@ -20,6 +20,27 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
+/// An input of a cloud.
+struct ObjectInput {
+  std::size_t number = 0;  ///< Among the inputs of the cloud.
+  std::size_t points = 0;
+  std::string path;                       ///< Absolute, or the name of a generated cloud.
+  std::optional<std::size_t> recorded{};  ///< Number of the cloud, if the file is a recording.
+};
+
+/// The inputs that have points of a share, and how they are read.
+struct ObjectInputs {
+  std::vector<ObjectInput> list;
+  std::size_t bin_fields = 0;
+  std::string columns, topic;
+};
+
+/// The ground that was removed from a share.
+struct ShareGround {
+  std::size_t points = 0;       ///< Number of points of the share that are ground.
+  std::uint64_t check_sum = 0;  ///< Of the files from which the surface was computed.
+};
+
 /// What a file says about its share.
 struct ObjectFileHeader {
   PartialFile cloud;          ///< The cloud, the points of the share, and counts; without a Partial.
@@ -29,9 +50,15 @@ struct ObjectFileHeader {
   /// With classes, a share is a share of the cloud for each class. The first one has the counts of all.
   std::optional<std::int64_t> class_value{};
   std::size_t dropped_class = 0;  ///< Number of points of the share whose class is dropped.
+  /// Nothing in files of older versions.
+  std::optional<ObjectInputs> inputs{};
+  /// If the ground was removed. Then the file has a bit for each point of the share.
+  std::optional<ShareGround> ground{};
 
-  /// Removes points and counts, for the next class of the same points.
+  /// Removes points, counts and inputs, for the next class of the same points.
   void without_points() {
+    if (inputs) inputs->list.clear();
+    if (ground) ground->points = 0;
     cloud.shares.clear();
     cloud.counts = Counts();
     nonfinite = dropped_class = 0;
@@ -76,9 +103,12 @@ class ObjectFile final : public ClusterShare {
     return texts_[component + 1].begin > texts_[component].begin;
   }
 
+  /// Sets ground[i] to 1 for each point number first + i of the cloud that the share has and that is ground.
+  /// Throws IoError if the file is damaged.
+  void mark_ground(std::size_t first, std::vector<std::uint8_t>& ground) const;
+
  private:
   void read_index();
-  void read_header(std::string_view content);
   void require_right_index() const;
 
   std::shared_ptr<const InputFile> file_;
@@ -106,11 +136,13 @@ void write_object_file(const std::filesystem::path& path, FileLife life,
 std::uint64_t first_record_of_object_file();
 
 /// Writes all but the records of a share that begins at a byte of a file. `text` is called for each component
-/// in their order, and returns its text; an empty text is none. Returns where the next share begins. Throws
-/// IoError.
+/// in their order, and returns its text; an empty text is none. `ground` has a bit for each point of the
+/// share, the first one in the lowest bit of the first word, if the header has the ground. Returns where the
+/// next share begins. Throws IoError.
 std::uint64_t complete_object_file(const std::filesystem::path& file, std::uint64_t begin,
                                    const ObjectFileHeader& header, const ClusterShare& share,
-                                   const std::function<std::string(std::uint32_t component)>& text);
+                                   const std::function<std::string(std::uint32_t component)>& text,
+                                   const std::vector<std::uint64_t>& ground = {});
 
 /// Writes several shares to one file, atomically.
 void join_object_files(const std::filesystem::path& path,

@@ -48,6 +48,11 @@ constexpr std::uint32_t stored_sum(std::uint32_t sum) {
   return sum == ShareRun::kNotWritten ? 1 : sum;
 }
 
+/// Returns the check sum of the coordinates of a point, which are numbers of this type without gaps. Never 0.
+inline std::uint32_t point_check_sum(const std::byte* coordinates, ScalarType scalar) {
+  return stored_sum(run_check_sum(coordinates, 3 * size_of(scalar)));
+}
+
 /// Thrown if the records of a share are damaged or cannot be read.
 class ShareError : public std::runtime_error {
  public:

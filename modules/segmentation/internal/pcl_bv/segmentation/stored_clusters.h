@@ -48,8 +48,11 @@ struct StoredClusterOptions {
       visit{};
   /// Whether visited clusters have points(), too.
   bool keep_visited = true;
-  /// Whether points have labels(). Takes a temporary file of 4 bytes for each point.
+  /// Whether points have labels(). Takes a temporary file of 4 bytes for each point; 8 bytes with shares, all
+  /// of whose points are read.
   bool has_labels = false;
+  /// With shares and labels: number of points of the cloud.
+  std::uint64_t points_of_shares = 0;
   /// If set, tells which components of shares need no points(). See StoredClusters::component().
   std::function<bool(const ComponentOfShare& component)> is_known{};
   /// If set, is called with the error of each share that has points with a wrong check sum, and their number.
@@ -136,8 +139,12 @@ class StoredClusters {
   static constexpr std::uint32_t kNoCluster = ~std::uint32_t{0};
 
   /// Returns the numbers of the clusters of points first to first + count - 1 of the cloud; kNoCluster for
-  /// points without a cluster. Only with StoredClusterOptions::has_labels, and not for shares.
+  /// points without a cluster. Only with StoredClusterOptions::has_labels.
   std::vector<std::uint32_t> labels(std::size_t first, std::size_t count) const;
+
+  /// Returns the point_check_sum() of points first to first + count - 1 of the cloud; 0 for points that no
+  /// share has. Only for shares and with StoredClusterOptions::has_labels.
+  std::vector<std::uint32_t> check_sums(std::size_t first, std::size_t count) const;
 
   /// Numbers of points without a cluster, by reason (as Counts): nonfinite, small, large and noise.
   const Counts& counts() const;

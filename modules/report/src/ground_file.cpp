@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/report/ground_file.h"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/posix_file.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// A file is a preamble, the options, what it says about the cloud, a CRC-32 of these, the lowest points, and
+// their CRC-32.
+struct GroundPreamble {
+  char format[24];
+  std::uint64_t option_bytes, cloud_bytes, points;
+  GroundBounds bounds;
+};
+static_assert(sizeof(GroundPreamble) == 80 && sizeof(LowestPoint) == 16);
+
+constexpr char kGroundFormat[sizeof GroundPreamble::format] = "pcl_bv ground 1\n";
+constexpr std::uint64_t kMaxGroundText = 1U << 24U;
+constexpr std::size_t kLowestPerBlock = 1U << 16U;
+
+void require_ground(bool good, const char* what) {
+  if (!good) throw IoError(what);
+}
+
+template <typename T>
+std::string_view bytes_of_ground(const T* items, std::size_t count) {
+  return {reinterpret_cast<const char*>(items), count * sizeof(T)};
+}
+
+// Writes the bytes that `write` writes to the sink it gets, and their CRC-32.
+template <typename Write>
+void write_summed(const FileSink& sink, const Write& write) {
+  boost::crc_32_type sum;
+  write([&](std::string_view bytes) {
+    sum.process_bytes(bytes.data(), bytes.size());
+    sink(bytes);
+  });
+  const std::uint32_t value = sum.checksum();
+  sink(bytes_of_ground(&value, 1));
+}
+
+void write_ground(const FileSink& sink, const GroundFileHeader& header, const LowestPoints& lowest) {
+  const std::string cloud = partial_file_content(header.cloud);
+  GroundPreamble preamble{{}, header.options.size(), cloud.size(), lowest.size(), {}};
+  std::memcpy(preamble.format, kGroundFormat, sizeof kGroundFormat);
+  for (std::size_t i = 0; i < lowest.size(); ++i)
+    preamble.bounds.add(lowest[i]);
+  write_summed(sink, [&](const FileSink& write) {
+    write(bytes_of_ground(&preamble, 1));
+    write(header.options);
+    write(cloud);
+  });
+  write_summed(sink, [&](const FileSink& write) {
+    std::vector<LowestPoint> block;
+    for (std::size_t first = 0; first < lowest.size(); first += block.size()) {
+      block.clear();
+      for (std::size_t i = first; i < std::min(first + kLowestPerBlock, lowest.size()); ++i)
+        block.push_back(lowest[i]);
+      write(bytes_of_ground(block.data(), block.size()));
+    }
+  });
+}
+
+}  // namespace
+
+void write_ground_file(const std::filesystem::path& path, FileLife life, const GroundFileHeader& header,
+                       const LowestPoints& lowest) {
+  if (life == FileLife::lasting) {
+    create_parent_folders(path);
+    write_file_atomically(path, [&](const FileSink& sink) { write_ground(sink, header, lowest); });
+    return;
+  }
+  std::ofstream out(path, std::ios::binary);
+  write_ground(
+      [&](std::string_view bytes) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); },
+      header, lowest);
+  out.close();
+  require_ground(!out.fail(), "cannot be written: is the disk full?");
+}
+
+void GroundBounds::add(const LowestPoint& point) {
+  cells.merge({point.x, point.y, point.x, point.y});
+  lowest = std::min(lowest, point.height);
+  highest = std::max(highest, point.height);
+}
+
+GroundFile::GroundFile(const std::filesystem::path& path) : path_(path) {
+  const InputFile file(path);
+  constexpr const char* other = "is no file of the ground, as --partial --ground writes it";
+  GroundPreamble preamble;
+  require_ground(file.size() >= sizeof preamble, other);
+  file.read(0, &preamble, sizeof preamble);
+  require_ground(std::memcmp(preamble.format, kGroundFormat, 14) == 0, other);
+  require_ground(std::memcmp(preamble.format, kGroundFormat, sizeof kGroundFormat) == 0,
+                 "was written by another version of pcl_bv: this one reads version 1");
+  require_ground(preamble.option_bytes <= kMaxGroundText && preamble.cloud_bytes <= kMaxGroundText,
+                 "is damaged: its header is too large");
+  std::string text(preamble.option_bytes + preamble.cloud_bytes, '\0');
+  std::uint32_t sum, points_sum;
+  first_point_ = sizeof preamble + text.size() + sizeof sum;
+  points_ = preamble.points;
+  require_ground(first_point_ + sizeof points_sum <= file.size() &&
+                     points_ == (file.size() - first_point_ - sizeof points_sum) / sizeof(LowestPoint) &&
+                     (file.size() - first_point_ - sizeof points_sum) % sizeof(LowestPoint) == 0,
+                 "is truncated");
+  file.read(sizeof preamble, text.data(), text.size());
+  file.read(first_point_ - sizeof sum, &sum, sizeof sum);
+  file.read(file.size() - sizeof points_sum, &points_sum, sizeof points_sum);
+  boost::crc_32_type expected;
+  expected.process_bytes(&preamble, sizeof preamble);
+  expected.process_bytes(text.data(), text.size());
+  require_ground(sum == expected.checksum(), "is damaged: the checksum does not match");
+  header_.options = text.substr(0, preamble.option_bytes);
+  header_.cloud = parse_partial_file(std::string_view(text).substr(preamble.option_bytes), false);
+  bounds_ = preamble.bounds;
+  check_sum_ = std::uint64_t{sum} << 32U | points_sum;
+}
+
+void GroundFile::read(const CellRange& cells, LowestPoints& lowest) const {
+  const InputFile file(path_);
+  std::vector<LowestPoint> block;
+  boost::crc_32_type expected;
+  for (std::uint64_t first = 0; first < points_; first += block.size()) {
+    block.resize(std::min<std::uint64_t>(points_ - first, kLowestPerBlock));
+    const std::size_t bytes = block.size() * sizeof(LowestPoint);
+    file.read(first_point_ + first * sizeof(LowestPoint), block.data(), bytes);
+    expected.process_bytes(block.data(), bytes);
+    for (const LowestPoint& point : block)
+      if (cells.contains(point)) lowest.add(point);
+  }
+  require_ground(static_cast<std::uint32_t>(check_sum_) == expected.checksum(),
+                 "is damaged: the checksum does not match");
+}
+
+}  // namespace pcl_bv::detail
