@@ -7,6 +7,7 @@
 #include <array>
 
 #include "slope_limit.h"
+#include "vector_clones.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -44,7 +45,7 @@ constexpr float roughness = 0.02F;  // mean height of bare ground above the lowe
 
 // Mixes the states of neighbouring sectors into the state of each sector, if ground was seen more recently in
 // the neighbours. `width` is the width of a sector.
-void GroundSurface::WalkState::mix_with_neighbours(float width) {
+PCL_BV_VECTOR_CLONES void GroundSurface::WalkState::mix_with_neighbours(float width) {
   for (RingRow* row : {&height, &slope, &last_ground, &since_ground})
     row->close();
   const WalkState old = *this;
@@ -64,7 +65,7 @@ void GroundSurface::WalkState::mix_with_neighbours(float width) {
   }
 }
 
-void GroundSurface::estimate_outwards(const CellSummary& cells) {
+PCL_BV_VECTOR_CLONES void GroundSurface::estimate_outwards(const CellSummary& cells) {
   WalkState state;
   state.height.fill(0), state.slope.fill(0), state.last_ground.fill(0),
       state.since_ground.fill(first_since_ground);
@@ -102,7 +103,7 @@ void GroundSurface::estimate_outwards(const CellSummary& cells) {
 }
 
 // Interpolates the height linearly between two cells with visible ground in the same sector.
-void GroundSurface::interpolate_inwards() {
+PCL_BV_VECTOR_CLONES void GroundSurface::interpolate_inwards() {
   WalkState state;
   state.slope.fill(0), state.height.fill(0), state.last_ground.fill(0), state.since_ground.fill(never_seen);
   for (std::size_t ring = rings_; ring-- > 0;) {
@@ -127,7 +128,7 @@ void GroundSurface::interpolate_inwards() {
 // one or two sectors away. The lowest point of such a cell is often on the foot of the object, while the
 // ground in front of the object is visible in the next sectors. Most errors of the surface at objects
 // are upwards.
-void GroundSurface::lower_at_objects() {
+PCL_BV_VECTOR_CLONES void GroundSurface::lower_at_objects() {
   constexpr std::size_t margin = 2;
   std::array<float, sector_count + 2 * margin> old;
   for (std::size_t ring = 0; ring < rings_; ++ring) {
@@ -144,7 +145,7 @@ void GroundSurface::lower_at_objects() {
   }
 }
 
-void GroundSurface::compute_lines() {
+PCL_BV_VECTOR_CLONES void GroundSurface::compute_lines() {
   lines_.resize(cell_count);
   for (std::size_t ring = 0; ring < rings_; ++ring) {
     const std::size_t inner = ring > 0 ? ring - 1 : 0, outer = std::min(ring + 1, rings_ - 1);

@@ -33,6 +33,13 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vec
                                        const GroundPlaneOptions& options, GroundScratch& scratch,
                                        std::size_t sample_size = default_sample_size);
 
+/// Stores `plane` in the split.
+inline void set_plane(const std::optional<Plane>& plane, GroundSplit& split) {
+  split.found = plane.has_value();
+  split.normal = plane ? plane->normal : Eigen::Vector3d::Zero();
+  split.offset = plane ? plane->offset : 0;
+}
+
 /// Stores `plane` in the split and fills the two lists of the split. visit(put) must call put(index,
 /// is_ground) for each valid point, at most `max_count` times. Each index is written to both lists, but only
 /// the end of one list advances. This takes half the time of a branch, because branches are unpredictable in
@@ -40,9 +47,7 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vec
 template <typename Visit>
 void write_split(const std::optional<Plane>& plane, std::size_t max_count, GroundSplit& split,
                  const Visit& visit) {
-  split.found = plane.has_value();
-  split.normal = plane ? plane->normal : Eigen::Vector3d::Zero();
-  split.offset = plane ? plane->offset : 0;
+  set_plane(plane, split);
   split.ground.resize(max_count);
   split.rest.resize(max_count);
   std::size_t ground = 0, rest = 0;

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "vector_clones.h"
+
 namespace pcl_bv::detail {
 namespace {
 
@@ -43,7 +45,8 @@ class SlopeLimit {
 
   // Limits the heights of `ring` by the cells of ring `from`, which is `steps` rings away. Uses the cells
   // that are `sectors` sectors to either side.
-  void limit_by(std::size_t ring, std::size_t from, std::size_t steps, std::size_t sectors) {
+  PCL_BV_VECTOR_CLONES void limit_by(std::size_t ring, std::size_t from, std::size_t steps,
+                                     std::size_t sectors) {
     const float across = width_of(ring) * static_cast<float>(sectors);
     const float along = ring_width * static_cast<float>(steps);
     const float climb = max_slope_ * std::sqrt(along * along + across * across);

@@ -12,6 +12,7 @@
 #include <limits>
 #include <utility>
 
+#include "vector_clones.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -93,6 +94,32 @@ std::size_t load_rotated(const PointView& view, std::size_t begin, std::size_t e
   });
 }
 
+PCL_BV_VECTOR_CLONES void find_cells(const float* u, const float* v, std::size_t count, float* range,
+                                     std::uint16_t* cell) {
+  for (std::size_t k = 0; k < count; ++k) {
+    range[k] = range_of(u[k], v[k]);
+    cell[k] = static_cast<std::uint16_t>(cell_of(range[k], angle_in_turns(u[k], v[k])));
+  }
+}
+
+PCL_BV_VECTOR_CLONES void subtract_plane(const float* u, const float* v, std::size_t count,
+                                         const Slope& plane, float* height) {
+  const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
+             slope_v = static_cast<float>(plane.slope_v);
+  for (std::size_t i = 0; i < count; ++i)
+    height[i] -= offset + (u[i] * slope_u + v[i] * slope_v);
+}
+
+PCL_BV_VECTOR_CLONES void keep_lowest(const float* others, float* lowest) {
+  for (std::size_t i = 0; i < cell_count; ++i)
+    lowest[i] = std::min(lowest[i], others[i]);
+}
+
+PCL_BV_VECTOR_CLONES void add_objects(const std::uint8_t* others, std::uint8_t* has_object) {
+  for (std::size_t i = 0; i < cell_count; ++i)
+    has_object[i] |= others[i];
+}
+
 }  // namespace
 
 GroundPoint ZoneFrame::point(const Coordinates& p) const {
@@ -124,10 +151,7 @@ void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePa
     const std::size_t count = load_batch(view, i, std::min(i + kBatch, part.end), frame, batch);
     float* const ranges = range.data() + to;
     std::uint16_t* const cells = cell.data() + to;
-    for (std::size_t k = 0; k < count; ++k) {
-      ranges[k] = range_of(batch.u[k], batch.v[k]);
-      cells[k] = static_cast<std::uint16_t>(cell_of(ranges[k], angle_in_turns(batch.u[k], batch.v[k])));
-    }
+    find_cells(batch.u, batch.v, count, ranges, cells);
     to += count;
   }
   part.valid = to - part.begin;
@@ -144,30 +168,29 @@ void ZonePoints::read(const PointView& view, const ZoneFrame& frame, const Paral
   parts.for_each(policy, [&](ZonePart& part) { read_part(view, frame, part); });
 }
 
-void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const {
+void ZonePoints::list_near(std::size_t rings, const ParallelPolicy& policy,
+                           std::vector<std::int32_t>& numbers) {
   numbers.resize(number.size());
-  std::size_t count = 0;
-  for (const ZonePart& part : parts) {
+  parts.for_each(policy, [&](ZonePart& part) {
+    std::size_t to = part.begin;
     for (std::size_t i = part.begin; i < part.begin + part.valid; ++i) {
-      numbers[count] = number[i];
-      count += cell[i] < rings * sector_count;
+      numbers[to] = number[i];
+      to += cell[i] < rings * sector_count;
     }
-  }
-  numbers.resize(count);
+    part.listed = to - part.begin;
+  });
+  numbers.resize(join_lists(parts, numbers, [](const ZonePart& part) { return part.listed; }));
 }
 
 void ZonePoints::find_lowest(const Slope& plane, ZonePart& part) {
-  const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
-             slope_v = static_cast<float>(plane.slope_v);
   std::vector<float>& lowest = part.cells.lowest;
   lowest.assign(cell_count, no_lowest);
-  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
-    height[i] -= offset + (u_[i] * slope_u + v_[i] * slope_v);
+  subtract_plane(&u_[part.begin], &v_[part.begin], part.valid, plane, &height[part.begin]);
   for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
     lowest[cell[i]] = std::min(lowest[cell[i]], height[i]);
 }
 
-void ZonePoints::fill_pits() {
+PCL_BV_VECTOR_CLONES void ZonePoints::fill_pits() {
   float* const lowest = parts.front().cells.lowest.data();
   RingRow before, here, after;
   before.fill(no_lowest);
@@ -198,16 +221,12 @@ void ZonePoints::find_objects(const std::vector<float>& lowest, ZonePart& part) 
 void ZonePoints::measure_from(const Slope& plane, const ParallelPolicy& policy) {
   parts.for_each(policy, [&](ZonePart& part) { find_lowest(plane, part); });
   CellSummary& all = parts.front().cells;
-  for (const ZonePart& part : parts) {
-    for (std::size_t i = 0; i < cell_count; ++i)
-      all.lowest[i] = std::min(all.lowest[i], part.cells.lowest[i]);
-  }
+  for (const ZonePart& part : parts)
+    keep_lowest(part.cells.lowest.data(), all.lowest.data());
   fill_pits();
   parts.for_each(policy, [&](ZonePart& part) { find_objects(all.lowest, part); });
-  for (const ZonePart& part : parts) {
-    for (std::size_t i = 0; i < cell_count; ++i)
-      all.has_object[i] |= part.cells.has_object[i];
-  }
+  for (const ZonePart& part : parts)
+    add_objects(part.cells.has_object.data(), all.has_object.data());
 }
 
 }  // namespace pcl_bv::detail

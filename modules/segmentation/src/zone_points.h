@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -56,8 +57,23 @@ inline constexpr float no_lowest = 1e30F;
 struct ZonePart {
   std::size_t begin, end;  ///< Range in the view.
   std::size_t valid;       ///< Number of valid points, stored from `begin` on.
+  std::size_t listed;      ///< Number of points in a list, written from `begin` on.
   CellSummary cells;
 };
+
+/// Joins lists that parts have written to `list`: moves `count_of(part)` elements at part.begin of each part
+/// behind those of the part before it. Returns the number of all elements.
+template <typename Parts, typename Count>
+std::size_t join_lists(const Parts& parts, std::vector<std::int32_t>& list, const Count& count_of) {
+  std::size_t joined = 0;
+  for (const auto& part : parts) {
+    const auto first = list.begin() + static_cast<std::ptrdiff_t>(part.begin);
+    std::copy(first, first + static_cast<std::ptrdiff_t>(count_of(part)),
+              list.begin() + static_cast<std::ptrdiff_t>(joined));
+    joined += count_of(part);
+  }
+  return joined;
+}
 
 /// The valid points of a view. Each part has its points in the order of the view.
 class ZonePoints {
@@ -73,7 +89,7 @@ class ZonePoints {
   void read(const PointView& view, const ZoneFrame& frame, const ParallelPolicy& policy);
 
   /// Lists the cloud indices of the points in the first `rings` rings.
-  void list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const;
+  void list_near(std::size_t rings, const ParallelPolicy& policy, std::vector<std::int32_t>& numbers);
 
   /// Makes the heights relative to `plane`, and computes the summary that cells() returns.
   void measure_from(const Slope& plane, const ParallelPolicy& policy);
