@@ -251,8 +251,13 @@ void FramePipeline::State::refine_clusters(const Prepared& now, const Frame& fra
   const Refine refine = now.config.effective_refine();
   result.refinements.clear();
   if (refine == Refine::off || config.tolerance == 0) return;
-  const RefineOptions options{now.options.up, result.sensor.position, &frame.sensors,
-                              config.effective_min_size(), &now.classes.class_options()};
+  const RefineOptions options{now.options.up,
+                              result.sensor.position,
+                              &frame.sensors,
+                              config.effective_min_size(),
+                              &now.classes.class_options(),
+                              now.execution.isa,
+                              now.execution.parallel};
   refiner.cut_at_necks(frame.points, options, result.clusters, result.class_of, result.refinements,
                        result.counts);
   if (refine != Refine::tracks || !now.config.track.enabled) return;

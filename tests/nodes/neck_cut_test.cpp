@@ -61,7 +61,7 @@ void add_box(Cloud& cloud, int owner, const Eigen::Vector3d& low, const Eigen::V
 std::size_t cut(const Cloud& cloud, std::vector<std::uint32_t>& parts,
                 const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ()) {
   NeckCut neck;
-  return neck.find(cloud.view(), up, Eigen::Vector3d::Zero(), 10, parts);
+  return neck.find(UsableIsa(Isa::automatic), cloud.view(), up, Eigen::Vector3d::Zero(), 10, parts);
 }
 
 // Share of the points whose part has mostly points of their own object.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "geometry.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/select_points.h"
 #include "pipeline/track/viewpoints.h"
 
@@ -27,15 +28,6 @@ Eigen::Vector3d sensor_near(const RefineOptions& options, const PointView& clust
 
 }  // namespace
 
-void ClusterRefiner::place(const PointView& cluster, const Pose& pose) {
-  points_.clear();
-  box_.setEmpty();
-  for (std::size_t i = 0; i < cluster.count; ++i) {
-    points_.push_back(pose * point_at(cluster, i));
-    box_.extend(points_.back());
-  }
-}
-
 // Reserves more than this frame needs: in a replay, other clusters are cut and joined.
 void ClusterRefiner::start(Clusters& clusters, std::vector<Refinement>& refinements) {
   indices_.clear();
@@ -44,20 +36,45 @@ void ClusterRefiner::start(Clusters& clusters, std::vector<Refinement>& refineme
   pieces_.reserve(2 * clusters.size());
   members_.reserve(2 * clusters.size());
   classes_.reserve(2 * clusters.size());
+  parts_.reserve(2 * clusters.size());
+  boxes_.reserve(2 * clusters.size());
+  part_of_.reserve(2 * clusters.indices.size());
   clusters.offsets.reserve(2 * clusters.offsets.size());
   refinements.reserve(2 * clusters.size());
 }
 
+// Sets parts_ to cut(i, cutter) of each cluster i, and part_of_ to the parts of clusters that are cut. Lanes
+// of clusters run in parallel; clusters are sorted by size, so that lanes take about as long. Returns the
+// number of clusters that are cut.
+template <typename Cut>
+std::size_t ClusterRefiner::cut_each(const Clusters& clusters, const ParallelPolicy& policy, const Cut& cut) {
+  const std::size_t threads = thread_count(policy), lanes = threads == 1 ? 1 : 2 * threads;
+  if (cutters_.size() < lanes) cutters_.resize(lanes);
+  parts_.assign(clusters.size(), 1);
+  part_of_.resize(clusters.indices.size());
+  for_each_chunk(policy, lanes, [&](std::size_t lane) {
+    Cutter& cutter = cutters_[lane];
+    for (std::size_t i = lane; i < clusters.size(); i += lanes) {
+      parts_[i] = cut(i, cutter);
+      if (parts_[i] > 1)
+        std::copy_n(cutter.part_of.begin(), clusters.list_size(i),
+                    part_of_.begin() + static_cast<std::ptrdiff_t>(clusters.offsets[i]));
+    }
+  });
+  return static_cast<std::size_t>(
+      std::count_if(parts_.begin(), parts_.end(), [](std::size_t parts) { return parts > 1; }));
+}
+
 // Adds the parts of a cluster, or the whole cluster. The indices of each part stay ascending.
-void ClusterRefiner::add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts,
-                               Refinement refinement) {
+void ClusterRefiner::add_parts(const Clusters& clusters, std::size_t cluster, Refinement refinement) {
   const std::int32_t* const list = clusters.list(cluster);
-  const std::size_t size = clusters.list_size(cluster);
+  const std::size_t size = clusters.list_size(cluster), parts = parts_[cluster];
+  const std::uint32_t* const part_of = part_of_.data() + clusters.offsets[cluster];
   if (parts > 1) refinement = Refinement::cut;
   for (std::size_t part = 0; part < std::max<std::size_t>(parts, 1); ++part) {
     const std::size_t begin = indices_.size();
     for (std::size_t i = 0; i < size; ++i)
-      if (parts < 2 || part_of_[i] == part) indices_.push_back(list[i]);
+      if (parts < 2 || part_of[i] == part) indices_.push_back(list[i]);
     pieces_.push_back({begin, indices_.size() - begin, cluster, refinement, {}});
   }
 }
@@ -111,20 +128,38 @@ void ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOptions& o
                                   std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
                                   Counts& counts) {
   start(clusters, refinements);
-  std::size_t cut = 0;
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
+  const std::size_t cut = cut_each(clusters, options.parallel, [&](std::size_t i, Cutter& cutter) {
     const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
-    const std::size_t parts = neck_cut_.find(view, options.up, sensor_near(options, view),
-                                             min_size_of(options, class_of, i), part_of_);
-    add_parts(clusters, i, parts, Refinement::none);
-    cut += parts > 1;
-  }
+    return cutter.neck_cut.find(options.isa, view, options.up, sensor_near(options, view),
+                                min_size_of(options, class_of, i), cutter.part_of);
+  });
   counts.cut += cut;
-  if (cut > 0) {
-    replace(clusters, class_of, refinements);
-  } else {
+  if (cut == 0) {
     refinements.assign(clusters.size(), Refinement::none);
+    return;
   }
+  for (std::size_t i = 0; i < clusters.size(); ++i)
+    add_parts(clusters, i, Refinement::none);
+  replace(clusters, class_of, refinements);
+}
+
+// Sets `box` to that of the cluster in the fixed frame. Moves the points there only if a person is expected.
+std::size_t ClusterRefiner::cut_by_tracks(Cutter& cutter, const PointView& cluster,
+                                          const RefineOptions& options, const Pose& pose,
+                                          const std::vector<KnownObject>& known, std::size_t min_size,
+                                          Eigen::AlignedBox3d& box) const {
+  const Eigen::Vector3d first = point_at(cluster, 0);
+  const double cell = density_cell((first - sensor_near(options, cluster)).norm());
+  box = box_along(options.isa, cluster, pose.linear());
+  box.translate(pose * first);
+  cutter.track_cut.reserve(cluster.count, box, cell);
+  cutter.points.reserve(cluster.count);
+  cutter.part_of.reserve(cluster.count);
+  if (!cutter.track_cut.expects(box, known)) return 1;
+  cutter.points.clear();
+  for (std::size_t i = 0; i < cluster.count; ++i)
+    cutter.points.push_back(pose * point_at(cluster, i));
+  return cutter.track_cut.find(cutter.points, box, known, cell, min_size, cutter.part_of);
 }
 
 void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& options, const Pose& pose,
@@ -132,16 +167,14 @@ void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& 
                                    std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
                                    Counts& counts) {
   start(clusters, refinements);
-  std::size_t cut = 0;
+  boxes_.resize(clusters.size());
+  const std::size_t cut = cut_each(clusters, options.parallel, [&](std::size_t i, Cutter& cutter) {
+    return cut_by_tracks(cutter, select_points(cloud, clusters.list(i), clusters.list_size(i)), options, pose,
+                         known, min_size_of(options, class_of, i), boxes_[i]);
+  });
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
-    place(view, pose);
-    const double cell = density_cell((point_at(view, 0) - sensor_near(options, view)).norm());
-    const std::size_t parts =
-        track_cut_.find(points_, box_, known, cell, min_size_of(options, class_of, i), part_of_);
-    add_parts(clusters, i, parts, refinements[i]);
-    pieces_.back().box = box_;
-    cut += parts > 1;
+    add_parts(clusters, i, refinements[i]);
+    pieces_.back().box = boxes_[i];
   }
   const std::size_t joined = part_join_.find(pieces_, known, class_of, whole_of_);
   if (joined > 0) join();

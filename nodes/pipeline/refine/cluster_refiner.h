@@ -13,6 +13,7 @@
 #include "neck_cut.h"
 #include "part_join.h"
 #include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/clusters.h"
@@ -30,6 +31,8 @@ struct RefineOptions {
   std::size_t min_size = 1;                          ///< Smallest number of points of a part.
   /// Classes whose min_size replaces that of these options. May be null.
   const std::vector<ClassOptions>* classes = nullptr;
+  UsableIsa isa{};
+  ParallelPolicy parallel{};
 };
 
 /// Replaces clusters by objects. Each point of a cluster is in exactly one object. The objects keep the order
@@ -51,18 +54,29 @@ class ClusterRefiner {
                      Counts& counts);
 
  private:
+  // Cuts one cluster at a time. A lane of clusters has its own.
+  struct Cutter {
+    NeckCut neck_cut;
+    TrackCut track_cut;
+    std::vector<Eigen::Vector3d> points;  // of a cluster, in the fixed frame
+    std::vector<std::uint32_t> part_of;
+  };
+
   void start(Clusters& clusters, std::vector<Refinement>& refinements);
-  void place(const PointView& cluster, const Pose& pose);
-  void add_parts(const Clusters& clusters, std::size_t cluster, std::size_t parts, Refinement refinement);
+  template <typename Cut>
+  std::size_t cut_each(const Clusters& clusters, const ParallelPolicy& policy, const Cut& cut);
+  std::size_t cut_by_tracks(Cutter& cutter, const PointView& cluster, const RefineOptions& options,
+                            const Pose& pose, const std::vector<KnownObject>& known, std::size_t min_size,
+                            Eigen::AlignedBox3d& box) const;
+  void add_parts(const Clusters& clusters, std::size_t cluster, Refinement refinement);
   void join();
   void replace(Clusters& clusters, std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements);
 
-  TrackCut track_cut_;
-  NeckCut neck_cut_;
+  std::vector<Cutter> cutters_;
   PartJoin part_join_;
-  std::vector<Eigen::Vector3d> points_;  // of a cluster, in the fixed frame
-  Eigen::AlignedBox3d box_;              // of points_
-  std::vector<std::uint32_t> part_of_;
+  std::vector<std::size_t> parts_;          // number of parts of each cluster
+  std::vector<Eigen::AlignedBox3d> boxes_;  // of each cluster, in the fixed frame
+  std::vector<std::uint32_t> part_of_;      // of each point of clusters that are cut, as in Clusters::indices
   std::vector<std::int32_t> indices_;
   std::vector<Piece> pieces_;
   std::vector<std::size_t> whole_of_;

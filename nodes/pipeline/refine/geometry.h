@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::detail {
@@ -16,6 +17,15 @@ namespace pcl_bv::detail {
 inline Eigen::Vector3d point_at(const PointView& view, std::size_t i) {
   const Coordinates c = load_point(view, i);
   return {c.x, c.y, c.z};
+}
+
+/// Returns the box of the points of a cluster relative to its first point, along three directions (the rows
+/// of `axes`, of length 1). All points must be valid.
+inline Eigen::AlignedBox3d box_along(UsableIsa isa, const PointView& cluster, const Eigen::Matrix3d& axes) {
+  const auto row = [&](int i) { return Direction{axes(i, 0), axes(i, 1), axes(i, 2)}; };
+  const SlabExtents found = slab_extents(isa, cluster, load_point(cluster, 0), {row(0), row(1), row(2)});
+  return {Eigen::Vector3d(found.low[0], found.low[1], found.low[2]),
+          Eigen::Vector3d(found.high[0], found.high[1], found.high[2])};
 }
 
 /// Returns the longer of the first two sides of the box, metres. The third axis is up.

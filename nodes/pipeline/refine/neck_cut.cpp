@@ -28,7 +28,6 @@ constexpr double kMinDensity = 0.5;  // of the part's points per width and heigh
 // A narrower cluster is one person with spread arms. A wider or higher one is a building or a row of trees.
 constexpr double kMinClusterWidth = 0.9, kMaxClusterWidth = 12, kMaxClusterHeight = 3;
 constexpr std::size_t kMinPoints = 10;  // fewer points have no density
-constexpr std::size_t kSampleStep = 16;
 // At most this share of the points of a group may be in other parts, such as arms and bags.
 constexpr double kMaxRemainder = 0.3;
 // Other parts whose box centre is farther from those of all people, such as grass and kerbs, are no part of a
@@ -46,28 +45,23 @@ double distance_to(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point)
 }  // namespace
 
 // Returns whether the cluster may hold people and something else. If so, the origin is at a corner of the
-// cluster.
-bool NeckCut::project(const PointView& cluster, const Eigen::Vector3d& up) {
-  const Eigen::Vector3d x = up.unitOrthogonal(), y = up.cross(x);
-  const auto project_every = [&](std::size_t step) {
-    points_.clear();
-    box_.setEmpty();
-    for (std::size_t i = 0; i < cluster.count; i += step) {
-      const Eigen::Vector3d point = point_at(cluster, i);
-      points_.emplace_back(point.dot(x), point.dot(y), point.dot(up));
-      box_.extend(points_.back());
-    }
-  };
-  // Large clusters hold most points; every 16th point suffices to reject them.
-  project_every(kSampleStep);
-  if (plan_width(box_) > kMaxClusterWidth || box_.sizes().z() > kMaxClusterHeight) return false;
-  project_every(1);
-  const double width = plan_width(box_), height = box_.sizes().z();
+// cluster. The box alone rejects most clusters; it is much faster than projecting single points.
+bool NeckCut::project(UsableIsa isa, const PointView& cluster, const Eigen::Vector3d& up) {
+  Eigen::Matrix3d axes;
+  axes.row(0) = up.unitOrthogonal();
+  axes.row(1) = up.cross(axes.row(0).transpose());
+  axes.row(2) = up;
+  const Eigen::AlignedBox3d box = box_along(isa, cluster, axes);
+  const double width = plan_width(box), height = box.sizes().z();
   if (!(width >= kMinClusterWidth && width <= kMaxClusterWidth)) return false;
   if (!(height >= kMinHeight && height <= kMaxClusterHeight)) return false;
-  for (Eigen::Vector3d& point : points_)
-    point -= box_.min();
-  box_ = {Eigen::Vector3d::Zero(), box_.sizes()};
+  const Eigen::Vector3d origin = point_at(cluster, 0);
+  points_.clear();
+  for (std::size_t i = 0; i < cluster.count; ++i) {
+    const Eigen::Vector3d at = axes * (point_at(cluster, i) - origin) - box.min();
+    points_.push_back(at.cwiseMax(0.0));  // rounding can be below the corner
+  }
+  box_ = {Eigen::Vector3d::Zero(), box.sizes()};
   return true;
 }
 
@@ -195,10 +189,11 @@ std::uint32_t NeckCut::number_people(std::size_t min_size) {
   return parts + 1;
 }
 
-std::size_t NeckCut::find(const PointView& cluster, const Eigen::Vector3d& up, const Eigen::Vector3d& sensor,
-                          std::size_t min_size, std::vector<std::uint32_t>& part_of) {
+std::size_t NeckCut::find(UsableIsa isa, const PointView& cluster, const Eigen::Vector3d& up,
+                          const Eigen::Vector3d& sensor, std::size_t min_size,
+                          std::vector<std::uint32_t>& part_of) {
   min_size = std::max(min_size, kMinPoints);
-  if (cluster.count < 2 * min_size || !project(cluster, up)) return 1;
+  if (cluster.count < 2 * min_size || !project(isa, cluster, up)) return 1;
   find_low_points();
   find_basins(density_cell((point_at(cluster, 0) - sensor).norm()));
   if (!give_low_points()) return 1;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
 #include "plan_basins.h"
 
@@ -32,8 +33,8 @@ class NeckCut {
   /// A person has at least `min_size` points, or 10 if that is more. The points are sparser far from
   /// `sensor`, so the density is measured in larger cells there. `up` has length 1. All points must be valid.
   /// O(n log n).
-  std::size_t find(const PointView& cluster, const Eigen::Vector3d& up, const Eigen::Vector3d& sensor,
-                   std::size_t min_size, std::vector<std::uint32_t>& part_of);
+  std::size_t find(UsableIsa isa, const PointView& cluster, const Eigen::Vector3d& up,
+                   const Eigen::Vector3d& sensor, std::size_t min_size, std::vector<std::uint32_t>& part_of);
 
  private:
   // Coordinates are along two directions of the plane, then up.
@@ -48,7 +49,7 @@ class NeckCut {
   // Squares of 1 m cover a cluster of 12 m, with a margin of one square on each side.
   static constexpr std::size_t kRow = 15;
 
-  bool project(const PointView& cluster, const Eigen::Vector3d& up);
+  bool project(UsableIsa isa, const PointView& cluster, const Eigen::Vector3d& up);
   void find_low_points();
   void find_basins(double cell);
   bool give_low_points();

@@ -32,9 +32,8 @@ bool is_over(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& position, do
 
 }  // namespace
 
-// Finds the people expected in the cluster. Returns whether the cluster may hold one of them and something
-// else.
-bool TrackCut::find_people(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known) {
+// Also lists the people expected in the cluster.
+bool TrackCut::expects(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known) {
   people_.clear();
   const double width = plan_width(box);
   if (width <= kMaxWholeWidth) return false;
@@ -118,8 +117,6 @@ void TrackCut::give_rest(const std::vector<Eigen::Vector3d>& points,
   }
 }
 
-// Allocates the memory for the cluster, also if it will not be cut. Which clusters are cut depends on the
-// tracks, so a later frame with the same clusters may need more memory than this one.
 void TrackCut::reserve(std::size_t points, const Eigen::AlignedBox3d& box, double cell) {
   plan_basins_.reserve(points, box.sizes().head<2>(), cell);
   near_.reserve(points);
@@ -133,9 +130,7 @@ std::size_t TrackCut::find(const std::vector<Eigen::Vector3d>& points, const Eig
                            const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                            std::vector<std::uint32_t>& part_of) {
   min_size = std::max(min_size, kMinPersonPoints);
-  reserve(points.size(), box, cell);
-  part_of.reserve(points.size());
-  if (!find_people(box, known)) return 1;
+  if (!expects(box, known)) return 1;
   find_near(points);
   if (near_.size() < min_size) return 1;
   fill_basins(points, plan_basins_.find(plan_, cell, basin_of_));

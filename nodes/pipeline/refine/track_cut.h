@@ -27,9 +27,19 @@ class TrackCut {
   /// fixed frame, whose z is up. `known` is sorted by the x of the centres. `cell` is the side of a cell of
   /// the density. The last part may be the rest of the cluster. Each part has at least `min_size` points, or
   /// 10 if that is more. O(n log n + n * people).
+  ///
+  /// Returns 1 unless expects() is true, which needs no points. Call reserve() for every cluster: which
+  /// clusters hold an expected person depends on the tracks, so a later frame with the same clusters may need
+  /// more memory.
   std::size_t find(const std::vector<Eigen::Vector3d>& points, const Eigen::AlignedBox3d& box,
                    const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                    std::vector<std::uint32_t>& part_of);
+
+  /// Returns whether the cluster may hold an expected person and something else.
+  bool expects(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known);
+
+  /// Allocates the memory for a cluster of `points` points.
+  void reserve(std::size_t points, const Eigen::AlignedBox3d& box, double cell);
 
  private:
   struct Person {
@@ -46,8 +56,6 @@ class TrackCut {
     Person* person = nullptr;
   };
 
-  void reserve(std::size_t points, const Eigen::AlignedBox3d& box, double cell);
-  bool find_people(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known);
   void find_near(const std::vector<Eigen::Vector3d>& points);
   void fill_basins(const std::vector<Eigen::Vector3d>& points, std::size_t count);
   void give_basins();
