@@ -125,7 +125,27 @@ def readme(results):
         "enclosure proven; scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all\n"
         "tables, other libraries and what is not reached: [benchmarks](docs/benchmarks.md)."
     )
-    return f"{before}<!-- table:begin -->\n{text}\n<!-- table:end -->{after}"
+    return f"{before}<!-- table:begin -->\n{text}\n\n{pace(results)}\n<!-- table:end -->{after}"
+
+
+def pace(results):
+    """What a robot waits for at the sensor's pace, beside the same steps in PCL."""
+    source = "sweeps" if "pipeline/pcl/sweeps" in results.rows else "street"
+    rows = [
+        ("one thread", f"pipeline/paced-1-thread/{source}"),
+        ("two threads", f"pipeline/paced-2-thread/{source}"),
+        ("PCL: RANSAC plane, `EuclideanClusterExtraction`, moments of inertia, no tracks", f"pipeline/pcl/{source}"),
+    ]
+    measured = [(what, results.rows[name]) for what, name in rows if name in results.rows]
+    cloud = "recorded sweeps of 64 beams" if source == "sweeps" else "generated sweeps of 64 beams"
+    return (
+        table(
+            [f"ms from the cloud to tracked objects, {cloud}, one every 100 ms", "p50", "p99"],
+            [[what, number(row["total_p50"]), number(row["total_p99"])] for what, row in measured],
+        )
+        + "\n\nEach frame: range filter, ground by zones, clusters with refinement, AABB, sphere, upright box and\n"
+        "26-DOP of each object, tracks."
+    )
 
 
 def results_file(arguments):
