@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/benchmarks.md (from benchmarks.md.in and misses.md), its plots and the README's table from a
-file of benchmarks/results; with --check, only says whether they are what it would write.
+"""Writes docs/benchmarks.md (from benchmarks.md.in and misses.md), its plots, docs/comparison.md and the
+README's tables from a file of benchmarks/results; with --check, only says whether they are what it would write.
 
 usage: benchmarks/docs.py [--check] [RESULTS.json]
 
@@ -28,6 +28,7 @@ PLOTS = ROOT / "docs/benchmarks"
 OTHERS = {"scale.svg"}  # of scale.py
 PAGE = ROOT / "docs/benchmarks.md"
 README = ROOT / "README.md"
+COMPARISON = ROOT / "docs/comparison.md"
 
 
 def misses(results, all_targets):
@@ -163,7 +164,8 @@ def main(arguments):
         sys.exit(__doc__)
     results = Results(results_file(arguments))
     drawn = plots.all_plots(results)
-    wanted = {PAGE: page(results, drawn), README: readme(results)}
+    comparison = fill((HERE / "comparison.md.in").read_text(), results)
+    wanted = {PAGE: page(results, drawn), README: readme(results), COMPARISON: comparison}
     wanted.update((PLOTS / name, text) for name, text in drawn.items())
     stale = [path for path, text in wanted.items() if not path.exists() or path.read_text() != text]
     stale += [path for path in PLOTS.glob("*.svg") if path not in wanted and path.name not in OTHERS]
