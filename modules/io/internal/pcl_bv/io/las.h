@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reader of the ASPRS LAS format, versions 1.0 to 1.5. Surveys and national scans use this format.
+// Reader of the ASPRS LAS format, versions 1.0 to 1.5, and of LAZ. Surveys and national scans use this
+// format.
 #pragma once
 
 #include <filesystem>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -29,9 +31,16 @@ namespace [[gnu::visibility("default")]] detail {
 /// points are reported in the note, too. They are an error if the header says 0 points. The bounding box of
 /// the header is ignored.
 ///
+/// Compressed points (LAZ, also COPC) give the same cloud as the same points that are not compressed, in the
+/// order of the file. The threads of `execution` decompress them. LAZ has no checksums: LASzip notices most
+/// damage, but not all.
+///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent
-/// (points overlap extended records), compressed (LAZ), or of another version or point format.
-RawCloud read_las(const std::filesystem::path& path);
+/// (points overlap extended records), compressed if !reads_laz(), or of another version or point format.
+RawCloud read_las(const std::filesystem::path& path, const Execution& execution = {});
+
+/// Returns whether this build reads compressed points (LAZ), which needs LASzip.
+bool reads_laz();
 
 }  // namespace detail
 }  // namespace pcl_bv
