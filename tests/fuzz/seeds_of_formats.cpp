@@ -7,6 +7,11 @@
 #include <fstream>
 #include <string>
 
+#include "las_bytes.h"
+#ifdef PCL_BV_LASZIP
+#include "laz_files.h"
+#endif
+
 namespace pcl_bv::test {
 namespace {
 
@@ -100,12 +105,26 @@ void write_tables(const fs::path& folder) {
   write(folder / "table" / "pts", "2\n1;2;3;\n4;5;-6e7;\n");
 }
 
+// Of each point format, compressed too where there is LASzip.
+void write_las(const fs::path& folder) {
+  for (int format = 0; format <= 10; ++format) {
+    const LasFile las{4, format, kRecords[format] + (format % 3 == 0 ? 2 : 0), 6};
+    const fs::path path = folder / "las" / std::to_string(format);
+    write(path, las.bytes());
+#ifdef PCL_BV_LASZIP
+    for (const std::uint32_t chunk : {2U, 50'000U})
+      compress_las(path, path.string() + "_by_" + std::to_string(chunk), chunk);
+#endif
+  }
+}
+
 }  // namespace
 
 void write_format_seeds(const fs::path& folder) {
   write_boxes(folder);
   write_tile_contents(folder);
   write_tables(folder);
+  write_las(folder);
 }
 
 }  // namespace pcl_bv::test

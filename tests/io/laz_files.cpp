@@ -45,8 +45,6 @@ void compress_las(const std::filesystem::path& las, const std::filesystem::path&
   to.check(laszip_open_writer(to.get(), laz.c_str(), 1));
   laszip_point* point = nullptr;
   from.check(laszip_get_point_pointer(from.get(), &point));
-  laszip_I64 points = 0;
-  from.check(laszip_get_point_count(from.get(), &points));
   const std::uint64_t wide = header->extended_number_of_point_records;
   const std::uint64_t count = header->number_of_point_records != 0 ? header->number_of_point_records : wide;
   for (std::uint64_t i = 0; i < count; ++i) {

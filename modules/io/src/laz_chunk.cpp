@@ -91,20 +91,37 @@ void write_prefix(const LasHeader& header, std::size_t points, ByteBuffer& bytes
   if (laz.compressor != LazLayout::pointwise) put(bytes, data, static_cast<std::int64_t>(data));
 }
 
+[[noreturn]] void refuse_chunk(const LazChunk& chunk, const std::string& what) {
+  throw IoError("corrupt: the chunk at byte " + std::to_string(chunk.offset) + " " + what);
+}
+
+// Throws IoError if the coder's first value is its greatest, which is outside of its interval. No encoder
+// writes it, and LASzip would read outside of its tables.
+void check_coded(const std::byte* at, std::size_t bytes, const LazChunk& chunk) {
+  constexpr std::size_t word = 4;
+  if (bytes >= word && std::all_of(at, at + word, [](std::byte byte) { return byte == std::byte{0xFF}; }))
+    refuse_chunk(chunk, "begins with no coded number");
+}
+
 // Throws IoError unless the sizes of the layers are those of the chunk.
-void check_layers(const std::byte* chunk, const LazChunk& place, const LasHeader& header) {
+void check_layers(const std::byte* bytes, const LazChunk& chunk, const LasHeader& header) {
   const std::size_t layers = header.laz->layers, head = header.record + 4 * (1 + layers);
-  const auto at = [&](std::size_t i) {
-    std::uint32_t value;
-    std::memcpy(&value, chunk + header.record + 4 * i, sizeof value);
-    return value;
-  };
-  std::size_t sum = head;
-  for (std::size_t i = 0; head <= place.bytes && i < layers; ++i)
-    sum += at(1 + i);
-  if (sum != place.bytes || at(0) < place.points)
-    throw IoError("corrupt: the chunk at byte " + std::to_string(place.offset) +
-                  " does not have the bytes or points of its layers");
+  if (chunk.bytes < head) refuse_chunk(chunk, "is too short for its layers");
+  std::vector<std::uint32_t> sizes(1 + layers);  // the number of points comes first
+  std::memcpy(sizes.data(), bytes + header.record, 4 * sizes.size());
+  std::size_t at = head;
+  for (std::size_t i = 1; i < sizes.size() && sizes[i] <= chunk.bytes - at; ++i) {
+    check_coded(bytes + at, sizes[i], chunk);
+    at += sizes[i];
+    if (i == layers && at == chunk.bytes && sizes[0] >= chunk.points) return;
+  }
+  refuse_chunk(chunk, "does not have the bytes or points of its layers");
+}
+
+void check_chunk(const std::byte* bytes, const LazChunk& chunk, const LasHeader& header) {
+  if (chunk.bytes < header.record) refuse_chunk(chunk, "is too short for a point");
+  if (header.laz->compressor == LazLayout::layered) return check_layers(bytes, chunk, header);
+  check_coded(bytes + header.record, chunk.bytes - header.record, chunk);
 }
 
 // Owns a reader of LASzip.
@@ -208,7 +225,7 @@ LazChunkReader::LazChunkReader(const InputFile& file, const LasHeader& header, c
   const std::size_t prefix = prefix_bytes(*header.laz);
   bytes_.resize(prefix + chunk.bytes);
   file.read(chunk.offset, bytes_.data() + prefix, chunk.bytes);
-  if (header.laz->compressor == LazLayout::layered) check_layers(bytes_.data() + prefix, chunk, header);
+  check_chunk(bytes_.data() + prefix, chunk, header);
   write_prefix(header, chunk.points, bytes_, prefix);
   decoder_ = std::make_unique<Decoder>(header, chunk.offset, bytes_);
 }
