@@ -11,6 +11,7 @@
 #include "files.h"
 #include "las_bytes.h"
 #include "laz_files.h"
+#include "laz_table.h"
 #include "pcl_bv/io/las.h"
 #include "pcl_bv/io/read_cloud.h"
 
@@ -19,6 +20,26 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
+
+// Where parts of a compressed file begin.
+class LazPlaces {
+ public:
+  explicit LazPlaces(const std::string& file) : file_(file) {}
+
+  std::size_t record() const { return file_.find("laszip encoded") + 52; }
+  std::size_t data() const { return value<std::uint32_t>(96); }
+  std::size_t table() const { return static_cast<std::size_t>(value<std::int64_t>(data())); }
+
+ private:
+  template <typename T>
+  T value(std::size_t at) const {
+    T value;
+    std::memcpy(&value, file_.data() + at, sizeof value);
+    return value;
+  }
+
+  const std::string& file_;
+};
 
 class Laz : public FileTest {
  protected:
@@ -97,6 +118,44 @@ TEST_F(Laz, OfNoPointsIsAnEmptyCloud) {
   }
 }
 
+// COPC files have such chunks, one for each node of their tree.
+TEST_F(Laz, OfChunksOfDifferentSizesIsReadInTheirOrder) {
+  for (const int format : {3, 7}) {
+    const LasFile whole{4, format, kRecords[format], 1234};
+    const std::string las = whole.bytes();
+    std::string laz, chunks;
+    std::vector<LazTableEntry> entries;
+    std::size_t done = 0;
+    for (const std::size_t points : {1U, 1000U, 230U, 3U}) {
+      LasFile part = whole;
+      part.points = points;
+      std::string bytes = part.bytes();
+      bytes.replace(part.first_record(), std::string::npos, las, whole.first_record() + done * whole.record,
+                    points * whole.record);
+      done += points;
+      laz = compressed(bytes);
+      const LazPlaces places(laz);
+      const std::size_t begin = places.data() + 8;
+      chunks += laz.substr(begin, places.table() - begin);
+      entries.push_back(
+          {static_cast<std::uint32_t>(points), static_cast<std::uint32_t>(places.table() - begin)});
+    }
+    // The header of the last part, for all points.
+    const LazPlaces last(laz);
+    laz.resize(last.data() + 8);
+    LasFile::put<std::uint32_t>(laz, last.record() + 12, 0xFFFFFFFF);
+    LasFile::put<std::uint32_t>(laz, 107, format < 6 ? 1234 : 0);
+    LasFile::put<std::uint64_t>(laz, 247, 1234);
+    LasFile::put<std::int64_t>(laz, last.data(), static_cast<std::int64_t>(laz.size() + chunks.size()));
+    laz += chunks + laz_table(entries, true);
+    write_text(file("b.laz"), laz);
+    write_text(file("b.las"), las);
+    const RawCloud cloud = read_cloud(file("b.laz"), {}, Threads{2});
+    expect_same(cloud, read_cloud(file("b.las")), std::to_string(format));
+    EXPECT_EQ(cloud.note, "");
+  }
+}
+
 // Many points in few bytes are no reason to refuse a file.
 TEST_F(Laz, OfEqualPointsIsReadCompletely) {
   for (const int format : {0, 6}) {
@@ -143,17 +202,9 @@ class DamagedLaz : public Laz {
     return reason(bytes);
   }
 
-  std::size_t record() const { return whole_.find("laszip encoded") + 52; }
-  std::size_t data() const {
-    std::uint32_t at;
-    std::memcpy(&at, whole_.data() + 96, sizeof at);
-    return at;
-  }
-  std::size_t table() const {
-    std::int64_t at;
-    std::memcpy(&at, whole_.data() + data(), sizeof at);
-    return static_cast<std::size_t>(at);
-  }
+  std::size_t record() const { return LazPlaces(whole_).record(); }
+  std::size_t data() const { return LazPlaces(whole_).data(); }
+  std::size_t table() const { return LazPlaces(whole_).table(); }
 
   std::string whole_ = compressed(LasFile{4, 7, 36, 300}.bytes(), 100);
 };
@@ -177,6 +228,14 @@ TEST_F(DamagedLaz, CannotAskForMuchMemory) {
   const std::size_t layers = data() + 8 + 36;
   EXPECT_THAT(reason_with(layers, 0U), HasSubstr("does not have the bytes or points of its layers"));
   EXPECT_THAT(reason_with(layers + 4, 0xFFFFFFF0U), HasSubstr("does not have the bytes or points of its layers"));
+}
+
+// LASzip 3.5 would read outside of its tables.
+TEST_F(DamagedLaz, BeginningOutsideOfTheCodersIntervalIsRefused) {
+  const std::size_t first_layer = data() + 8 + 36 + 4 * 11;
+  EXPECT_THAT(reason_with(first_layer, 0xFFFFFFFFU), HasSubstr("begins with no coded number"));
+  whole_ = compressed(LasFile{2, 3, 34, 300}.bytes());
+  EXPECT_THAT(reason_with(data() + 8 + 34, 0xFFFFFFFFU), HasSubstr("begins with no coded number"));
 }
 
 TEST_F(DamagedLaz, OfFewerPointsThanItsChunksHasANote) {
