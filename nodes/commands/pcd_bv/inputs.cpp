@@ -82,7 +82,7 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
       jobs.push_back({path.string()});
     warn_of_subfolders(argument, subfolders);
     if (!jobs.empty()) return jobs;
-    return {{argument, "no .pcd, .ply, .las or .bin file in this folder"}};
+    return {{argument, "no .pcd, .ply, .las, .laz or .bin file in this folder"}};
   } catch (const IoError& error) {
     return {{argument, error.what()}};
   }
