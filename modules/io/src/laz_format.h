@@ -6,12 +6,15 @@
 // or table of the file.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "pcl_bv/io/las.h"
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/execution.h"
@@ -25,6 +28,8 @@ struct LazChunk {
   std::size_t offset = 0, bytes = 0;  ///< Place in the file.
   std::size_t points = 0;             ///< Points to read, > 0.
   bool whole = false;                 ///< The chunk certainly has no other points.
+  /// If set, the chunk is not decompressed: each of its points is here, and all other fields are 0.
+  std::optional<std::array<double, 3>> instead{};
 };
 
 /// How the points are compressed, as the record "laszip encoded" of the file says.
@@ -45,6 +50,10 @@ struct LazLayout {
 /// and the format of `layout` must have been read. Adds a note to the cloud if the chunks have more points
 /// than the header. Throws IoError if the layout is invalid, or in builds without LASzip.
 void read_laz_layout(const InputFile& file, LasHeader& header, LazLayout layout);
+
+/// Marks the chunks that read_las() with `is_unneeded` does not decompress. Adds a note to the cloud if the
+/// tree of a COPC file is invalid; then no chunk is marked.
+void skip_nodes(const InputFile& file, LasHeader& header, const SkipsBox& is_unneeded);
 
 /// Reads the points into header.cloud.data. Memory grows with the points that were decompressed. Throws
 /// IoError.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
+#include <cstring>
 
 #include "las_format.h"
 #include "laz_format.h"
@@ -36,6 +37,13 @@ void read_in_steps(const InputFile& file, LasHeader& header) {
   }
 }
 
+// Writes the points of a chunk that is not decompressed.
+void write_instead(const LazChunk& chunk, std::size_t point_step, std::byte* to) {
+  std::memset(to, 0, chunk.points * point_step);
+  for (std::size_t i = 0; i < chunk.points; ++i)
+    std::memcpy(to + i * point_step, chunk.instead->data(), sizeof *chunk.instead);
+}
+
 }  // namespace
 
 void read_laz_points(const InputFile& file, LasHeader& header, const ParallelPolicy& policy) {
@@ -50,6 +58,7 @@ void read_laz_points(const InputFile& file, LasHeader& header, const ParallelPol
     to += chunk.points * cloud.point_step;
   }
   for_each_chunk(policy, chunks.size(), [&](std::size_t i) {
+    if (chunks[i].instead) return write_instead(chunks[i], cloud.point_step, begins[i]);
     LazChunkReader reader(file, header, chunks[i]);
     reader.read(chunks[i].points, begins[i]);
     reader.require_end();

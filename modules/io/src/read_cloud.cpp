@@ -139,6 +139,16 @@ RawCloud detail::read_las(const std::filesystem::path& path, const Execution& ex
   return read_file(path, read_las_header, execution.parallel);
 }
 
+RawCloud detail::read_las(const std::filesystem::path& path, const Execution& execution,
+                          const SkipsBox& is_unneeded) {
+  const auto read_header = [&](const InputFile& file) {
+    LasHeader header = read_las_header(file);
+    skip_nodes(file, header, is_unneeded);
+    return header;
+  };
+  return read_file(path, read_header, execution.parallel);
+}
+
 RawCloud detail::read_npy(const std::filesystem::path& path) {
   return read_file(path, read_npy_header, Serial{});
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "options.h"
+#include "pcl_bv/io/las.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 #include "stream/sources/recorded_clouds.h"
@@ -54,7 +55,8 @@ inline std::vector<Job> plan_jobs(const Options& options) {
   return plan_jobs(options, list_inputs(options));
 }
 
-/// Loads the cloud of a job. Throws IoError if that fails, and std::invalid_argument for an unknown scene.
-RawCloud load_cloud(const Job& job, const Execution& execution);
+/// Loads the cloud of a job. Nodes of a COPC file that `is_unneeded` accepts are left out as in read_las().
+/// Throws IoError if that fails, and std::invalid_argument for an unknown scene.
+RawCloud load_cloud(const Job& job, const Execution& execution, const SkipsBox& is_unneeded = {});
 
 }  // namespace pcl_bv::detail
