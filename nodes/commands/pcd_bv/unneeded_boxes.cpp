@@ -29,10 +29,10 @@ std::optional<std::vector<Box>> kept_regions(const FilterConfig& filter) {
     any = true;
     for (const AnyVolume& volume : region.volumes.empty() ? read_volumes(region.file) : region.volumes) {
       const Aabb around = aabb(volume);
-      const double size = std::max(around.min.cwiseAbs().maxCoeff(), around.max.cwiseAbs().maxCoeff());
+      const double size = std::max(around.min().cwiseAbs().maxCoeff(), around.max().cwiseAbs().maxCoeff());
       const Eigen::Vector3d margin =
           Eigen::Vector3d::Constant(std::max(region.padding, 0.0) * (1 + kMargin) + kMargin * size);
-      boxes.emplace_back(around.min - margin, around.max + margin);
+      boxes.emplace_back(around.min() - margin, around.max() + margin);
     }
   }
   if (!any) return std::nullopt;
