@@ -9,6 +9,7 @@
 
 #include "las_bytes.h"
 #ifdef PCL_BV_LASZIP
+#include "copc_files.h"
 #include "laz_files.h"
 #endif
 
@@ -116,6 +117,12 @@ void write_las(const fs::path& folder) {
       compress_las(path, path.string() + "_by_" + std::to_string(chunk), chunk);
 #endif
   }
+#ifdef PCL_BV_LASZIP
+  const std::vector<CopcNode> nodes{{0, {}, 2}, {1, {0, 0, 0}, 3}, {1, {1, 1, 1}, 1, true}};
+  write(folder / "las" / "copc", make_copc(nodes, folder).copc);
+  fs::remove(folder / "part.las");
+  fs::remove(folder / "part.laz");
+#endif
 }
 
 }  // namespace

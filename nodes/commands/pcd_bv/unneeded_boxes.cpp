@@ -31,7 +31,7 @@ std::optional<std::vector<Box>> kept_regions(const FilterConfig& filter) {
       const Aabb around = aabb(volume);
       const double size = std::max(around.min().cwiseAbs().maxCoeff(), around.max().cwiseAbs().maxCoeff());
       const Eigen::Vector3d margin =
-          Eigen::Vector3d::Constant(std::max(region.padding, 0.0) * (1 + kMargin) + kMargin * size);
+          Eigen::Vector3d::Constant(region.padding * (1 + kMargin) + kMargin * size);
       boxes.emplace_back(around.min() - margin, around.max() + margin);
     }
   }
