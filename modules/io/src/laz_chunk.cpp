@@ -168,8 +168,6 @@ class LazRecord {
     put_byte(15, point.extended_classification_flags | point.extended_scanner_channel << 4U |
                      point.scan_direction_flag << 6U | point.edge_of_flight_line << 7U);
     put_byte(16, point.extended_classification);
-    put_byte(17, point.user_data);
-    put_bytes(18, &point.extended_scan_angle, 2);
     put_bytes(20, &point.point_source_ID, 2);
   }
 

@@ -40,8 +40,8 @@ constexpr std::size_t kLaszipHead = 34, kLaszipItem = 6;
 // Maximum number of variable length records before the points. Files have fewer than ten.
 constexpr std::uint32_t kMaxRecords = 1U << 16U;
 
-// A file whose number of points is larger in relation to its size is refused. LASzip needs 1.3 bytes for a
-// point of a map, and about 500 equal points of a chunk share a byte.
+// A file with more points for each of its bytes is refused. A point of a map takes some bytes; of equal
+// points, up to 700 share a byte.
 constexpr std::uint64_t kMaxPointsPerByte = 4096;
 
 // The value of a fixed number of points per chunk that means a number for each chunk.
