@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Any bytes as a .las file, whose points may be compressed. A compressed point can take much less than a bit, so
-// headers with many points are read without the points.
+// Any bytes as a .las file, whose points may be compressed. A compressed point can take much less than a bit,
+// so headers with many points are read without the points.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

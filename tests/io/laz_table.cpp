@@ -24,8 +24,8 @@ struct Model {
     bounds.assign(1, 0);
     std::uint32_t sum = 0;
     for (const std::uint32_t count : counts)
-      bounds.push_back(static_cast<std::uint32_t>(std::uint64_t{0x80000000U / total} * (sum += count) >>
-                                                  (31 - shift)));
+      bounds.push_back(
+          static_cast<std::uint32_t>(std::uint64_t{0x80000000U / total} * (sum += count) >> (31 - shift)));
   }
 
   void see(std::uint32_t symbol) {

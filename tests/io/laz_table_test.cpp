@@ -34,14 +34,16 @@ TEST_F(LazTable, GivesTheNumbersThatWereEncoded) {
     const std::uint32_t limit = run % 33 == 32 ? 0xFFFFFFFF : (1U << run % 33) - 1;
     std::vector<LazTableEntry> entries(run < 33 ? 3 : 20'000);
     for (LazTableEntry& entry : entries)
-      entry = {static_cast<std::uint32_t>(random()) & limit, 50'000 + (static_cast<std::uint32_t>(random()) & limit)};
+      entry = {static_cast<std::uint32_t>(random()) & limit,
+               50'000 + (static_cast<std::uint32_t>(random()) & limit)};
     expect_read_back(entries, run % 2 == 0, run);
   }
 }
 
 TEST_F(LazTable, GivesTheGreatestDifferences) {
   std::vector<LazTableEntry> entries;
-  for (const std::uint32_t value : {0U, 0x80000000U, 0U, 0x80000001U, 1U, 0xFFFFFFFFU, 0x7FFFFFFFU, 0U, 0U, 1U})
+  for (const std::uint32_t value :
+       {0U, 0x80000000U, 0U, 0x80000001U, 1U, 0xFFFFFFFFU, 0x7FFFFFFFU, 0U, 0U, 1U})
     entries.push_back({value, ~value});
   expect_read_back(entries, true, 0);
 }

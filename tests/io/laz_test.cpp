@@ -94,8 +94,8 @@ TEST_F(Laz, OfAnyChunkSizeIsReadCompletely) {
   for (const std::size_t points : {1U, 2U, 999U, 1000U, 1001U, 2000U}) {
     for (const std::uint32_t chunk : {1U, 7U, 1000U, 50'000U}) {
       for (const int format : {1, 7}) {
-        const std::string where = std::to_string(points) + " points by " + std::to_string(chunk) + ", format " +
-                                  std::to_string(format);
+        const std::string where = std::to_string(points) + " points by " + std::to_string(chunk) +
+                                  ", format " + std::to_string(format);
         compressed(LasFile{4, format, kRecords[format], points}.bytes(), chunk);
         expect_same(read_cloud(file("a.laz"), {}, Threads{2}), read_cloud(file("a.las")), where);
       }
@@ -214,10 +214,13 @@ TEST_F(DamagedLaz, IsRefusedWithTheReason) {
   EXPECT_THAT(reason_with(record() - 52, 'x'), HasSubstr("the record of LASzip is missing"));
   EXPECT_THAT(reason_with(record(), std::uint16_t{2}), HasSubstr("compressor 2 with coder 0 is not one of"));
   EXPECT_THAT(reason_with(record() + 34, std::uint16_t{6}), HasSubstr("item 0 of LASzip (type 6, 30 bytes"));
-  EXPECT_THAT(reason_with(record() + 36, std::uint16_t{29}), HasSubstr("does not belong to the point format"));
+  EXPECT_THAT(reason_with(record() + 36, std::uint16_t{29}),
+              HasSubstr("does not belong to the point format"));
   EXPECT_THAT(reason_with(record() + 32, std::uint16_t{1}), HasSubstr("does not have the items"));
-  EXPECT_THAT(reason_with(data(), std::int64_t{1} << 40), StartsWith("truncated: the table of chunks would be"));
-  EXPECT_THAT(reason_with(data(), static_cast<std::int64_t>(data())), HasSubstr("was not written completely"));
+  EXPECT_THAT(reason_with(data(), std::int64_t{1} << 40),
+              StartsWith("truncated: the table of chunks would be"));
+  EXPECT_THAT(reason_with(data(), static_cast<std::int64_t>(data())),
+              HasSubstr("was not written completely"));
   EXPECT_THAT(reason_with(table(), 1), HasSubstr("unknown version 1"));
   EXPECT_THAT(reason_with(table() + 4, 0xFFFFFFFFU), HasSubstr("4294967295 chunks cannot be in"));
   EXPECT_EQ(reason_with(table() + 4, 2U), "truncated: the chunks have 200 points, the header says 300");
@@ -227,7 +230,8 @@ TEST_F(DamagedLaz, CannotAskForMuchMemory) {
   EXPECT_THAT(reason_with(247, std::uint64_t{1} << 40U), HasSubstr("cannot have 1099511627776 points"));
   const std::size_t layers = data() + 8 + 36;
   EXPECT_THAT(reason_with(layers, 0U), HasSubstr("does not have the bytes or points of its layers"));
-  EXPECT_THAT(reason_with(layers + 4, 0xFFFFFFF0U), HasSubstr("does not have the bytes or points of its layers"));
+  EXPECT_THAT(reason_with(layers + 4, 0xFFFFFFF0U),
+              HasSubstr("does not have the bytes or points of its layers"));
 }
 
 // LASzip 3.5 would read outside of its tables.

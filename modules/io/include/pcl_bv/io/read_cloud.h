@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// path has no extension.
 std::string lower_case_extension(const std::filesystem::path& path);
 
-/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (In builds without
-/// LASzip, .laz files cannot be read. The error of read_cloud() says why.)
+/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (In builds
+/// without LASzip, .laz files cannot be read. The error of read_cloud() says why.)
 bool is_cloud_name(const std::filesystem::path& path);
 
 /// Options of read_cloud().
