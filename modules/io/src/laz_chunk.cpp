@@ -245,17 +245,23 @@ bool reads_laz() {
   return false;
 }
 
+// No file gets here: read_las_header() has refused it.
 class LazChunkReader::Decoder {};
 
-LazChunkReader::LazChunkReader(const InputFile&, const LasHeader& header, const LazChunk&) : header_(header) {
+LazChunkReader::LazChunkReader(const InputFile&, const LasHeader& header, const LazChunk& chunk)
+    : header_(header), whole_(chunk.whole) {
   throw IoError("this build has no LASzip");
 }
 
 LazChunkReader::~LazChunkReader() = default;
 
-void LazChunkReader::read(std::size_t, std::byte*) {}
+void LazChunkReader::read(std::size_t points, std::byte* to) {
+  std::fill_n(to, points * header_.cloud.point_step, std::byte{0});
+}
 
-void LazChunkReader::require_end() const {}
+void LazChunkReader::require_end() const {
+  if (whole_) throw IoError("this build has no LASzip");
+}
 
 #endif
 
