@@ -3,7 +3,8 @@
 
 // Decompresses a chunk with LASzip. A layered chunk begins with a point that is not compressed, the number of
 // its points (u32) and the sizes of its layers (u32 each). LASzip 3.5 adds the sizes in 32 bits and trusts
-// the sum, so they are checked before.
+// the sum, so they are checked before. Not checked: a coded sequence of GPS times can make LASzip
+// call itself until the stack is exhausted.
 
 #ifdef PCL_BV_LASZIP
 #include <laszip/laszip_api.h>
