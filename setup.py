@@ -25,7 +25,7 @@ class BuildWithCMake(build_ext):
         build.mkdir(parents=True, exist_ok=True)
         options = [
             "-DCMAKE_BUILD_TYPE=Release",
-            "-DPCL_BV_COMPONENTS=python;gpu;dds;draco",  # the last three only where their libraries are
+            "-DPCL_BV_COMPONENTS=python;laz;gpu;dds;draco",  # the last four only where their libraries are
             "-DPCL_BV_UNITY=ON",
             "-DPCL_BV_BUILD_TESTS=OFF",
             "-DPCL_BV_BUILD_BENCHMARKS=OFF",

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Whole processes, from their start to their end, files in the page cache: pcd_bv, and a program that does
-// the same with PCL (pcl_load.cpp), in turns. Counters: the ratio of their times (timing.h), and the most
-// memory that each had resident, in MiB.
+// the same with PCL (pcl_load.cpp) or with LASzip's reader (laz_load.cpp), in turns. Counters: the ratio of
+// their times (timing.h), and the most memory that each had resident, in MiB.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "child_process.h"
@@ -64,12 +65,32 @@ RawCloud scene(const std::string& name, std::size_t count, int seed) {
   return make_cloud(make_synth(parse_synth(text)).xyz);
 }
 
+// Builds with LASzip also read a compressed file.
+#ifdef PCL_BV_LASZIP
+constexpr bool kLaz = true;
+#else
+constexpr bool kLaz = false;
+#endif
+
+void make_laz(const fs::path& folder, const RawCloud& cloud) {
+  std::vector<double> xyz;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Coordinates p = load_point(cloud.xyz(), i);
+    xyz.insert(xyz.end(), {p.x, p.y, p.z});
+  }
+  const std::string plain = folder / "street.xyz64";
+  std::ofstream(plain, std::ios::binary)
+      .write(reinterpret_cast<const char*>(xyz.data()), static_cast<std::streamsize>(xyz.size() * 8));
+  run_process({program("laz_load"), "--write", plain, folder / "street.laz"});
+}
+
 // In a process of its own, whose memory must not be counted to those that are measured.
 void make_files(const fs::path& folder) {
   write_pcd(folder / "big.pcd", scene("gauss", 16'000'000, 1));
   const RawCloud street = scene("street", 1'024'000, 1);
   write_pcd(folder / "ascii.pcd", street, PcdEncoding::ascii);
   write_pcd(folder / "compressed.pcd", street, PcdEncoding::binary_compressed);
+  if (kLaz) make_laz(folder, street);
   write_pcd(folder / "sweep.pcd", scene("street", 128'000, 2));
   fs::create_directory(folder / "sweeps");
   for (int i = 0; i < kSweeps; ++i) {
@@ -121,6 +142,9 @@ void add_rows(const fs::path& folder) {
     add("files/over-pcl/ascii/n:1024000" + end, 7, pcl("0", "ascii.pcd"), pcd_bv("", threads, "ascii.pcd"));
     add("files/over-pcl/binary_compressed/n:1024000" + end, 9, pcl("0", "compressed.pcd"),
         pcd_bv("", threads, "compressed.pcd"));
+    if (kLaz)
+      add("files/over-laszip/laz/n:1024000" + end, 5, {program("laz_load"), folder / "street.laz"},
+          pcd_bv("", threads, "street.laz"));
     add("files/over-pcl/clusters-0.5/n:128000" + end, 3, pcl("0.5", "sweep.pcd"),
         pcd_bv("0.5", threads, "sweep.pcd"));
     Command all = pcl("0", "sweeps/0.pcd");

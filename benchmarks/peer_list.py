@@ -27,6 +27,7 @@ PEERS = [
     Peer("FCL and OctoMap", "trees", "tree/over-fcl-", "libfcl-dev liboctomap-dev"),
     Peer("Embree", "trees", "tree/over-embree/", "libembree-dev"),
     Peer("PCL's file reader", "files", "files/over-pcl/", "libpcl-dev"),
+    Peer("LASzip's reader", "files", "files/over-laszip/", "liblaszip-dev"),
     Peer("pcl_ros", "ros1", "ros1/over-pcl_ros/", "libpcl-ros-dev libpcl-ros-segmentation0d"),
 ]
 

@@ -187,12 +187,12 @@ def batches(results):
 def files(results):
     """Whole processes in turns: ms, and the most memory that each had resident."""
     lines = []
-    for name in results.matching("files/over-pcl/"):
+    for name in results.matching("files/over-(pcl|laszip)/"):
         row = results.rows[name]
         ratio, of_minima = results.ratio(name)
         lines.append(
             [
-                name.removeprefix("files/over-pcl/"),
+                name.removeprefix("files/over-").removeprefix("pcl/"),
                 number(row["first_us"] / 1e3),
                 number(row["second_us"] / 1e3),
             ]
@@ -200,10 +200,10 @@ def files(results):
         )
     head = [
         "in turns",
-        "PCL, ms",
+        "PCL or LASzip, ms",
         "pcd_bv, ms",
         "ratio: median of pairs (of minima)",
-        "PCL, MiB",
+        "PCL or LASzip, MiB",
         "pcd_bv, MiB",
     ]
     return table(head, lines)

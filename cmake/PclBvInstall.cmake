@@ -1,7 +1,7 @@
 include(CMakePackageConfigHelpers)
 set(libraries ${PCL_BV_COMPONENTS})
 list(REMOVE_ITEM libraries dds draco live ros1 mpi python) # modules, a node and a command, which nobody links
-list(REMOVE_ITEM libraries segmentation)              # a part of core
+list(REMOVE_ITEM libraries segmentation laz)          # parts of core and io
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_bv)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/pcl_bvConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/pcl_bvConfig.cmake INSTALL_DESTINATION ${package_dir})

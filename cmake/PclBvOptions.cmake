@@ -1,6 +1,6 @@
 # What to build. As a subproject: only the libraries whose dependencies are few, nothing to install, no commands.
-# `segmentation` is a part of core; the name is still accepted.
-set(all_components core pcl segmentation io report messages recording gpu nodes dds draco live ros1 mpi python)
+# `segmentation` is a part of core; the name is still accepted. `laz` is a part of io that needs LASzip.
+set(all_components core pcl segmentation io laz report messages recording gpu nodes dds draco live ros1 mpi python)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
 else()
@@ -37,7 +37,7 @@ if("nodes" IN_LIST PCL_BV_COMPONENTS)
     list(APPEND PCL_BV_COMPONENTS recording)
   endif()
 endif()
-if("recording" IN_LIST PCL_BV_COMPONENTS OR "messages" IN_LIST PCL_BV_COMPONENTS)
+if("recording" IN_LIST PCL_BV_COMPONENTS OR "messages" IN_LIST PCL_BV_COMPONENTS OR "laz" IN_LIST PCL_BV_COMPONENTS)
   list(APPEND PCL_BV_COMPONENTS io)
 endif()
 if("report" IN_LIST PCL_BV_COMPONENTS)

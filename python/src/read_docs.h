@@ -13,7 +13,7 @@ inline constexpr const char* read_doc = R"(read(path, *, topic=None, number=0, b
 Reads a cloud. Returns an array of records with all fields of the file. For an organised cloud, the shape is
 (height, width).
 
-path: .pcd, .ply, .las, .bin (KITTI, nuScenes), 'synth:NAME[:POINTS[:SEED]]', or a recording (.mcap, .db3,
+path: .pcd, .ply, .las, .laz, .bin (KITTI, nuScenes), 'synth:NAME[:POINTS[:SEED]]', or a recording (.mcap, .db3,
     .bag, .pcap), of which cloud `number` is read. frames() reads a whole recording faster.
 topic: the topic of a recording; None: the only topic with clouds.
 bin_fields: number of float32 per point of a .bin file, 3 to 32. 0: chosen by the file name, 5 for .pcd.bin,

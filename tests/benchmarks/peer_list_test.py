@@ -27,7 +27,8 @@ ALL_ROWS = [
     *("turns/PCL MomentOfInertia over obb-pca/car:300", "pcl::ConvexHull/peer/car", "qhull-of-all-points/peer/car"),
     *("over-pcl/street/n:9", "over-nanoflann/street/n:9", "dbscan-5-over-open3d/street", "over-pcl/sweep/n:9"),
     *("pipeline/pcl/street", "tree/over-flann/build", "tree/over-pcl-octree/build", "tree/over-nanoflann/build"),
-    *("tree/over-fcl-bvh/build", "tree/over-embree/ray", "files/over-pcl/car", "ros1/over-pcl_ros/aabb"),
+    *("tree/over-fcl-bvh/build", "tree/over-embree/ray", "files/over-pcl/car", "files/over-laszip/laz/n:9"),
+    "ros1/over-pcl_ros/aabb",
 ]
 
 

@@ -7,6 +7,12 @@
 #include <fstream>
 #include <string>
 
+#include "las_bytes.h"
+#ifdef PCL_BV_LASZIP
+#include "copc_files.h"
+#include "laz_files.h"
+#endif
+
 namespace pcl_bv::test {
 namespace {
 
@@ -100,12 +106,32 @@ void write_tables(const fs::path& folder) {
   write(folder / "table" / "pts", "2\n1;2;3;\n4;5;-6e7;\n");
 }
 
+// Of each point format, compressed too where there is LASzip.
+void write_las(const fs::path& folder) {
+  for (int format = 0; format <= 10; ++format) {
+    const LasFile las{4, format, kRecords[format] + (format % 3 == 0 ? 2 : 0), 6};
+    const fs::path path = folder / "las" / std::to_string(format);
+    write(path, las.bytes());
+#ifdef PCL_BV_LASZIP
+    for (const std::uint32_t chunk : {2U, 50'000U})
+      compress_las(path, path.string() + "_by_" + std::to_string(chunk), chunk);
+#endif
+  }
+#ifdef PCL_BV_LASZIP
+  const std::vector<CopcNode> nodes{{0, {}, 2}, {1, {0, 0, 0}, 3}, {1, {1, 1, 1}, 1, true}};
+  write(folder / "las" / "copc", make_copc(nodes, folder).copc);
+  fs::remove(folder / "part.las");
+  fs::remove(folder / "part.laz");
+#endif
+}
+
 }  // namespace
 
 void write_format_seeds(const fs::path& folder) {
   write_boxes(folder);
   write_tile_contents(folder);
   write_tables(folder);
+  write_las(folder);
 }
 
 }  // namespace pcl_bv::test

@@ -96,13 +96,33 @@ void add_fields(const PointFormat& format, LasHeader& header) {
   add_field("blue", 'U', 2, format.color + 4, header);
 }
 
+// LASzip sets the highest bit of the point format.
+constexpr unsigned kCompressed = 128;
+
 const PointFormat& point_format(const HeaderBytes& bytes) {
-  const auto format = bytes.at<std::uint8_t>(104);
-  if (format >= 128)  // LASzip sets the highest bit
-    throw IoError("compressed (LAZ) points cannot be read; unpack them first, with laszip or pdal");
+  const unsigned format = bytes.at<std::uint8_t>(104) % kCompressed;
   if (format >= std::size(kFormats))
     throw IoError("header: point format " + std::to_string(format) + " is not one of 0 to 10");
   return kFormats[format];
+}
+
+// Throws IoError in builds without LASzip.
+bool is_compressed(const HeaderBytes& bytes) {
+  if (bytes.at<std::uint8_t>(104) < kCompressed) return false;
+  if (!reads_laz())
+    throw IoError(
+        "compressed (LAZ) points need a build with LASzip (Debian 13's liblaszip-dev); without it, unpack "
+        "them "
+        "first, with laszip or pdal");
+  return true;
+}
+
+LazLayout laz_layout(const PointFormat& format) {
+  LazLayout layout;
+  layout.point_format = static_cast<unsigned>(&format - kFormats);
+  layout.time_at = format.time;
+  layout.color_at = format.color;
+  return layout;
 }
 
 // Returns the number of points. From version 1.4 on, the 64-bit count decides. The legacy count is used only
@@ -161,8 +181,9 @@ void read_scale(const HeaderBytes& bytes, LasHeader& header) {
   }
 }
 
-// Converts a record of the file to a record of the cloud.
-void convert(const std::byte* from, const LasHeader& header, std::byte* to) {
+}  // namespace
+
+void convert_las_record(const std::byte* from, const LasHeader& header, std::byte* to) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::int32_t stored;
     std::memcpy(&stored, from + 4 * axis, sizeof stored);
@@ -181,8 +202,6 @@ void convert(const std::byte* from, const LasHeader& header, std::byte* to) {
   }
 }
 
-}  // namespace
-
 LasHeader read_las_header(const InputFile& file) {
   const HeaderBytes bytes(file);
   const int major = bytes.at<std::uint8_t>(24), minor = bytes.at<std::uint8_t>(25);
@@ -198,13 +217,18 @@ LasHeader read_las_header(const InputFile& file) {
                   " is too small for the point format, or the point data offset " +
                   std::to_string(header.data_offset) + " is inside the header");
   header.cloud.width = point_count(bytes, minor, format, header.cloud);
-  require_points(file, end_of_point_data(file, bytes, minor, header.data_offset), header);
+  if (is_compressed(bytes)) {
+    read_laz_layout(file, header, laz_layout(format));
+  } else {
+    require_points(file, end_of_point_data(file, bytes, minor, header.data_offset), header);
+  }
   read_scale(bytes, header);
   add_fields(format, header);
   return header;
 }
 
-void read_las_points(const InputFile& file, LasHeader& header) {
+void read_las_points(const InputFile& file, LasHeader& header, const ParallelPolicy& policy) {
+  if (header.laz) return read_laz_points(file, header, policy);
   constexpr std::size_t at_a_time = 4096;
   RawCloud& cloud = header.cloud;
   cloud.data.resize(cloud.size() * cloud.point_step);
@@ -214,7 +238,7 @@ void read_las_points(const InputFile& file, LasHeader& header) {
     const std::size_t count = std::min(at_a_time, cloud.size() - first);
     file.read(header.data_offset + first * header.record, records.data(), count * header.record);
     for (std::size_t i = 0; i < count; ++i, to += cloud.point_step)
-      convert(records.data() + i * header.record, header, to);
+      convert_las_record(records.data() + i * header.record, header, to);
   }
 }
 

@@ -7,8 +7,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "laz_format.h"
 #include "pcl_bv/io/las.h"
 #include "pcl_bv/io/posix_file.h"
 
@@ -28,12 +30,17 @@ struct LasHeader {
   std::size_t data_offset = 0;  ///< Byte offset of the first record in the file.
   std::size_t record = 0;       ///< Bytes of a record in the file.
   std::array<double, 3> scale{}, offset{};
+  std::optional<LazLayout> laz;  ///< Set if the points are compressed.
 };
 
 /// Reads the header. Throws IoError if it is invalid.
 LasHeader read_las_header(const InputFile& file);
 
-/// Reads the points into header.cloud.data. Throws IoError.
-void read_las_points(const InputFile& file, LasHeader& header);
+/// Converts a record of the file to a record of the cloud.
+void convert_las_record(const std::byte* from, const LasHeader& header, std::byte* to);
+
+/// Reads the points into header.cloud.data. Uses the threads of the policy for compressed points. Throws
+/// IoError.
+void read_las_points(const InputFile& file, LasHeader& header, const ParallelPolicy& policy);
 
 }  // namespace pcl_bv::detail

@@ -45,8 +45,8 @@ void read_points(const InputFile& file, PcdHeader& header, const ParallelPolicy&
   }
 }
 
-void read_points(const InputFile& file, LasHeader& header, const ParallelPolicy&) {
-  read_las_points(file, header);
+void read_points(const InputFile& file, LasHeader& header, const ParallelPolicy& policy) {
+  read_las_points(file, header, policy);
 }
 
 void read_points(const InputFile& file, NpyHeader& header, const ParallelPolicy&) {
@@ -135,8 +135,18 @@ RawCloud detail::read_bin(const std::filesystem::path& path, std::size_t fields)
   return read_file(path, read_header, Serial{});
 }
 
-RawCloud detail::read_las(const std::filesystem::path& path) {
-  return read_file(path, read_las_header, Serial{});
+RawCloud detail::read_las(const std::filesystem::path& path, const Execution& execution) {
+  return read_file(path, read_las_header, execution.parallel);
+}
+
+RawCloud detail::read_las(const std::filesystem::path& path, const Execution& execution,
+                          const SkipsBox& is_unneeded) {
+  const auto read_header = [&](const InputFile& file) {
+    LasHeader header = read_las_header(file);
+    skip_nodes(file, header, is_unneeded);
+    return header;
+  };
+  return read_file(path, read_header, execution.parallel);
 }
 
 RawCloud detail::read_npy(const std::filesystem::path& path) {
@@ -154,7 +164,7 @@ RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& option
   const std::string extension = lower_case_extension(path);
   if (extension == ".ply") return read_ply(path, execution);
   if (extension == ".bin") return read_bin(path, options.bin_fields);
-  if (extension == ".las" || extension == ".laz") return read_las(path);
+  if (extension == ".las" || extension == ".laz") return read_las(path, execution);
   if (extension == ".npy") return read_npy(path);
   if (extension == ".npz") return read_npz(path);
   if (is_text_name(path)) return read_text_cloud(path, options.columns, execution);

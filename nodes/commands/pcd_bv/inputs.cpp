@@ -82,7 +82,7 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
       jobs.push_back({path.string()});
     warn_of_subfolders(argument, subfolders);
     if (!jobs.empty()) return jobs;
-    return {{argument, "no .pcd, .ply, .las or .bin file in this folder"}};
+    return {{argument, "no .pcd, .ply, .las, .laz or .bin file in this folder"}};
   } catch (const IoError& error) {
     return {{argument, error.what()}};
   }
@@ -229,13 +229,14 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   return jobs;
 }
 
-RawCloud load_cloud(const Job& job, const Execution& execution) {
+RawCloud load_cloud(const Job& job, const Execution& execution, const SkipsBox& is_unneeded) {
   if (job.error) throw IoError(*job.error);
   if (is_synth(job.input)) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
   if (job.recording) return load_recorded(job);
+  if (is_unneeded) return read_las(job.input, execution, is_unneeded);
   return read_cloud(job.input, {job.bin_fields, job.columns}, execution);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "options.h"
+#include "pcl_bv/io/las.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/execution.h"
 #include "stream/sources/recorded_clouds.h"
@@ -61,7 +62,8 @@ std::vector<Job> list_partials(const std::string& argument);
 /// Returns the file in a folder for the labels of an input.
 std::filesystem::path label_file(const std::filesystem::path& folder, const std::string& input);
 
-/// Loads the cloud of a job. Throws IoError if that fails, and std::invalid_argument for an unknown scene.
-RawCloud load_cloud(const Job& job, const Execution& execution);
+/// Loads the cloud of a job. Nodes of a COPC file that `is_unneeded` accepts are left out as in read_las().
+/// Throws IoError if that fails, and std::invalid_argument for an unknown scene.
+RawCloud load_cloud(const Job& job, const Execution& execution, const SkipsBox& is_unneeded = {});
 
 }  // namespace pcl_bv::detail

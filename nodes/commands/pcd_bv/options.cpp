@@ -55,7 +55,7 @@ struct Texts {
 
 void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("INPUT", texts.inputs, "",
-              ".pcd, .ply, .las, .bin, .npy, .npz, .xyz, .csv, .txt files,\nfolders of the first four, "
+              ".pcd, .ply, .las, .laz, .bin, .npy, .npz, .xyz, .csv, .txt\nfiles, folders of the first five, "
               "synth:NAME[:POINTS[:SEED]],\n"
               "recordings (.mcap, .bag, .db3 or its folder)");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");

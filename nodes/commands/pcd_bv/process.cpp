@@ -32,6 +32,7 @@
 #include "stopwatch.h"
 #include "tile_progress.h"
 #include "tiled_objects.h"
+#include "unneeded_boxes.h"
 #include "view_html.h"
 
 namespace pcl_bv {
@@ -129,7 +130,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   Stopwatch watch;
   const Execution execution = options.pipeline.execution();
   const bool segmented = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
-  LoadedCloud loaded(job, segmented || job.labels, execution, options.origin);
+  LoadedCloud loaded(job, segmented || job.labels, execution, options.origin, unneeded_boxes(job, options));
   const double read = watch.lap();
   const std::string note = job.recording ? job.recording->new_note(job.number) : loaded.cloud().note;
   if (!note.empty()) report_problem(job.input + ": " + note);

@@ -50,8 +50,8 @@ class TileError : public IoError {
 using PointRange = std::pair<std::size_t, std::size_t>;
 
 /// The points of all inputs. Files that can be read by position are read in parts. All other inputs (ascii,
-/// compressed, .ply, .las, and small ones) are read completely in each pass, and only a small number of them
-/// is in memory at the same time. If one input has float64 coordinates, all inputs are read as float64.
+/// compressed, .ply, .las, .laz, and small ones) are read completely in each pass, and only a small number of
+/// them is in memory at the same time. If one input has float64 coordinates, all inputs are read as float64.
 class Tiles final : public PointSource {
  public:
   /// `threads` is the number of threads that call load() at the same time. It determines how many tiles stay

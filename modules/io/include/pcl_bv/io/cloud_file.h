@@ -27,8 +27,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 class CloudFile final : public PointSource {
  public:
   /// Opens the file and reads only its header. Returns null if the points can only be read from first to last
-  /// (ascii, binary_compressed, .ply, .las), or if there are at most kChunkPoints points. Use read_cloud()
-  /// for such files. `bin_fields` is as in ReadOptions. Throws as read_cloud() does.
+  /// (ascii, binary_compressed, .ply, .las, .laz), or if there are at most kChunkPoints points. Use
+  /// read_cloud() for such files. `bin_fields` is as in ReadOptions. Throws as read_cloud() does.
   static std::unique_ptr<CloudFile> open(const std::filesystem::path& path, std::size_t bin_fields = 0);
   ~CloudFile() override;
 

@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// path has no extension.
 std::string lower_case_extension(const std::filesystem::path& path);
 
-/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (.laz files
-/// cannot be read. The error of read_cloud() says why.)
+/// Returns whether the name ends in .pcd, .ply, .bin, .las or .laz, in upper or lower case. (In builds
+/// without LASzip, .laz files cannot be read. The error of read_cloud() says why.)
 bool is_cloud_name(const std::filesystem::path& path);
 
 /// Options of read_cloud().
@@ -33,7 +33,7 @@ struct ReadOptions {
 
 /// Reads a cloud. The extension selects the reader: read_ply() for .ply, read_bin() for .bin, read_las() for
 /// .las and .laz, readers of NumPy's arrays for .npy and .npz, of plain text for .xyz, .txt, .csv, .asc and
-/// .pts, and read_pcd() for all others. Text files are read by the threads of `execution`;
+/// .pts, and read_pcd() for all others. Text and .laz files are read by the threads of `execution`;
 /// execution.isa is not used. Throws IoError with the reason. For extensions of other known formats (meshes,
 /// recordings) the reason includes advice.
 RawCloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {},

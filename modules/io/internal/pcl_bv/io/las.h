@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reader of the ASPRS LAS format, versions 1.0 to 1.5. Surveys and national scans use this format.
+// Reader of the ASPRS LAS format, versions 1.0 to 1.5, and of LAZ. Surveys and national scans use this
+// format.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <functional>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -29,9 +33,30 @@ namespace [[gnu::visibility("default")]] detail {
 /// points are reported in the note, too. They are an error if the header says 0 points. The bounding box of
 /// the header is ignored.
 ///
+/// Compressed points (LAZ, also COPC) give the same cloud as the same points that are not compressed, in the
+/// order of the file. The threads of `execution` decompress them. LAZ has no checksums: LASzip notices most
+/// damage, but not all.
+///
 /// Throws IoError with the reason for a file that is missing, unreadable, empty, truncated, inconsistent
-/// (points overlap extended records), compressed (LAZ), or of another version or point format.
-RawCloud read_las(const std::filesystem::path& path);
+/// (points overlap extended records), compressed if !reads_laz(), or of another version or point format.
+RawCloud read_las(const std::filesystem::path& path, const Execution& execution = {});
+
+/// An axis-aligned box in the coordinates of the file.
+struct LasBox {
+  std::array<double, 3> low{}, high{};
+};
+
+/// Returns whether the caller needs none of the points of a box.
+using SkipsBox = std::function<bool(const LasBox&)>;
+
+/// Reads like read_las() above, but saves time in a COPC file: it does not decompress nodes whose points are
+/// in a box that `is_unneeded` accepts. Each point of such a node has the coordinates of the centre of its
+/// box, and 0 in all other fields, so that number and order of the points stay. If the tree of nodes is
+/// invalid, all points are read and RawCloud::note says so. In other files, `is_unneeded` has no effect.
+RawCloud read_las(const std::filesystem::path& path, const Execution& execution, const SkipsBox& is_unneeded);
+
+/// Returns whether this build reads compressed points (LAZ), which needs LASzip.
+bool reads_laz();
 
 }  // namespace detail
 }  // namespace pcl_bv
