@@ -274,6 +274,16 @@ TEST(GroundZones, AreNoneWithoutPoints) {
   }
 }
 
+TEST(GroundZones, AreLevelButEmptyWithoutPointsIfTheSensorIsGiven) {
+  GroundZonesOptions settings;
+  settings.sensor = Eigen::Vector3d::Zero();
+  settings.sensor_height = 1.7;
+  const GroundSplit result = split_ground_by_zones(scene_view(Cloud<float>{}), settings);
+  EXPECT_TRUE(result.assumed_level);
+  EXPECT_TRUE(result.ground.empty());
+  EXPECT_TRUE(result.rest.empty());
+}
+
 TEST(GroundZones, AreAllOfABareField) {
   const Cloud<float> cloud = ground_of(level);
   EXPECT_EQ(split(scene_view(cloud)).ground, numbers(0, cloud.size()));

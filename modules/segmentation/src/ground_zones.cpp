@@ -81,18 +81,19 @@ struct GroundZones::Scratch : ZonePoints {
   }
 
  private:
-  // Writes the numbers of points to the lists of the split from position `begin` on. Each number is written
-  // to both lists, but only the end of one list advances. This takes half the time of a branch, because
-  // branches are unpredictable in clouds in scan order. Returns the number of ground points.
+  // Writes the cloud indices of points `begin` to `end` to split.ground or split.rest. Both lists start at
+  // position `begin`, so parts do not overlap. Each index is written to both, but only one position advances.
+  // This takes half the time of a branch, because branches are unpredictable in clouds in scan order. Returns
+  // the number of ground points.
   template <typename IsGround>
   std::size_t divide(std::size_t begin, std::size_t end, const IsGround& is_ground,
                      GroundSplit& split) const {
     std::size_t ground = begin, rest = begin;
     for (std::size_t i = begin; i < end; ++i) {
       split.ground[ground] = split.rest[rest] = number[i];
-      const bool below = is_ground(i);
-      ground += below;
-      rest += !below;
+      const bool in_ground = is_ground(i);
+      ground += in_ground;
+      rest += !in_ground;
     }
     return ground - begin;
   }

@@ -185,7 +185,8 @@ void ZonePoints::list_near(std::size_t rings, const ParallelPolicy& policy,
 void ZonePoints::find_lowest(const Slope& plane, ZonePart& part) {
   std::vector<float>& lowest = part.cells.lowest;
   lowest.assign(cell_count, no_lowest);
-  subtract_plane(&u_[part.begin], &v_[part.begin], part.valid, plane, &height[part.begin]);
+  subtract_plane(u_.data() + part.begin, v_.data() + part.begin, part.valid, plane,
+                 height.data() + part.begin);
   for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
     lowest[cell[i]] = std::min(lowest[cell[i]], height[i]);
 }

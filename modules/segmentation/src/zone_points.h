@@ -57,19 +57,22 @@ inline constexpr float no_lowest = 1e30F;
 struct ZonePart {
   std::size_t begin, end;  ///< Range in the view.
   std::size_t valid;       ///< Number of valid points, stored from `begin` on.
-  std::size_t listed;      ///< Number of points in a list, written from `begin` on.
+  /// Length of the list that this part wrote last: near points in list_near(), ground points in classify().
+  std::size_t listed;
   CellSummary cells;
 };
 
 /// Joins lists that parts have written to `list`: moves `count_of(part)` elements at part.begin of each part
-/// behind those of the part before it. Returns the number of all elements.
+/// to the end of those of the parts before it. Parts are in ascending order, so elements only move to the
+/// front. Returns the number of all elements.
 template <typename Parts, typename Count>
 std::size_t join_lists(const Parts& parts, std::vector<std::int32_t>& list, const Count& count_of) {
   std::size_t joined = 0;
   for (const auto& part : parts) {
     const auto first = list.begin() + static_cast<std::ptrdiff_t>(part.begin);
-    std::copy(first, first + static_cast<std::ptrdiff_t>(count_of(part)),
-              list.begin() + static_cast<std::ptrdiff_t>(joined));
+    if (joined != part.begin)
+      std::copy(first, first + static_cast<std::ptrdiff_t>(count_of(part)),
+                list.begin() + static_cast<std::ptrdiff_t>(joined));
     joined += count_of(part);
   }
   return joined;

@@ -43,21 +43,23 @@ void ClusterRefiner::start(Clusters& clusters, std::vector<Refinement>& refineme
   refinements.reserve(2 * clusters.size());
 }
 
-// Sets parts_ to cut(i, cutter) of each cluster i, and part_of_ to the parts of clusters that are cut. Lanes
-// of clusters run in parallel; clusters are sorted by size, so that lanes take about as long. Returns the
-// number of clusters that are cut.
+// Sets parts_ to cut_cluster(i, scratch) of each cluster i, and part_of_ to the parts of clusters that are
+// cut. Lane l takes the clusters l, l + lanes, ..., so each lane has large and small clusters. A lane's
+// memory depends only on the clusters and the number of lanes, so a second pass allocates nothing. Returns
+// the number of clusters that are cut.
 template <typename Cut>
-std::size_t ClusterRefiner::cut_each(const Clusters& clusters, const ParallelPolicy& policy, const Cut& cut) {
-  const std::size_t threads = thread_count(policy), lanes = threads == 1 ? 1 : 2 * threads;
-  if (cutters_.size() < lanes) cutters_.resize(lanes);
+std::size_t ClusterRefiner::cut_each(const Clusters& clusters, const ParallelPolicy& policy,
+                                     const Cut& cut_cluster) {
+  const std::size_t lanes = thread_count(policy);
+  if (lanes_.size() < lanes) lanes_.resize(lanes);
   parts_.assign(clusters.size(), 1);
   part_of_.resize(clusters.indices.size());
-  for_each_chunk(policy, lanes, [&](std::size_t lane) {
-    Cutter& cutter = cutters_[lane];
-    for (std::size_t i = lane; i < clusters.size(); i += lanes) {
-      parts_[i] = cut(i, cutter);
+  for_each_chunk(policy, lanes, [&](std::size_t l) {
+    LaneScratch& lane = lanes_[l];
+    for (std::size_t i = l; i < clusters.size(); i += lanes) {
+      parts_[i] = cut_cluster(i, lane);
       if (parts_[i] > 1)
-        std::copy_n(cutter.part_of.begin(), clusters.list_size(i),
+        std::copy_n(lane.part_of.begin(), clusters.list_size(i),
                     part_of_.begin() + static_cast<std::ptrdiff_t>(clusters.offsets[i]));
     }
   });
@@ -128,13 +130,13 @@ void ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOptions& o
                                   std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements,
                                   Counts& counts) {
   start(clusters, refinements);
-  const std::size_t cut = cut_each(clusters, options.parallel, [&](std::size_t i, Cutter& cutter) {
+  const std::size_t cut_count = cut_each(clusters, options.parallel, [&](std::size_t i, LaneScratch& lane) {
     const PointView view = select_points(cloud, clusters.list(i), clusters.list_size(i));
-    return cutter.neck_cut.find(options.isa, view, options.up, sensor_near(options, view),
-                                min_size_of(options, class_of, i), cutter.part_of);
+    return lane.neck_cut.find(options.isa, view, options.up, sensor_near(options, view),
+                              min_size_of(options, class_of, i), lane.part_of);
   });
-  counts.cut += cut;
-  if (cut == 0) {
+  counts.cut += cut_count;
+  if (cut_count == 0) {
     refinements.assign(clusters.size(), Refinement::none);
     return;
   }
@@ -144,7 +146,7 @@ void ClusterRefiner::cut_at_necks(const PointView& cloud, const RefineOptions& o
 }
 
 // Sets `box` to that of the cluster in the fixed frame. Moves the points there only if a person is expected.
-std::size_t ClusterRefiner::cut_by_tracks(Cutter& cutter, const PointView& cluster,
+std::size_t ClusterRefiner::cut_by_tracks(LaneScratch& lane, const PointView& cluster,
                                           const RefineOptions& options, const Pose& pose,
                                           const std::vector<KnownObject>& known, std::size_t min_size,
                                           Eigen::AlignedBox3d& box) const {
@@ -152,14 +154,14 @@ std::size_t ClusterRefiner::cut_by_tracks(Cutter& cutter, const PointView& clust
   const double cell = density_cell((first - sensor_near(options, cluster)).norm());
   box = box_along(options.isa, cluster, pose.linear());
   box.translate(pose * first);
-  cutter.track_cut.reserve(cluster.count, box, cell);
-  cutter.points.reserve(cluster.count);
-  cutter.part_of.reserve(cluster.count);
-  if (!cutter.track_cut.expects(box, known)) return 1;
-  cutter.points.clear();
+  lane.track_cut.reserve(cluster.count, box, cell);
+  lane.points.reserve(cluster.count);
+  lane.part_of.reserve(cluster.count);
+  if (!lane.track_cut.expects(box, known)) return 1;
+  lane.points.clear();
   for (std::size_t i = 0; i < cluster.count; ++i)
-    cutter.points.push_back(pose * point_at(cluster, i));
-  return cutter.track_cut.find(cutter.points, box, known, cell, min_size, cutter.part_of);
+    lane.points.push_back(pose * point_at(cluster, i));
+  return lane.track_cut.find(lane.points, box, known, cell, min_size, lane.part_of);
 }
 
 void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& options, const Pose& pose,
@@ -168,8 +170,8 @@ void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& 
                                    Counts& counts) {
   start(clusters, refinements);
   boxes_.resize(clusters.size());
-  const std::size_t cut = cut_each(clusters, options.parallel, [&](std::size_t i, Cutter& cutter) {
-    return cut_by_tracks(cutter, select_points(cloud, clusters.list(i), clusters.list_size(i)), options, pose,
+  const std::size_t cut_count = cut_each(clusters, options.parallel, [&](std::size_t i, LaneScratch& lane) {
+    return cut_by_tracks(lane, select_points(cloud, clusters.list(i), clusters.list_size(i)), options, pose,
                          known, min_size_of(options, class_of, i), boxes_[i]);
   });
   for (std::size_t i = 0; i < clusters.size(); ++i) {
@@ -178,9 +180,9 @@ void ClusterRefiner::follow_tracks(const PointView& cloud, const RefineOptions& 
   }
   const std::size_t joined = part_join_.find(pieces_, known, class_of, whole_of_);
   if (joined > 0) join();
-  counts.cut += cut;
+  counts.cut += cut_count;
   counts.joined += joined;
-  if (cut + joined > 0) replace(clusters, class_of, refinements);
+  if (cut_count + joined > 0) replace(clusters, class_of, refinements);
 }
 
 }  // namespace pcl_bv::detail

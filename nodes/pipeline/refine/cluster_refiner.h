@@ -54,8 +54,8 @@ class ClusterRefiner {
                      Counts& counts);
 
  private:
-  // Cuts one cluster at a time. A lane of clusters has its own.
-  struct Cutter {
+  // Scratch memory of one lane of clusters.
+  struct LaneScratch {
     NeckCut neck_cut;
     TrackCut track_cut;
     std::vector<Eigen::Vector3d> points;  // of a cluster, in the fixed frame
@@ -64,15 +64,15 @@ class ClusterRefiner {
 
   void start(Clusters& clusters, std::vector<Refinement>& refinements);
   template <typename Cut>
-  std::size_t cut_each(const Clusters& clusters, const ParallelPolicy& policy, const Cut& cut);
-  std::size_t cut_by_tracks(Cutter& cutter, const PointView& cluster, const RefineOptions& options,
+  std::size_t cut_each(const Clusters& clusters, const ParallelPolicy& policy, const Cut& cut_cluster);
+  std::size_t cut_by_tracks(LaneScratch& lane, const PointView& cluster, const RefineOptions& options,
                             const Pose& pose, const std::vector<KnownObject>& known, std::size_t min_size,
                             Eigen::AlignedBox3d& box) const;
   void add_parts(const Clusters& clusters, std::size_t cluster, Refinement refinement);
   void join();
   void replace(Clusters& clusters, std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements);
 
-  std::vector<Cutter> cutters_;
+  std::vector<LaneScratch> lanes_;
   PartJoin part_join_;
   std::vector<std::size_t> parts_;          // number of parts of each cluster
   std::vector<Eigen::AlignedBox3d> boxes_;  // of each cluster, in the fixed frame

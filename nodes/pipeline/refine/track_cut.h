@@ -28,14 +28,14 @@ class TrackCut {
   /// the density. The last part may be the rest of the cluster. Each part has at least `min_size` points, or
   /// 10 if that is more. O(n log n + n * people).
   ///
-  /// Returns 1 unless expects() is true, which needs no points. Call reserve() for every cluster: which
-  /// clusters hold an expected person depends on the tracks, so a later frame with the same clusters may need
-  /// more memory.
+  /// Returns 1 if expects() is false. Callers test expects() first, because it needs only the box. Call
+  /// reserve() for every cluster: which clusters hold an expected person depends on the tracks, so a later
+  /// frame with the same clusters may need more memory.
   std::size_t find(const std::vector<Eigen::Vector3d>& points, const Eigen::AlignedBox3d& box,
                    const std::vector<KnownObject>& known, double cell, std::size_t min_size,
                    std::vector<std::uint32_t>& part_of);
 
-  /// Returns whether the cluster may hold an expected person and something else.
+  /// Returns whether the cluster may hold an expected person and something else. Also stores these people.
   bool expects(const Eigen::AlignedBox3d& box, const std::vector<KnownObject>& known);
 
   /// Allocates the memory for a cluster of `points` points.
