@@ -23,42 +23,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Clouds of files that were made independently. They are parts of one cloud in the order of the files.
-class MergedClouds {
- public:
-  /// Throws std::invalid_argument if the share does not belong to the others.
-  void add(const ObjectFileHeader& header) {
-    const PartialFile& cloud = header.cloud;
-    if (!clouds_.empty() && cloud.origin != clouds_.front().origin)
-      throw std::invalid_argument("is a share with another --origin");
-    if (!clouds_.empty() && cloud.filter != clouds_.front().filter)
-      throw std::invalid_argument("is a share with another --range or other regions");
-    const auto same = std::find_if(clouds_.begin(), clouds_.end(), [&](const PartialFile& other) {
-      return other.inputs_hash == cloud.inputs_hash && other.cloud_points == cloud.cloud_points;
-    });
-    if (same == clouds_.end())
-      clouds_.push_back(cloud);
-    else
-      same->merge(cloud);
-  }
-
-  /// Returns the number of points of all clouds before that of a share.
-  std::size_t points_before(const ObjectFileHeader& header) const {
-    std::size_t points = 0;
-    for (const PartialFile& cloud : clouds_) {
-      if (cloud.inputs_hash == header.cloud.inputs_hash && cloud.cloud_points == header.cloud.cloud_points)
-        return points;
-      points += cloud.cloud_points;
-    }
-    return points;
-  }
-
-  const std::vector<PartialFile>& clouds() const { return clouds_; }
-
- private:
-  std::vector<PartialFile> clouds_;
-};
-
 struct OpenShares {
   std::vector<std::unique_ptr<ObjectFile>> shares;
   std::vector<std::string> names;  // of the files of the shares
@@ -76,7 +40,7 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
           throw IoError("was made with " + share->header().clusters + ": give the same options");
         if (!open.shares.empty() && open.shares.front()->scalar() != share->scalar())
           throw IoError("has points of another type (float32, float64) than the files before");
-        open.clouds.add(share->header());
+        open.clouds.add(share->header().cloud);
         open.shares.push_back(std::move(share));
         open.names.push_back(name);
       }
@@ -92,8 +56,8 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
 
 void describe(const OpenShares& open, Report& report) {
   report.parts = 0;
+  open.clouds.require_whole();
   for (const PartialFile& cloud : open.clouds.clouds()) {
-    if (!cloud.is_whole()) throw IoError("shares are missing: " + cloud.missing());
     *report.parts += cloud.inputs;
     report.points += cloud.cloud_points;
     report.counts.range += cloud.counts.range;
@@ -230,7 +194,7 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
   std::map<std::optional<std::int64_t>, ClassMerger> classes;
   for (std::size_t i = 0; i < open.shares.size(); ++i) {
     ObjectFile& share = *open.shares[i];
-    share.first_number = open.clouds.points_before(share.header());
+    share.first_number = open.clouds.points_before(share.header().cloud);
     const auto value = share.header().class_value;
     classes.try_emplace(value, options, table, life, value).first->second.add(share, open.names[i]);
   }

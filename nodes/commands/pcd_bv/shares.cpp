@@ -81,13 +81,14 @@ void detail::add_share(const SharePoints& points, const PointRange& range, const
   file.partial = Partial(points.view(), 0, execution);
 }
 
-std::optional<PartialFile> detail::merge_files(const std::vector<std::string>& files) {
-  std::optional<PartialFile> all;
+std::optional<MergedClouds> detail::merge_files(const std::vector<std::string>& files) {
+  MergedClouds all;
   bool failed = false;
   for (const std::string& name : files) {
     try {
-      PartialFile file = read_partial_file(name);
-      all ? all->merge(file) : void(all = std::move(file));
+      const MergedClouds file = read_partial_file(name);
+      for (const PartialFile& cloud : file.clouds())
+        all.add(cloud);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -95,7 +96,7 @@ std::optional<PartialFile> detail::merge_files(const std::vector<std::string>& f
       failed = true;
     }
   }
-  return failed ? std::nullopt : all;
+  return failed ? std::nullopt : std::optional(std::move(all));
 }
 
 Report detail::report_of(const PartialFile& whole, const std::vector<const Method*>& methods) {
@@ -138,9 +139,9 @@ void detail::report_notes(const Tiles& tiles) {
 
 namespace {
 
-Status write_or_report(const std::filesystem::path& path, const PartialFile& file) {
+Status write_or_report(const std::filesystem::path& path, const MergedClouds& clouds) {
   try {
-    write_partial_file(path, file);
+    write_partial_file(path, clouds);
     return Status::done;
   } catch (const IoError& error) {
     report_problem(path.string() + ": " + error.what());
@@ -154,7 +155,7 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
   if (options.clusters()) return make_object_file(job, options);
   const Interruption interruption([] {});
   if (!job.partials.empty()) {
-    const std::optional<PartialFile> merged = merge_files(job.partials);
+    const std::optional<MergedClouds> merged = merge_files(job.partials);
     return merged ? write_or_report(*options.partial, *merged) : Status::failed;
   }
   // No input may be excluded: the other shares contain it, so they would belong to a different cloud.
@@ -172,7 +173,9 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
     report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
     return Status::failed;
   }
-  return write_or_report(*options.partial, file);
+  MergedClouds clouds;
+  clouds.add(file);
+  return write_or_report(*options.partial, clouds);
 }
 
 }  // namespace pcl_bv

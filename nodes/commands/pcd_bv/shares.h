@@ -50,7 +50,7 @@ void add_share(const SharePoints& points, const PointRange& range, const Executi
 
 /// Merges the partial results of the files. Reports each file that cannot be read or does not belong to the
 /// other files. If there is such a file, returns nullopt.
-std::optional<PartialFile> merge_files(const std::vector<std::string>& files);
+std::optional<MergedClouds> merge_files(const std::vector<std::string>& files);
 
 /// Returns a report of the whole cloud with an empty entry for the volume of each method.
 Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods);
