@@ -19,5 +19,5 @@ namespace [[gnu::visibility("default")]] detail {
 /// neither be merged nor written. O(m log m) for m extreme points of all clouds.
 Partial join_clouds(const std::vector<Partial>& clouds);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv
