@@ -17,7 +17,6 @@
 #include "object_shares.h"
 #include "object_texts.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "process.h"
 #include "stopwatch.h"
 
 namespace pcl_bv::detail {
@@ -92,7 +91,9 @@ class ClassMerger {
     try {
       while (!attempt(list, fit_seconds)) {
       }
-      return status_;
+      for (const auto& [share, problem] : problems_)
+        report_problem(*names_[share] + ": " + problem);
+      return problems_.empty() ? Status::done : Status::failed;
     } catch (const ShareError& error) {
       throw IoError(*names_[error.share()] + ": " + error.what());
     }
@@ -107,7 +108,7 @@ class ClassMerger {
     };
     if (life_ == FileLife::lasting)
       store.on_lost = [&](const ShareError& error, std::uint64_t points) {
-        report_once(error.share(), std::string(error.what()) + ": " + std::to_string(points) +
+        add_problem(error.share(), std::string(error.what()) + ": " + std::to_string(points) +
                                        " points are left out, so objects near them may be incomplete (JSON: "
                                        "\"incomplete\")");
       };
@@ -122,9 +123,10 @@ class ClassMerger {
     return true;
   }
 
-  void report_once(std::size_t share, const std::string& problem) {
-    status_ = Status::failed;
-    if (reported_.emplace(share, problem).second) report_problem(*names_[share] + ": " + problem);
+  // Several threads may call it at the same time.
+  void add_problem(std::size_t share, const std::string& problem) {
+    const std::lock_guard lock(mutex_);
+    problems_.emplace(share, problem);
   }
 
   bool has_volumes(const ComponentOfShare& component) const {
@@ -150,8 +152,8 @@ class ClassMerger {
     try {
       return object_of(shares_[component.share]->text(component.number).value());
     } catch (const IoError& error) {
+      add_problem(component.share, std::string(error.what()) + ": such volumes are fitted again");
       const std::lock_guard lock(mutex_);
-      report_once(component.share, std::string(error.what()) + ": such volumes are fitted again");
       bad_texts_.emplace(component.share, component.number);
       has_new_bad_texts_ = true;
       return {};
@@ -165,9 +167,8 @@ class ClassMerger {
   std::vector<const ObjectFile*> shares_;
   std::vector<const std::string*> names_;
   FileLife life_;
-  Status status_ = Status::done;
-  std::set<std::pair<std::size_t, std::string>> reported_;  // problems of shares
   std::mutex mutex_;
+  std::set<std::pair<std::size_t, std::string>> problems_;     // of shares, each once
   std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_;  // shares and numbers of components
   bool has_new_bad_texts_ = false;
 };
@@ -206,7 +207,7 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
   list.write_report();
   if (options.timings) report.seconds = {0, watch.seconds() - fit_seconds, fit_seconds};
   if (job.objects) status = worse(status, list.write_points(*job.objects));
-  return worse(status, report_failures(report));
+  return status;
 }
 
 }  // namespace pcl_bv::detail

@@ -3,17 +3,12 @@
 
 #include "object_shares.h"
 
-#include <new>
 #include <utility>
 
 #include "class_points.h"
-#include "commands/shared/interruption.h"
-#include "commands/shared/messages.h"
 #include "object_fitter.h"
 #include "object_texts.h"
-#include "pcl_bv/io/raw_cloud.h"
-#include "shares.h"
-#include "tile_progress.h"
+#include "share_points.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -129,26 +124,6 @@ void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, 
                                   const std::filesystem::path& path, const GatherCells& gather) {
   write_share(tiles, share, options, path, FileLife::temporary,
               needs_all_records(options) ? GatherCells() : gather);
-}
-
-Status make_object_file(const Job& job, const Options& options) {
-  const Interruption interruption([] {});
-  try {
-    if (!job.partials.empty())
-      return join_object_files(job.partials, options) ? Status::done : Status::failed;
-    if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
-    const TileProgress progress(*job.tiles, options);
-    write_object_share(*job.tiles, options.share, options, *options.partial);
-    report_notes(*job.tiles);
-    return Status::done;
-  } catch (const TileError& error) {
-    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    report_problem(options.partial->string() + ": " + error.what());
-  }
-  return Status::failed;
 }
 
 }  // namespace pcl_bv::detail

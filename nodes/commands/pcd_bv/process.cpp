@@ -192,7 +192,8 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
   if (options.clusters()) {
     report.file = kTiledName;
     const Status status = merge_object_files(job, job.partials, FileLife::lasting, options, report);
-    return report.error ? status : worse(status, write_mesh(job, report.clusters));
+    if (report.error) return status;
+    return worse(status, worse(report_failures(report), write_mesh(job, report.clusters)));
   }
   Stopwatch watch;
   const std::optional<MergedClouds> clouds = merge_files(job.partials);

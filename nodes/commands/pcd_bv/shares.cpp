@@ -3,74 +3,16 @@
 
 #include "shares.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 
 #include "commands/shared/interruption.h"
 #include "commands/shared/messages.h"
 #include "object_shares.h"
-#include "pipeline/config/settings.h"
-#include "shifted_points.h"
 #include "tile_progress.h"
 
 namespace pcl_bv {
 using namespace detail;
-namespace {
-
-std::uint64_t hash_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  PartialFile hash;
-  hash.add_input(std::string(std::istreambuf_iterator<char>(file), {}), 0);
-  return hash.inputs_hash;
-}
-
-// Returns a text of the filter settings, which is equal for shares that drop the same points. It has the
-// content of region files, but not their names.
-std::string filter_text(const FilterConfig& filter) {
-  std::string text = to_text(filter.range_min) + ':' + to_text(filter.range_max);
-  if (filter.own_box_min)
-    text += " own box " + to_text(*filter.own_box_min) + ' ' + to_text(*filter.own_box_max);
-  for (const RegionConfig& region : filter.regions) {
-    text += region.keep ? " keep " : " drop ";
-    text += std::to_string(hash_of_file(region.file)) + '+' + to_text(region.padding);
-  }
-  return text;
-}
-
-std::string name_without_folders(const Job& job) {
-  return std::filesystem::path(job.input).filename().string();
-}
-
-}  // namespace
-
-Execution detail::execution_of(const Options& options) {
-  return options.pipeline.execution();
-}
-
-SharePoints::SharePoints(const Tiles& tiles, const PointRange& range,
-                         const std::optional<Eigen::Vector3d>& origin, const Options& options) {
-  PointView points = tiles.xyz();
-  if (origin) {
-    shifted_ = std::make_unique<ShiftedPoints>(points, *origin);
-    points = view_of(*shifted_, points.count, ScalarType::float64);
-  }
-  points = points.slice(range.first, range.second - range.first);
-  filtered_ = filter_points(points, options.pipeline.filter, execution_of(options));
-}
-
-PartialFile detail::describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
-                                   const Options& options) {
-  PartialFile file;
-  for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
-    if (!tiles.header(i).error) file.add_input(name_without_folders(tiles.jobs()[i]), tiles.header(i).points);
-  }
-  file.origin = origin;
-  file.filter = filter_text(options.pipeline.filter);
-  return file;
-}
 
 void detail::add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
                        PartialFile& file) {
@@ -147,6 +89,28 @@ Status write_or_report(const std::filesystem::path& path, const MergedClouds& cl
     report_problem(path.string() + ": " + error.what());
     return Status::failed;
   }
+}
+
+// Finds the clusters of the share that the options name, fits their volumes and writes the file of --partial.
+// Or, with --merge, writes all files to one. Reports problems on standard error.
+Status make_object_file(const Job& job, const Options& options) {
+  const Interruption interruption([] {});
+  try {
+    if (!job.partials.empty())
+      return join_object_files(job.partials, options) ? Status::done : Status::failed;
+    if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
+    const TileProgress progress(*job.tiles, options);
+    write_object_share(*job.tiles, options.share, options, *options.partial);
+    report_notes(*job.tiles);
+    return Status::done;
+  } catch (const TileError& error) {
+    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    report_problem(options.partial->string() + ": " + error.what());
+  }
+  return Status::failed;
 }
 
 }  // namespace
