@@ -159,6 +159,7 @@ TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {
   expect_bad_tiles_named(result, "tiles");
   Json report = result.json();
   EXPECT_EQ(report["parts"], 8);
+  expect_bad_tiles_listed(report, "tiles");
   EXPECT_TRUE(report["clusters"] == expected["clusters"]);
   EXPECT_EQ(report["points"], 60'000);
 

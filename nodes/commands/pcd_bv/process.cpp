@@ -177,6 +177,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
     try {
       status = worse(status, options.clusters() ? process_tiled_objects(job, options, outcome.report)
                                                 : process(job, options, pipeline, outcome));
+      set_left_out(*job.tiles, outcome.report);
       report_notes(*job.tiles);
       return status;
     } catch (const TileError& error) {

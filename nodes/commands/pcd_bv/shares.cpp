@@ -72,6 +72,11 @@ Status detail::report_excluded_inputs(const Tiles& tiles) {
   return status;
 }
 
+void detail::set_left_out(const Tiles& tiles, Report& report) {
+  for (std::size_t i = 0; i < tiles.jobs().size(); ++i)
+    if (const auto& error = tiles.header(i).error) report.left_out.push_back({tiles.jobs()[i].input, *error});
+}
+
 void detail::report_notes(const Tiles& tiles) {
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     const std::string note = tiles.note(i);

@@ -38,6 +38,9 @@ Status make_partial_file(const Job& job, const Options& options);
 /// Reports every excluded input. Returns Status::failed if there is one.
 Status report_excluded_inputs(const Tiles& tiles);
 
+/// Sets the list of excluded inputs.
+void set_left_out(const Tiles& tiles, Report& report);
+
 /// Reports the notes of all inputs that are not excluded.
 void report_notes(const Tiles& tiles);
 

@@ -15,7 +15,9 @@
 #include "commands/pcd_bv/object_shares.h"
 #include "commands/pcd_bv/process.h"
 #include "commands/pcd_bv/shares.h"
+#include "commands/pcd_bv/stopwatch.h"
 #include "commands/shared/messages.h"
+#include "costs.h"
 #include "failures.h"
 
 namespace pcl_bv {
@@ -99,6 +101,11 @@ class CellExchange {
     return others;
   }
 
+  /// What this rank has sent, and the CPU time of waiting for the cells of others.
+  std::size_t messages() const { return messages_; }
+  std::size_t bytes() const { return bytes_; }
+  double waiting_seconds() const { return waiting_seconds_; }
+
   /// Tells the ranks that wait for cells of this rank that it has failed, if it did not make all calls.
   void end() {
     if (calls_ < kGatherCalls && !failed_) exchange(kFailed);
@@ -108,7 +115,11 @@ class CellExchange {
   static constexpr const char* kFailed = "failed";  // the bytes of cells are a multiple of 8
 
   std::vector<std::string> exchange(const std::string& text) {
+    const double begin = processor_seconds();
     std::vector<std::string> all = ranks_.all_gather(text);
+    waiting_seconds_ += processor_seconds() - begin;
+    messages_ += ranks_.size() - 1;
+    bytes_ += (ranks_.size() - 1) * text.size();
     ++calls_;
     failed_ = std::find(all.begin(), all.end(), kFailed) != all.end();
     return all;
@@ -116,13 +127,16 @@ class CellExchange {
 
   Ranks& ranks_;
   int calls_ = 0;
+  std::size_t messages_ = 0, bytes_ = 0;
+  double waiting_seconds_ = 0;
   bool failed_ = false;
 };
 
-// Writes the file of a rank. Returns the input that fails on any rank. Throws IoError on all ranks if a rank
-// cannot write.
+// Writes the file of a rank, and adds what it costs. Returns the input that fails on any rank. Throws IoError
+// on all ranks if a rank cannot write.
 std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
-                                        const CommonFolder& folder) {
+                                        const CommonFolder& folder, RankCosts& costs) {
+  const double begin = processor_seconds();
   std::string problem;
   CellExchange messages(ranks);
   const auto failure = run_and_catch([&] {
@@ -139,6 +153,9 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
     }
   });
   if (!needs_all_records(options)) messages.end();
+  costs.cpu_seconds += processor_seconds() - begin - messages.waiting_seconds();
+  costs.messages += messages.messages();
+  costs.bytes += messages.bytes();
   for (const std::string& each : ranks.all_gather(problem))
     if (!each.empty()) throw IoError(each);
   return first_failure(ranks, failure);
@@ -148,12 +165,14 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
 
 Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& options, Report& report,
                                    InterruptAction& interrupted) {
+  const Stopwatch watch;
+  RankCosts costs;
   Tiles& tiles = *job.tiles;
   Status status = ranks.first() ? report_excluded_inputs(tiles) : Status::done;
   const CommonFolder folder(ranks, interrupted);
   for (;;) {
     if (tiles.included_count() == 0) throw IoError("no input could be read");
-    const auto failure = write_shares(ranks, tiles, options, folder);
+    const auto failure = write_shares(ranks, tiles, options, folder, costs);
     if (!failure) break;
     if (ranks.first()) report_problem(tiles.jobs()[failure->tile].input + ": " + failure->reason);
     tiles.exclude(failure->tile, failure->reason);
@@ -161,8 +180,10 @@ Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& 
   }
   std::string problem;
   ranks.work_on_first([&](std::size_t ranks_here) {
+    const double begin = processor_seconds();
     try {
       report_notes(tiles);
+      set_left_out(tiles, report);
       std::vector<std::string> files;
       for (std::size_t rank = 0; rank < ranks.size(); ++rank)
         files.push_back(folder.file(rank));
@@ -175,9 +196,12 @@ Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& 
     } catch (const std::exception& error) {
       problem = error.what();
     }
+    costs.cpu_seconds += processor_seconds() - begin;
   });
   problem = ranks.broadcast(problem);
   if (!problem.empty()) throw IoError(problem);
+  costs.seconds = watch.seconds();
+  if (options.timings) print_costs(ranks, costs);
   return status;
 }
 
