@@ -78,24 +78,19 @@ Options options_of(py::handle cluster, py::handle volumes, py::handle memory, co
 }
 
 /// Calls work() without the GIL. Throws its errors as Python's exceptions. Returns the problems that it has
-/// reported. `path` is the file that work() writes, for messages.
+/// reported.
 template <typename Work>
-std::vector<std::string> run_unlocked(const std::string& path, const Work& work) {
+std::vector<std::string> run_unlocked(const Work& work) {
   std::vector<std::string> problems;
   try {
     const py::gil_scoped_release unlocked;
     DeferredMessages deferred;
-    try {
-      work();
-    } catch (const UsageError& error) {
-      throw py::value_error(error.what());
-    } catch (const IoError& error) {
-      const bool named = path.empty() || std::string_view(error.what()).find(path) != std::string_view::npos;
-      throw IoError(named ? error.what() : path + ": " + error.what());
-    } catch (const std::filesystem::filesystem_error& error) {
-      throw IoError(error.what());
-    }
+    work();
     problems = deferred.messages;
+  } catch (const UsageError& error) {
+    throw py::value_error(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw IoError(error.what());
   } catch (const MissingInput& missing) {
     errno = ENOENT;
     PyErr_SetFromErrnoWithFilename(PyExc_FileNotFoundError, missing.name.c_str());
@@ -137,18 +132,15 @@ void write_share(py::handle file, py::handle inputs, py::handle cluster, py::han
   if (!origin.is_none()) options.origin = {true, vector3(origin, "origin")};
   options.bin_fields = whole_number(bin_fields, "bin_fields", {0, 32});
   std::shared_ptr<Tiles> tiles;
-  std::vector<std::string> problems;
-  for (const std::string& problem : run_unlocked("", [&] {
+  for (const std::string& problem : run_unlocked([&] {
          tiles = plan_jobs(options).front().tiles;
          require_inputs(*tiles);
-       }))
-    warn(problem);
-  for (const std::string& problem : run_unlocked(options.partial->string(), [&] {
          try {
            write_object_share(*tiles, options.share, options, *options.partial);
          } catch (const TileError& error) {
-           throw IoError(tiles->jobs()[error.tile()].input + ": " + error.what() + " (for " +
-                         options.partial->string() + ")");
+           throw IoError(tiles->jobs()[error.tile()].input + ": " + error.what());
+         } catch (const IoError& error) {
+           throw IoError(options.partial->string() + ": " + error.what());
          }
        }))
     warn(problem);
@@ -164,7 +156,7 @@ py::list merge_shares(py::handle paths, py::handle cluster, py::handle volumes, 
   options.inputs = path_list(paths, "paths");
   options.merge = true;
   Report report;
-  const std::vector<std::string> problems = run_unlocked("", [&] {
+  const std::vector<std::string> problems = run_unlocked([&] {
     const Job job = plan_jobs(options).front();
     std::error_code unknown;
     for (const std::string& file : job.partials)

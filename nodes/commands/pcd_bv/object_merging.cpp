@@ -91,10 +91,10 @@ class ClassMerger {
     try {
       while (!attempt(list, fit_seconds)) {
       }
-      for (const auto& [share, problem] : problems_)
-        report_problem(*names_[share] + ": " + problem);
+      report_problems();
       return problems_.empty() ? Status::done : Status::failed;
     } catch (const ShareError& error) {
+      report_problems();
       throw IoError(*names_[error.share()] + ": " + error.what());
     }
   }
@@ -121,6 +121,11 @@ class ClassMerger {
     if (std::exchange(has_new_bad_texts_, false)) return false;
     list.add(std::move(clusters), std::move(objects));
     return true;
+  }
+
+  void report_problems() const {
+    for (const auto& [share, problem] : problems_)
+      report_problem(*names_[share] + ": " + problem);
   }
 
   // Several threads may call it at the same time.

@@ -30,8 +30,8 @@ struct PartialFile {
 
   /// FNV-1a hash of the names and numbers of points of all inputs (see add_input()).
   std::uint64_t inputs_hash = kEmptyInputsHash;
-  std::size_t inputs = 0;   ///< Number of input files of the whole cloud.
-  std::string first_input;  ///< Name of the first input without folders. Files of earlier versions lack it.
+  std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
+  std::string first_input;                ///< Name of the first input without folders. Old files lack it.
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
   std::string filter;                     ///< Description of the point filters; merge() compares it.
