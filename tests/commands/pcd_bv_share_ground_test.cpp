@@ -132,7 +132,7 @@ TEST_F(PcdBvShareGround, NamesSharesThatDoNotBelongTogether) {
   changed[0].at[2] -= 3;
   pcd_tiles("tiles", changed, 3);
   std::filesystem::rename(shares_above_ground("new", 2, 2, ground, clusters, tiles) + "/1", parts + "/1");
-  expect_error(with(clusters, ground), "parts/1: has another ground than the files before");
+  expect_error(with(clusters, ground), "parts/1: was made with other --ground-parts than the files before");
 }
 
 TEST_F(PcdBvShareGround, ThatIsDamagedIsNamedWithTheInputsThatLackIt) {

@@ -105,11 +105,11 @@ TEST_F(PcdBvShareLabels, OfInputsWithAnyBytesInTheirNamesAreThoseOfOneProcess) {
 TEST_F(PcdBvShareLabels, OfIndependentInputsAreThoseOfOneCloud) {
   const Points points = yard(2);
   const auto half = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
-  const std::string a = binary("a.pcd", Points(points.begin(), half)),
-                    b = binary("b.pcd", Points(half, points.end()));
+  const std::string a = binary("9.pcd", Points(points.begin(), half)),
+                    b = binary("10.pcd", Points(half, points.end()));
   const std::vector<std::string> options = {"--cluster", "0.4"};
-  const std::string parts = shares("parts", 1, options, {a});
-  std::filesystem::rename(shares("more", 1, options, {b}) + "/0", parts + "/1");
+  const std::string parts = shares("parts", 1, options, {b});
+  std::filesystem::rename(shares("more", 1, options, {a}) + "/0", parts + "/1");
   EXPECT_EQ(run({"--merge", "--partial", at("all"), "--cluster", "0.4", parts}).status, 0);
   EXPECT_EQ(objects(options, {"--together", "--labels", at("expected"), a}, b).status, 0);
   for (const std::string& input : {parts, at("all")}) {

@@ -155,7 +155,7 @@ ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begi
   require_good(file_->size() - begin >= sizeof preamble_, "is truncated");
   file_->read(begin, &preamble_, sizeof preamble_);
   require_good(std::memcmp(preamble_.format, kObjectFormat, 15) == 0,
-               "is no file of objects, as --partial writes them");
+               "is no file of objects, as --partial --cluster writes them");
   require_good(std::memcmp(preamble_.format, kObjectFormat, sizeof kObjectFormat) == 0,
                "was written by another version of pcl_bv: this one reads version 1");
   require_good(preamble_.header_bytes <= kMaxObjectHeader && preamble_.cloud_bytes <= kMaxObjectHeader &&

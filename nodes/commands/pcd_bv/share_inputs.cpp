@@ -56,8 +56,8 @@ struct NamedInput {
 };
 
 // For each cloud, its inputs by their numbers.
-std::vector<std::map<std::size_t, NamedInput>> named_inputs(const OpenShares& open,
-                                                            const std::vector<PartialFile>& clouds) {
+std::vector<std::map<std::size_t, NamedInput>> named_inputs(const OpenShares& open) {
+  const std::vector<PartialFile>& clouds = open.clouds.clouds();
   std::vector<std::map<std::size_t, NamedInput>> named(clouds.size());
   for (std::size_t s = 0; s < open.shares.size(); ++s) {
     const ObjectFileHeader& header = open.shares[s]->header();
@@ -66,7 +66,7 @@ std::vector<std::map<std::size_t, NamedInput>> named_inputs(const OpenShares& op
           open.names[s] +
           ": an older version wrote it, without its inputs, which --labels needs: " + "make it again");
     const auto cloud = std::find_if(clouds.begin(), clouds.end(), [&](const PartialFile& other) {
-      return other.inputs_hash == header.cloud.inputs_hash && other.cloud_points == header.cloud.cloud_points;
+      return other.has_inputs_of(header.cloud);
     });
     for (const ObjectInput& input : header.inputs->list)
       named[static_cast<std::size_t>(cloud - clouds.begin())].try_emplace(
@@ -139,9 +139,9 @@ void claim_files(const OpenShares& open, const std::vector<LabelledInput>& input
 
 }  // namespace
 
-std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const std::vector<PartialFile>& clouds,
-                                           const Options& options) {
-  const auto named = named_inputs(open, clouds);
+std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const Options& options) {
+  const std::vector<PartialFile>& clouds = open.clouds.clouds();
+  const auto named = named_inputs(open);
   std::vector<LabelledInput> inputs;
   JobMaker jobs;
   std::size_t first = 0;
