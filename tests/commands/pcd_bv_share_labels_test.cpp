@@ -160,12 +160,12 @@ TEST_F(PcdBvShareLabels, AreRefusedBeforeTheWorkIfFilesWouldBeLost) {
   };
   const std::string parts = shares("parts", 2, options, {folder});
   expect_error(parts, at("l.pcd"), 2, "is no folder, which --merge needs");
-  expect_error(parts, folder, 1, "is an input and would be overwritten");
-  expect_error(shares("same", 1, options, {folder, other}), at("labels"), 1, "more than one result");
+  expect_error(parts, folder, 2, "is an input and would be overwritten");
+  expect_error(shares("same", 1, options, {folder, other}), at("labels"), 2, "more than one result");
   std::filesystem::rename(parts + "/0", parts + "/00.pcd");
-  expect_error(parts, parts, 1, "is an input and would be overwritten");
+  expect_error(parts, parts, 2, "is an input and would be overwritten");
   remove_inputs(parts + "/1");
-  expect_error(parts, at("labels"), 1, "parts/1: an older version wrote it, without its inputs");
+  expect_error(parts, at("labels"), 1, "parts/1: was written by an older version, without the paths of its");
   EXPECT_EQ(objects(options, {"--merge"}, parts).status, 0);
   EXPECT_FALSE(std::filesystem::exists(at("labels")));
 }

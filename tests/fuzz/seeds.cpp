@@ -290,9 +290,9 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
   for (const char* name :
-       {"pcd",     "ply",    "lzf",   "bin",     "number", "text",       "mcap", "bag",
-        "packets", "ouster", "hesai", "partial", "cloud",  "compressed", "live", "nested",
-        "tiles",   "labels", "npy",   "npz",     "table",  "transforms", "urdf", "objects"})
+       {"pcd",    "ply",   "lzf",     "bin",        "number",     "text",    "mcap",   "bag",   "packets",
+        "ouster", "hesai", "partial", "cloud",      "compressed", "live",    "nested", "tiles", "labels",
+        "npy",    "npz",   "table",   "transforms", "urdf",       "objects", "ground"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);

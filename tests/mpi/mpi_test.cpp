@@ -242,6 +242,17 @@ TEST_F(Mpi, ObjectsAboveTheGroundHaveTheBytesOfOneProcess) {
   }
 }
 
+TEST_F(Mpi, ObjectsAboveTheGroundAreWarnedOfIfAllPointsAreGround) {
+  Points flat;
+  for (int i = 0; i < 4000; ++i)
+    flat.push_back({static_cast<float>(i % 80), static_cast<float>(i / 80), 0});
+  const Result result =
+      ranks(2, {"--together", "--cluster", "0.5", "--ground", "slope", tiles("flat", flat, 2)});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.error_lines(), 1U) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("all points were classified as ground (up is z): try --up"));
+}
+
 TEST_F(Mpi, ObjectsSayWhatTheyCostOnOneLine) {
   const std::string folder = tiles("tiles", yard(1), 9);
   for (const int count : {1, 3}) {

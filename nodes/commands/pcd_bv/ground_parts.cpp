@@ -59,7 +59,7 @@ CellRange cells_for_share(const GroundFiles& files, const PointRange& share,
   const CellRange own = cells_of_share(files, share);
   double highest = -std::numeric_limits<double>::infinity();
   for (const auto& file : files)
-    if (file->bounds().cells.intersects(own.grown(kCellsOfHighest)))
+    if (file->bounds().cells.intersects(own.inflated(kBoundMargin)))
       highest = std::max(highest, file->bounds().highest);
   CellRange all;
   for (const auto& file : files) {  // the low points of a file that is too far away do not matter

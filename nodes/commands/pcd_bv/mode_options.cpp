@@ -46,6 +46,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
                          "--bin-fields", "--columns", "--topic"});
   if (options.partial)
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
+  if (options.writes_ground_part()) reject_combinations(line, "--partial --ground slope", {"--volume"});
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
   const bool all_methods = options.clusters() || options.writes_ground_part();

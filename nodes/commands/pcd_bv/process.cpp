@@ -16,6 +16,7 @@
 
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
+#include "commands/shared/values.h"
 #include "loaded_cloud.h"
 #include "object_files.h"
 #include "object_shares.h"
@@ -194,6 +195,7 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
     report.file = kTiledName;
     const Status status = merge_object_files(job, job.partials, FileLife::lasting, options, report);
     if (report.error) return status;
+    report_ground_warning(report, options);
     return worse(status, worse(report_failures(report), write_mesh(job, report.clusters)));
   }
   Stopwatch watch;
@@ -299,6 +301,15 @@ std::string detail::coarse_warning(const Aabb& box, ScalarType scalar) {
   return text;
 }
 
+void detail::report_ground_warning(const Report& report, const Options& options) {
+  FrameResult counted;
+  counted.config = std::make_shared<PipelineConfig>(options.pipeline);
+  counted.points = report.points;
+  counted.counts = report.counts;
+  const std::string warning = ground_warning(counted, option_names(false));
+  if (!warning.empty()) report_problem(report.file + ": " + warning);
+}
+
 MethodOptions detail::method_options(const Options& options) {
   return options.pipeline.method_options();
 }
@@ -309,6 +320,8 @@ Outcome detail::process(const Job& job, const Options& options, FramePipeline& p
   try {
     outcome.status = process_any(job, options, pipeline, outcome);
     return outcome;
+  } catch (const UsageError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";
   } catch (const std::exception& error) {

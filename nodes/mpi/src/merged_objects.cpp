@@ -238,6 +238,7 @@ Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& 
       Options merging = options;
       merging.pipeline.threads *= static_cast<decltype(merging.pipeline.threads)>(ranks_here);
       status = worse(status, merge_object_files(job, files, FileLife::temporary, merging, report));
+      if (!report.error) report_ground_warning(report, options);
       status = worse(status, report_failures(report));
     } catch (const std::bad_alloc&) {
       throw;
