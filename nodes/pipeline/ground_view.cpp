@@ -12,6 +12,7 @@
 
 #include "ground.h"
 #include "kept_points.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/segmentation/slope_surface.h"
 
 namespace pcl_bv::detail {
@@ -27,8 +28,11 @@ class PointsAboveGround final : public PointSource {
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
     const LoadedPoints part(points_, first - points_.first, count);
     std::vector<std::uint8_t> ground(count);
-    surface_.classify(part.view(), ground.data());
-    if (bits_ != nullptr) bits_->add(first, ground);
+    const std::size_t outside = surface_.classify(part.view(), ground.data());
+    if (bits_ != nullptr) {
+      if (outside > 0) throw IoError("the inputs have changed since --ground-parts were made");
+      bits_->add(first, ground);
+    }
     return kept_points(
         part.view(), first, [&](std::size_t i) { return ground[i] == 0; }, buffer);
   }

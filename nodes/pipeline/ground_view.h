@@ -50,7 +50,8 @@ GroundView remove_slope_ground(const PointView& points, const GroundConfig& conf
                                const Execution& execution);
 
 /// Removes points of a surface that is known. GroundView::valid is not set. `bits` gets the ground points
-/// when points are loaded, and must outlive the view, as `surface` must.
+/// when points are loaded, and must outlive the view, as `surface` must. Loading throws IoError for points
+/// whose cells the surface lacks.
 GroundView remove_slope_ground(const PointView& points, const SlopeSurface& surface, GroundBits& bits);
 
 }  // namespace detail

@@ -18,6 +18,7 @@ void bind_volumes(pybind11::module_& module);
 void bind_shapes(pybind11::module_& module);
 void bind_fit(pybind11::module_& module);
 void bind_partial(pybind11::module_& module);
+void bind_object_shares(pybind11::module_& module);
 void bind_segmentation(pybind11::module_& module);
 void bind_pipeline(pybind11::module_& module);
 void bind_result(pybind11::module_& module);

@@ -251,16 +251,18 @@ std::string range_text(const Setting& setting, const T& /*value*/) {
 
 }  // namespace
 
-PipelineConfig config_of(py::handle config, py::handle preset, const py::dict& settings) {
-  StreamConfig defaults;
+PipelineConfig config_of(py::handle config, py::handle preset, const py::dict& settings,
+                         const PipelineConfig& defaults) {
+  StreamConfig stream;
+  stream.pipeline = defaults;
   if (!preset.is_none()) {
     try {
-      apply_preset(text(preset, "preset"), defaults.pipeline);
+      apply_preset(text(preset, "preset"), stream.pipeline);
     } catch (const std::invalid_argument& error) {
       raise_value_error("preset", error.what());
     }
   }
-  return read_dict(settings, read_config(config, defaults)).pipeline;
+  return read_dict(settings, read_config(config, stream)).pipeline;
 }
 
 py::dict dict_of(const PipelineConfig& config) {

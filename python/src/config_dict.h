@@ -16,10 +16,12 @@ using namespace detail;
 /// - `config` is None, a dict, the text of a configuration file, or the path of a configuration file.
 /// - `preset` is None or a name. Settings in `config` override the preset.
 /// - `settings` is a dict that overrides `config` and `preset`.
+/// - `defaults` are the settings that none of them has.
 ///
 /// For unknown keys and invalid values, raises a ValueError with the message of the configuration file's
 /// parser.
-PipelineConfig config_of(pybind11::handle config, pybind11::handle preset, const pybind11::dict& settings);
+PipelineConfig config_of(pybind11::handle config, pybind11::handle preset, const pybind11::dict& settings,
+                         const PipelineConfig& defaults = {});
 
 /// Returns all settings as a dict that config_of() accepts.
 pybind11::dict dict_of(const PipelineConfig& config);

@@ -41,8 +41,8 @@ PYBIND11_MODULE(_pcl_bv, module) {
   options.disable_function_signatures();
   pybind11::register_local_exception_translator(translate);
   module.attr("__version__") = PCL_BV_VERSION;
-  for (const auto bind : {bind_volumes, bind_shapes, bind_fit, bind_partial, bind_segmentation, bind_result,
-                          bind_pipeline, bind_picture, bind_read})
+  for (const auto bind : {bind_volumes, bind_shapes, bind_fit, bind_partial, bind_object_shares,
+                          bind_segmentation, bind_result, bind_pipeline, bind_picture, bind_read})
     bind(module);
 #if defined(PCL_BV_GPU)
   bind_gpu(module);

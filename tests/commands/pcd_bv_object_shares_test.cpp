@@ -74,24 +74,37 @@ TEST_F(PcdBvObjectShares, AreFittedAgainForOtherVolumesAndChecked) {
             objects(same, {"--together", "--check"}, folder).out);
 }
 
-TEST_F(PcdBvObjectShares, OfIndependentInputsAreOneCloudInTheOrderOfTheFiles) {
+TEST_F(PcdBvObjectShares, OfIndependentInputsAreOneCloudInTheOrderOfTheirNames) {
   const Points points = yard(2);
   const std::vector<std::string> options = {"--cluster", "0.4", "--volume", "aabb,obb-lshape"};
-  const std::size_t half = points.size() / 2;
-  const std::string a = binary("a.pcd", Points(points.begin(), points.begin() + half));
-  const std::string b = binary("b.pcd", Points(points.begin() + half, points.end()));
-  shares("parts/0", 1, options, {a});
-  shares("parts/1", 2, options, {b});
-  std::vector<std::string> all = {"--merge", "--format", "jsonl"};
-  all.insert(all.end(), options.begin(), options.end());
-  for (const char* const part : {"parts/0/0", "parts/1/1", "parts/1/0"})
-    all.push_back(at(part));
-  const Result merged = run(all);
-  EXPECT_EQ(merged.status, 0) << merged.err;
+  const std::size_t third = points.size() / 3;
   std::vector<std::string> together = {"--together", "--format", "jsonl"};
   together.insert(together.end(), options.begin(), options.end());
-  together.insert(together.end(), {a, b});
-  EXPECT_EQ(merged.out, run(together).out);
+  for (const std::size_t i : {0UL, 1UL, 2UL}) {
+    const std::string tile = i == 2 ? "t10" : "t" + std::to_string(i + 1);
+    together.push_back(binary(
+        tile + ".pcd",
+        Points(points.begin() + static_cast<std::ptrdiff_t>(i * third),
+               i == 2 ? points.end() : points.begin() + static_cast<std::ptrdiff_t>((i + 1) * third))));
+    shares("parts/" + tile, i + 1, options, {together.back()});
+  }
+  std::vector<std::string> parts = {"t1/0", "t2/0", "t2/1", "t10/0", "t10/1", "t10/2"};
+  const std::string expected = run(together).out;
+  std::mt19937 random(2);
+  for (int order = 0; order < 4; ++order) {
+    std::shuffle(parts.begin(), parts.end(), random);
+    const std::string pair = at("pair" + std::to_string(order));
+    const Result paired = run(
+        {"--merge", "--partial", pair, "--cluster", "0.4", at("parts/" + parts[0]), at("parts/" + parts[1])});
+    EXPECT_EQ(paired.status, 0) << paired.err;
+    std::vector<std::string> all = {"--merge", "--format", "jsonl", pair};
+    all.insert(all.end(), options.begin(), options.end());
+    for (std::size_t i = 2; i < parts.size(); ++i)
+      all.push_back(at("parts/" + parts[i]));
+    const Result merged = run(all);
+    EXPECT_EQ(merged.status, 0) << merged.err;
+    EXPECT_TRUE(merged.out == expected) << order;
+  }
 }
 
 TEST_F(PcdBvObjectShares, MergeToOneFileThatMergesAgain) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tiled_maps.h"
@@ -77,6 +78,51 @@ TEST_F(PcdBvShareGround, LeavesTheObjectsAndLabelsOfOneProcess) {
   }
 }
 
+TEST_F(PcdBvShareGround, HasTheSameBytesForAnyThreadsAndOrderOfPoints) {
+  Map map = town(3, 200'000);
+  const std::string tiles = pcd_tiles("tiles", map, 1);
+  std::reverse(map.begin(), map.end());
+  const std::string reversed = pcd_tiles("reversed", map, 1);
+  const auto ground = [&](const std::string& name, const std::string& threads, const std::string& input) {
+    const Result result = run({"--partial", at(name), "--ground", "slope", "--threads", threads, input});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_file(at(name));
+  };
+  const std::string expected = ground("g", "1", tiles);
+  EXPECT_GT(expected.size(), 6400 * 16U);
+  EXPECT_TRUE(ground("g8", "8", tiles) == expected);
+  EXPECT_TRUE(ground("again", "8", tiles) == expected);
+  EXPECT_TRUE(ground("reversed_g", "1", reversed) == expected);
+}
+
+TEST_F(PcdBvShareGround, NamesAShareWithPointsThatItLacks) {
+  Map map = town(5, 20'000);
+  const std::string tiles = pcd_tiles("tiles", map, 3);
+  const std::string ground = shares("ground", 2, {"--ground", "slope"}, {tiles});
+  map.back().at[0] += 500;
+  pcd_tiles("tiles", map, 3);
+  const Result result =
+      run({"--partial", at("p"), "--cluster", "0.5", "--ground", "slope", "--ground-parts", ground, tiles});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.error_lines(), 1U) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("/p: the inputs have changed since --ground-parts were made"));
+  EXPECT_FALSE(std::filesystem::exists(at("p")));
+}
+
+TEST_F(PcdBvShareGround, IsWarnedOfIfAllPointsAreGround) {
+  Map map;
+  for (int i = 0; i < 4000; ++i)
+    map.push_back({{static_cast<float>(i % 80), static_cast<float>(i / 80), 0}, 2});
+  const std::string tiles = pcd_tiles("tiles", map, 2);
+  const std::vector<std::string> clusters = {"--cluster", "0.5"}, ground = {"--ground", "slope"};
+  const std::string parts = shares_above_ground("parts", 2, 2, ground, clusters, tiles);
+  const Result merged = objects(with(clusters, ground), {"--merge"}, parts);
+  const Result together = objects(with(clusters, ground), {"--together"}, tiles);
+  EXPECT_THAT(merged.err, HasSubstr("together: all points were classified as ground (up is z): try --up"));
+  EXPECT_EQ(merged.err, together.err);
+  EXPECT_EQ(merged.status, 0);
+}
+
 TEST_F(PcdBvShareGround, NamesFilesOfTheGroundThatCannotBeUsed) {
   const Map map = town(5, 20'000);
   const std::vector<std::string> ground = {"--ground", "slope"};
@@ -113,6 +159,10 @@ TEST_F(PcdBvShareGround, NamesFilesOfTheGroundThatCannotBeUsed) {
   const Result merged = run({"--merge", missing});
   EXPECT_EQ(merged.status, 1);
   EXPECT_THAT(merged.err, HasSubstr("missing/1: has the ground of a share: name it by --ground-parts"));
+  const Result with_clusters = run({"--merge", "--cluster", "0.5", missing});
+  EXPECT_EQ(with_clusters.status, 1);
+  EXPECT_THAT(with_clusters.err,
+              HasSubstr("missing/1: has the ground of a share: name it by --ground-parts"));
 }
 
 TEST_F(PcdBvShareGround, NamesSharesThatDoNotBelongTogether) {
@@ -132,7 +182,7 @@ TEST_F(PcdBvShareGround, NamesSharesThatDoNotBelongTogether) {
   changed[0].at[2] -= 3;
   pcd_tiles("tiles", changed, 3);
   std::filesystem::rename(shares_above_ground("new", 2, 2, ground, clusters, tiles) + "/1", parts + "/1");
-  expect_error(with(clusters, ground), "parts/1: has another ground than the files before");
+  expect_error(with(clusters, ground), "parts/1: was made with other --ground-parts than the files before");
 }
 
 TEST_F(PcdBvShareGround, ThatIsDamagedIsNamedWithTheInputsThatLackIt) {
@@ -167,6 +217,8 @@ TEST_F(PcdBvShareGround, IsAskedForOnlyWhereItIsNeeded) {
   refuses({"--partial", p, "--cluster", "1", "--ground", "slope"}, "--ground slope needs --ground-parts");
   refuses({"--partial", p, "--cluster", "1", "--ground-parts", g}, "--ground-parts: only useful with");
   refuses({"--partial", p, "--ground", "slope", "--ground-parts", g}, "--ground-parts: only useful with");
+  refuses({"--partial", p, "--ground", "slope", "--volume", "aabb"},
+          "--partial --ground slope: cannot be combined with --volume");
   refuses({"--partial", p, "--ground", "zones"}, "--partial: cannot be combined with --ground");
   refuses({"--merge", "--ground", "slope"}, "--merge: cannot be combined with --ground");
   const Result overwritten =

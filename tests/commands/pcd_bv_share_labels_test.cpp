@@ -105,11 +105,11 @@ TEST_F(PcdBvShareLabels, OfInputsWithAnyBytesInTheirNamesAreThoseOfOneProcess) {
 TEST_F(PcdBvShareLabels, OfIndependentInputsAreThoseOfOneCloud) {
   const Points points = yard(2);
   const auto half = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
-  const std::string a = binary("a.pcd", Points(points.begin(), half)),
-                    b = binary("b.pcd", Points(half, points.end()));
+  const std::string a = binary("9.pcd", Points(points.begin(), half)),
+                    b = binary("10.pcd", Points(half, points.end()));
   const std::vector<std::string> options = {"--cluster", "0.4"};
-  const std::string parts = shares("parts", 1, options, {a});
-  std::filesystem::rename(shares("more", 1, options, {b}) + "/0", parts + "/1");
+  const std::string parts = shares("parts", 1, options, {b});
+  std::filesystem::rename(shares("more", 1, options, {a}) + "/0", parts + "/1");
   EXPECT_EQ(run({"--merge", "--partial", at("all"), "--cluster", "0.4", parts}).status, 0);
   EXPECT_EQ(objects(options, {"--together", "--labels", at("expected"), a}, b).status, 0);
   for (const std::string& input : {parts, at("all")}) {
@@ -160,12 +160,12 @@ TEST_F(PcdBvShareLabels, AreRefusedBeforeTheWorkIfFilesWouldBeLost) {
   };
   const std::string parts = shares("parts", 2, options, {folder});
   expect_error(parts, at("l.pcd"), 2, "is no folder, which --merge needs");
-  expect_error(parts, folder, 1, "is an input and would be overwritten");
-  expect_error(shares("same", 1, options, {folder, other}), at("labels"), 1, "more than one result");
+  expect_error(parts, folder, 2, "is an input and would be overwritten");
+  expect_error(shares("same", 1, options, {folder, other}), at("labels"), 2, "more than one result");
   std::filesystem::rename(parts + "/0", parts + "/00.pcd");
-  expect_error(parts, parts, 1, "is an input and would be overwritten");
+  expect_error(parts, parts, 2, "is an input and would be overwritten");
   remove_inputs(parts + "/1");
-  expect_error(parts, at("labels"), 1, "parts/1: an older version wrote it, without its inputs");
+  expect_error(parts, at("labels"), 1, "parts/1: was written by an older version, without the paths of its");
   EXPECT_EQ(objects(options, {"--merge"}, parts).status, 0);
   EXPECT_FALSE(std::filesystem::exists(at("labels")));
 }

@@ -50,6 +50,7 @@ TEST_F(PcdBvTiledObjects, OfAnInputThatFailsAreLeftOut) {
   expect_bad_tiles_named(result, "tiles");
   Json report = result.json();
   EXPECT_EQ(report["parts"], 8);
+  expect_bad_tiles_listed(report, "tiles");
   EXPECT_TRUE(report["clusters"] == expected["clusters"]);
   EXPECT_TRUE(report["counts"] == expected["counts"]);
 }

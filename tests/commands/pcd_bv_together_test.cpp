@@ -159,6 +159,7 @@ TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {
   expect_bad_tiles_named(result, "tiles");
   Json report = result.json();
   EXPECT_EQ(report["parts"], 8);
+  expect_bad_tiles_listed(report, "tiles");
   EXPECT_TRUE(report["clusters"] == expected["clusters"]);
   EXPECT_EQ(report["points"], 60'000);
 
@@ -250,7 +251,9 @@ TEST_F(PcdBvMerge, RefusesSharesThatAreMissingTwiceOrOfAnotherCloud) {
   expect_refused({files_[0], files_[1], files_[1]}, "is the same file given twice?");
   const std::string other = binary("other.pcd", gaussian(70'000, 13));
   ASSERT_EQ(run({"--partial", at("other"), "--part", "1/2", other}).status, 0);
-  expect_refused({files_[0], at("other")}, "is a share of another cloud");
+  expect_refused({files_[0], at("other")},
+                 "shares are missing: points 0 to 32768 of 70000 of the inputs that "
+                 "begin with 'other.pcd'. The files are shares of 2 clouds");
   ASSERT_EQ(run({"--partial", at("moved"), "--part", "1/2", "--origin", "1,2,3", whole_}).status, 0);
   expect_refused({files_[0], at("moved")}, "another --origin");
   ASSERT_EQ(run({"--partial", at("near"), "--part", "1/2", "--range", "0:1", whole_}).status, 0);
@@ -264,7 +267,7 @@ TEST_F(PcdBvMerge, RefusesFilesThatAreCutChangedNewerOrNone) {
   bad[good.size() / 2] = static_cast<char>(bad[good.size() / 2] ^ 1);
   expect_refused({file("bad", bad), files_[1]}, "bad: is damaged");
   std::string newer = good;
-  newer[std::string("pcl_bv partial results ").size()] = '2';
+  newer[std::string("pcl_bv partial results ").size()] = '3';
   expect_refused({file("newer", newer), files_[1]}, "newer: was written by another version");
   expect_refused({whole_, files_[1]}, "whole.pcd: is no file of partial results");
   expect_refused({at("nowhere"), files_[1]}, "nowhere: ");

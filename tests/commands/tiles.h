@@ -124,6 +124,14 @@ class Tiled : public PcdBv {
               static_cast<std::ptrdiff_t>(count));
   }
 
+  /// Expects the inputs of add_bad_tiles() in a report, with the reasons.
+  void expect_bad_tiles_listed(const Json& report, const std::string& folder) const {
+    ASSERT_EQ(report["left_out"].size(), 2U);
+    EXPECT_EQ(report["left_out"][0]["file"], at(folder + "/00a.pcd"));
+    EXPECT_EQ(report["left_out"][1]["file"], at(folder + "/99.pcd"));
+    EXPECT_NE(report["left_out"][0]["error"], "");
+  }
+
   /// What a report says of the cloud, whatever it is called.
   static Json found(const Result& result) {
     EXPECT_EQ(result.status, 0) << result.err;

@@ -26,8 +26,8 @@ std::string with_check_sum(std::string text) {
 // What is read is written as it was, but for the form of the heading.
 void check(std::string_view content) {
   try {
-    const std::string again = partial_file_content(parse_partial_file(content));
-    if (partial_file_content(parse_partial_file(again)) != again) std::abort();
+    const std::string again = merged_clouds_content(parse_merged_clouds(content));
+    if (merged_clouds_content(parse_merged_clouds(again)) != again) std::abort();
   } catch (const pcl_bv::IoError&) {
   }
 }

@@ -5,11 +5,16 @@
 #include <cstdlib>
 
 #include "pcl_bv/fitting/partial.h"
+#include "pcl_bv/fitting/partial_clouds.h"
 #include "pcl_bv/kernels/moments.h"
 
 namespace pcl_bv {
 
 void Partial::merge(const Partial&) {
+  std::abort();
+}
+
+Partial detail::join_clouds(const std::vector<Partial>&) {
   std::abort();
 }
 

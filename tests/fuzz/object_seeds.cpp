@@ -8,6 +8,7 @@
 
 #include "object_parts.h"
 #include "pcl_bv/points/point_source.h"
+#include "pcl_bv/report/ground_file.h"
 #include "pcl_bv/report/object_file.h"
 
 namespace {
@@ -58,9 +59,27 @@ std::string shares_of(const PointView& all, std::size_t count, const ObjectChoic
   return shares;
 }
 
+void write_grounds(const fs::path& folder) {
+  const std::vector<LowestPoint> cells = {{-3, 7, 2.5}, {4, 7, -1}, {0, -2, 0.25}, {1, 1, 0}};
+  LowestPoints lowest{GroundSlopeOptions()};
+  GroundBounds bounds;
+  for (const LowestPoint& cell : cells) {
+    lowest.add(cell);
+    bounds.add(cell);
+  }
+  GroundFileHeader header{{}, "o"};
+  header.cloud.cloud_points = 9;
+  header.cloud.shares = {{2, 8}};
+  write_ground_file(folder / "file", FileLife::temporary, header, lowest);
+  std::ofstream(folder / "cells", std::ios::binary)
+      << std::string(reinterpret_cast<const char*>(&bounds), sizeof bounds)
+      << std::string(reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(LowestPoint));
+}
+
 }  // namespace
 
 void write_objects(const fs::path& folder) {
+  write_grounds(folder / "ground");
   const fs::path objects = folder / "objects", file = folder / "share";
   const auto write = [&](const std::string& name, unsigned byte, const std::string& shares) {
     std::ofstream(objects / name, std::ios::binary) << static_cast<char>(byte) << shares;

@@ -5,5 +5,5 @@
 
 #include <filesystem>
 
-/// Writes files of objects, as fuzz_objects wants them.
+/// Writes files of objects, as fuzz_objects wants them, and of the ground, as fuzz_ground wants them.
 void write_objects(const std::filesystem::path& folder);

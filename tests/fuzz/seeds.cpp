@@ -292,7 +292,8 @@ int main(int count, char** arguments) {
   for (const char* name :
        {"pcd",    "ply",   "lzf",     "bin",        "number",     "text",    "mcap",   "bag",   "packets",
         "ouster", "hesai", "partial", "cloud",      "compressed", "live",    "nested", "tiles", "labels",
-        "npy",    "npz",   "table",   "transforms", "urdf",       "objects", "las"})
+        "npy",    "npz",   "table",   "transforms", "urdf",       "objects", "las",
+        "ground"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);

@@ -129,6 +129,7 @@ TEST_F(Mpi, LeavesOutAnInputThatFailsOnOneRankAndNamesItOnce) {
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.json()["clusters"], expected["clusters"]);
     EXPECT_EQ(result.json()["parts"], 8);
+    EXPECT_EQ(result.json()["left_out"].size(), 2U);
     for (const char* name : {"tiles/99.pcd: ", "tiles/00a.pcd: "}) {
       EXPECT_THAT(result.err, HasSubstr(name));
       EXPECT_EQ(result.err.find(name), result.err.rfind(name));
@@ -238,6 +239,33 @@ TEST_F(Mpi, ObjectsAboveTheGroundHaveTheBytesOfOneProcess) {
     EXPECT_THAT(result.err, HasSubstr(folder + "/00a.pcd: "));
     EXPECT_TRUE(result.out == expected.out) << count << " ranks";
     expect_same_files(at("labels"), at("expected"), 9);
+  }
+}
+
+TEST_F(Mpi, ObjectsAboveTheGroundAreWarnedOfIfAllPointsAreGround) {
+  Points flat;
+  for (int i = 0; i < 4000; ++i)
+    flat.push_back({static_cast<float>(i % 80), static_cast<float>(i / 80), 0});
+  const Result result =
+      ranks(2, {"--together", "--cluster", "0.5", "--ground", "slope", tiles("flat", flat, 2)});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.error_lines(), 1U) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("all points were classified as ground (up is z): try --up"));
+}
+
+TEST_F(Mpi, ObjectsSayWhatTheyCostOnOneLine) {
+  const std::string folder = tiles("tiles", yard(1), 9);
+  for (const int count : {1, 3}) {
+    const Result result =
+        ranks(count, {"--together", "--timings", "--format", "jsonl", "--cluster", "0.4", folder});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.error_lines(), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(std::to_string(count) + " ranks: "));
+    const std::string messages = count == 1 ? ", 0 messages with 0 bytes" : "[1-9][0-9]* messages with [1-9]";
+    EXPECT_THAT(result.err, testing::ContainsRegex(" s wall time, [0-9.]+ s CPU time"));
+    EXPECT_THAT(result.err, testing::ContainsRegex(messages));
+    EXPECT_THAT(result.err, testing::ContainsRegex("maximum memory of a rank [1-9][0-9]* KiB"));
+    EXPECT_TRUE(result.json().contains("seconds"));
   }
 }
 

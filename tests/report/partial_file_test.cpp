@@ -121,5 +121,68 @@ TEST(PartialFile, TellsInputsApartByNamePointsAndOrder) {
   EXPECT_NE(hash({{"a", 1}}), hash({{"c", 1}}));
 }
 
+PartialFile independent(const char* name, std::size_t count) {
+  const std::vector<float> xyz = points(count);
+  PartialFile file;
+  file.add_input(name, count);
+  if (count > 0) file.shares = {{0, count}};
+  file.partial = Partial(PointView::of(xyz.data(), 12, count));
+  return file;
+}
+
+TEST(MergedClouds, DependOnTheirSharesOnly) {
+  const std::vector<PartialFile> files = {independent("t2.pcd", 5000), independent("t10.pcd", 0),
+                                          independent("t1.pcd", 300), independent("t2.pcd", 100)};
+  std::string expected;
+  for (std::size_t first = 0; first < files.size(); ++first) {
+    MergedClouds all;
+    for (std::size_t i = 0; i < files.size(); ++i)
+      all.add(files[(first + i) % files.size()]);
+    EXPECT_EQ(all.points_before(files[2]), 0U);
+    EXPECT_EQ(all.points_before(files[3]), 300U);
+    EXPECT_EQ(all.points_before(files[0]), 400U);
+    EXPECT_EQ(all.points_before(files[1]), 5400U);
+    EXPECT_EQ(all.joined().cloud_points, 5400U);
+    EXPECT_EQ(all.joined().partial.size(), 5400U);
+    const std::string content = merged_clouds_content(all);
+    EXPECT_TRUE(first == 0 || content == expected) << first;
+    EXPECT_TRUE(merged_clouds_content(parse_merged_clouds(content)) == content) << first;
+    expected = content;
+    EXPECT_THROW(all.add(files[0]), std::invalid_argument);
+    EXPECT_TRUE(merged_clouds_content(all) == content) << first;
+  }
+}
+
+TEST(MergedClouds, AreRefusedIfAnyByteIsWrongOrMissing) {
+  MergedClouds all;
+  for (const char* const name : {"a.pcd", "b.pcd"})
+    all.add(independent(name, 50));
+  const std::string good = merged_clouds_content(all);
+  for (std::size_t i = 0; i < good.size(); i += 1 + i / 100) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 0x10);
+    EXPECT_THROW(parse_merged_clouds(bad), IoError) << i;
+    EXPECT_THROW(parse_merged_clouds(good.substr(0, i)), IoError) << i;
+  }
+  EXPECT_THROW(parse_merged_clouds(good + " "), IoError);
+  EXPECT_THROW(parse_merged_clouds("pcl_bv partial results 2\n{\"lengths\":[]}\n"), IoError);
+  EXPECT_THROW(parse_merged_clouds("pcl_bv partial results 2\n[]\n"), IoError);
+}
+
+// As files of earlier versions.
+TEST(MergedClouds, WithoutNamesAreSortedAndMerge) {
+  const std::vector<float> xyz = points(9000);
+  PartialFile old = share(xyz, 0, 5000);
+  old.first_input.clear();
+  MergedClouds all;
+  all.add(old);
+  all.add(independent("0.pcd", 10));
+  all.add(share(xyz, 5000, 9000));
+  all.require_whole();
+  ASSERT_EQ(all.clouds().size(), 2U);
+  EXPECT_EQ(all.clouds()[0].first_input, "0.pcd");
+  EXPECT_EQ(all.clouds()[1].first_input, "a.pcd");
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

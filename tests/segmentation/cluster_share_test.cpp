@@ -145,8 +145,10 @@ TEST(ClusterShares, WithNumbersBehindTheCloudAreNotLabelled) {
     shares.push_back(std::make_unique<MadeClusterShare>(cloud.view().slice(first, 150), options));
   StoredClusterOptions store;
   store.has_labels = true;
-  store.points_of_shares = 299;
-  EXPECT_THROW(StoredClusters(pointers(shares), options, store), ShareError);
+  for (const std::uint64_t points : {299, 1, 0}) {
+    store.points_of_shares = points;
+    EXPECT_THROW(StoredClusters(pointers(shares), options, store), ShareError);
+  }
   shares.front()->first_number = std::uint64_t{1} << 60;
   EXPECT_THROW(StoredClusters(pointers(shares), options, store), ShareError);
 }

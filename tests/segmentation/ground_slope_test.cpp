@@ -17,7 +17,7 @@ namespace {
 
 using detail::CellRange;
 using detail::cells_that_matter;
-using detail::kCellsOfHighest;
+using detail::kBoundMargin;
 using detail::LowestPoint;
 using detail::LowestPoints;
 using detail::SlopeSurface;
@@ -253,7 +253,7 @@ TEST(GroundBySlope, InARangeDependsOnlyOnTheCellsThatMatter) {
     double lowest = INFINITY, highest = -INFINITY;
     for (std::size_t i = 0; i < whole.size(); ++i) {
       lowest = std::min(lowest, whole[i].height);
-      if (cells.grown(kCellsOfHighest).contains(whole[i])) highest = std::max(highest, whole[i].height);
+      if (cells.inflated(kBoundMargin).contains(whole[i])) highest = std::max(highest, whole[i].height);
     }
     const CellRange that_matter = cells_that_matter(cells, lowest, highest, options);
     for (std::size_t i = 0; i < whole.size(); ++i)

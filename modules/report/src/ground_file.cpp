@@ -7,6 +7,7 @@
 #include <boost/crc.hpp>
 #include <cstring>
 #include <fstream>
+#include <tuple>
 #include <vector>
 
 #include "pcl_bv/io/atomic_file.h"
@@ -33,7 +34,7 @@ void require_ground(bool good, const char* what) {
 }
 
 template <typename T>
-std::string_view bytes_of_ground(const T* items, std::size_t count) {
+std::string_view bytes_of(const T* items, std::size_t count) {
   return {reinterpret_cast<const char*>(items), count * sizeof(T)};
 }
 
@@ -46,28 +47,35 @@ void write_summed(const FileSink& sink, const Write& write) {
     sink(bytes);
   });
   const std::uint32_t value = sum.checksum();
-  sink(bytes_of_ground(&value, 1));
+  sink(bytes_of(&value, 1));
+}
+
+// The cells are numbered in the order in which threads find them. Sorted, equal cells give equal bytes.
+std::vector<LowestPoint> sorted_cells(const LowestPoints& lowest) {
+  std::vector<LowestPoint> cells(lowest.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    cells[i] = lowest[i];
+  std::sort(cells.begin(), cells.end(), [](const LowestPoint& a, const LowestPoint& b) {
+    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
+  });
+  return cells;
 }
 
 void write_ground(const FileSink& sink, const GroundFileHeader& header, const LowestPoints& lowest) {
   const std::string cloud = partial_file_content(header.cloud);
-  GroundPreamble preamble{{}, header.options.size(), cloud.size(), lowest.size(), {}};
+  const std::vector<LowestPoint> cells = sorted_cells(lowest);
+  GroundPreamble preamble{{}, header.options.size(), cloud.size(), cells.size(), {}};
   std::memcpy(preamble.format, kGroundFormat, sizeof kGroundFormat);
-  for (std::size_t i = 0; i < lowest.size(); ++i)
-    preamble.bounds.add(lowest[i]);
+  for (const LowestPoint& cell : cells)
+    preamble.bounds.add(cell);
   write_summed(sink, [&](const FileSink& write) {
-    write(bytes_of_ground(&preamble, 1));
+    write(bytes_of(&preamble, 1));
     write(header.options);
     write(cloud);
   });
   write_summed(sink, [&](const FileSink& write) {
-    std::vector<LowestPoint> block;
-    for (std::size_t first = 0; first < lowest.size(); first += block.size()) {
-      block.clear();
-      for (std::size_t i = first; i < std::min(first + kLowestPerBlock, lowest.size()); ++i)
-        block.push_back(lowest[i]);
-      write(bytes_of_ground(block.data(), block.size()));
-    }
+    for (std::size_t first = 0; first < cells.size(); first += kLowestPerBlock)
+      write(bytes_of(&cells[first], std::min(kLowestPerBlock, cells.size() - first)));
   });
 }
 
@@ -81,6 +89,7 @@ void write_ground_file(const std::filesystem::path& path, FileLife life, const G
     return;
   }
   std::ofstream out(path, std::ios::binary);
+  require_ground(out.is_open(), "cannot be opened for writing");
   write_ground(
       [&](std::string_view bytes) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); },
       header, lowest);
@@ -92,6 +101,10 @@ void GroundBounds::add(const LowestPoint& point) {
   cells.merge({point.x, point.y, point.x, point.y});
   lowest = std::min(lowest, point.height);
   highest = std::max(highest, point.height);
+}
+
+bool GroundBounds::contain(const LowestPoint& point) const {
+  return cells.contains(point) && point.height >= lowest && point.height <= highest;
 }
 
 GroundFile::GroundFile(const std::filesystem::path& path) : path_(path) {
@@ -135,8 +148,10 @@ void GroundFile::read(const CellRange& cells, LowestPoints& lowest) const {
     const std::size_t bytes = block.size() * sizeof(LowestPoint);
     file.read(first_point_ + first * sizeof(LowestPoint), block.data(), bytes);
     expected.process_bytes(block.data(), bytes);
-    for (const LowestPoint& point : block)
+    for (const LowestPoint& point : block) {
+      require_ground(bounds_.contain(point), "is damaged: a cell is outside its bounds");
       if (cells.contains(point)) lowest.add(point);
+    }
   }
   require_ground(static_cast<std::uint32_t>(check_sum_) == expected.checksum(),
                  "is damaged: the checksum does not match");

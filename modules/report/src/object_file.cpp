@@ -55,14 +55,19 @@ void require_good(bool good, const char* what) {
   if (!good) throw IoError(what);
 }
 
-std::size_t points_with_ground(const ObjectFileHeader& header) {
+std::size_t ground_bit_count(const ObjectFileHeader& header) {
   if (!header.ground || header.cloud.shares.empty()) return 0;
-  return header.cloud.shares.back().second - header.cloud.shares.front().first;
+  require_good(header.cloud.shares.size() == 1, "its index is wrong");
+  return header.cloud.shares.front().second - header.cloud.shares.front().first;
+}
+
+std::uint64_t rounded_up(std::uint64_t count, std::uint64_t divisor) {
+  return count / divisor + (count % divisor == 0 ? 0 : 1);
 }
 
 // Returns the size of the first bytes of the ground that have a number of points.
 std::uint64_t ground_bytes(std::uint64_t points) {
-  return (points + 7) / 8 + (points + kGroundPoints - 1) / kGroundPoints * sizeof(std::uint32_t);
+  return rounded_up(points, 8) + rounded_up(points, kGroundPoints) * sizeof(std::uint32_t);
 }
 
 void write(std::ostream& out, std::string_view bytes) {
@@ -125,7 +130,7 @@ std::uint64_t complete_object_file(const std::filesystem::path& file, std::uint6
     texts.back().check_sum = check_sum({each});
     texts.push_back({texts.back().begin + each.size(), 0});
   }
-  const std::size_t with_ground = points_with_ground(header);
+  const std::size_t with_ground = ground_bit_count(header);
   write_ground_bits(out, ground, with_ground);
   const std::string own = object_header_text(header, share.scalar()),
                     cloud = partial_file_content(header.cloud);
@@ -154,8 +159,10 @@ ObjectFile::ObjectFile(std::shared_ptr<const InputFile> file, std::uint64_t begi
     : file_(std::move(file)), begin_(begin) {
   require_good(file_->size() - begin >= sizeof preamble_, "is truncated");
   file_->read(begin, &preamble_, sizeof preamble_);
+  require_good(std::memcmp(preamble_.format, "pcl_bv ground ", 14) != 0,
+               "has the ground of a share: name it by --ground-parts");
   require_good(std::memcmp(preamble_.format, kObjectFormat, 15) == 0,
-               "is no file of objects, as --partial writes them");
+               "is no file of objects, as --partial --cluster writes them");
   require_good(std::memcmp(preamble_.format, kObjectFormat, sizeof kObjectFormat) == 0,
                "was written by another version of pcl_bv: this one reads version 1");
   require_good(preamble_.header_bytes <= kMaxObjectHeader && preamble_.cloud_bytes <= kMaxObjectHeader &&
@@ -210,11 +217,13 @@ void ObjectFile::require_right_index() const {
             (run.component == ShareRun::kNoise || run.component < components_.size());
     left -= right ? run.points * step : 0;
   }
+  const std::uint64_t bits = ground_bit_count(header_);
+  right = right && (bits == 0 || points_in(runs_) <= bits);
   const bool sorted = std::is_sorted(texts_.begin(), texts_.end(),
                                      [](const auto& a, const auto& b) { return a.begin < b.begin; });
   require_good(right && left == 0 && sorted && texts_.front().begin == 0 &&
                    texts_.back().begin <= preamble_.text_bytes &&
-                   preamble_.text_bytes - texts_.back().begin == ground_bytes(points_with_ground(header_)),
+                   preamble_.text_bytes - texts_.back().begin == ground_bytes(bits),
                "its index is wrong");
 }
 
@@ -236,7 +245,7 @@ std::optional<std::string> ObjectFile::text(std::uint32_t component) const {
 }
 
 void ObjectFile::mark_ground(std::size_t first, std::vector<std::uint8_t>& ground) const {
-  const std::size_t points = points_with_ground(header_);
+  const std::size_t points = ground_bit_count(header_);
   if (points == 0) return;
   const std::size_t own = header_.cloud.shares.front().first;
   const std::uint64_t section = begin_ + sizeof preamble_ + preamble_.record_bytes + texts_.back().begin;

@@ -70,8 +70,8 @@ std::string object_header_text(const ObjectFileHeader& header, ScalarType scalar
                               {"dropped_class", header.dropped_class}};
   if (header.class_value) json["class"] = *header.class_value;
   if (header.ground) {
-    json["ground"] = header.ground->points;
-    json["surface"] = header.ground->check_sum;
+    json["ground_points"] = header.ground->points;
+    json["ground_parts_sum"] = header.ground->check_sum;
   }
   if (header.inputs) {
     json["bin_fields"] = header.inputs->bin_fields;
@@ -96,8 +96,9 @@ ObjectFileHeader parse_object_header(std::string_view content, ScalarType& scala
     header.volumes = json.at("volumes").get<std::string>();
     header.dropped_class = json.at("dropped_class").get<std::size_t>();
     header.inputs = inputs_of(json);
-    if (json.contains("ground"))
-      header.ground = {json.at("ground").get<std::size_t>(), json.at("surface").get<std::uint64_t>()};
+    if (json.contains("ground_points"))
+      header.ground = {json.at("ground_points").get<std::size_t>(),
+                       json.at("ground_parts_sum").get<std::uint64_t>()};
     if (json.contains("class")) header.class_value = json.at("class").get<std::int64_t>();
     return header;
   } catch (const UntrustedJson::exception&) {

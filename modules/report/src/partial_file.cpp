@@ -7,9 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/crc32.h"
-#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_json.h"
 
@@ -21,7 +19,6 @@ using Shares = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr std::string_view kFormat = "pcl_bv partial results ";
 constexpr std::string_view kVersion = "1\n";
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 std::string check_sum(std::string_view content) {
   const std::uint32_t value = crc32_of(content.data(), content.size());
@@ -76,6 +73,7 @@ PartialFile read_partial_header(std::string_view line) {
   PartialFile file;
   file.inputs_hash = unsigned_integer(json.at("inputs_hash"));
   file.inputs = unsigned_integer(json.at("inputs"));
+  if (json.contains("first_input")) file.first_input = json.at("first_input").get<std::string>();
   file.cloud_points = unsigned_integer(json.at("cloud_points"));
   if (json.contains("origin")) {
     file.origin.emplace();
@@ -105,14 +103,16 @@ void PartialFile::add_input(std::string_view name, std::size_t points) {
     add(static_cast<unsigned char>(c));
   for (std::size_t i = 0; i <= 8; ++i)  // a zero byte ends the name; 8 bytes of the number follow
     add(i == 0 ? 0 : static_cast<unsigned char>(points >> (8 * (i - 1))));
-  ++inputs;
+  if (inputs++ == 0) first_input = name;
   cloud_points += points;
 }
 
+bool PartialFile::has_inputs_of(const PartialFile& other) const {
+  return inputs_hash == other.inputs_hash && inputs == other.inputs && cloud_points == other.cloud_points;
+}
+
 void PartialFile::merge(const PartialFile& other) {
-  require_same(
-      inputs_hash == other.inputs_hash && inputs == other.inputs && cloud_points == other.cloud_points,
-      "is a share of another cloud: the inputs were not the same");
+  require_same(has_inputs_of(other), "is a share of another cloud: the inputs were not the same");
   require_same(origin == other.origin, "is a share with another --origin");
   require_same(filter == other.filter, "is a share with another --range or other regions");
   Shares all = united_shares(shares, other.shares);
@@ -120,6 +120,7 @@ void PartialFile::merge(const PartialFile& other) {
   shares = std::move(all);
   counts.range += other.counts.range;
   counts.inside += other.counts.inside;
+  if (first_input.empty()) first_input = other.first_input;
 }
 
 bool PartialFile::is_whole() const {
@@ -144,6 +145,7 @@ std::string PartialFile::missing() const {
 std::string partial_file_content(const PartialFile& file) {
   nlohmann::ordered_json json{
       {"inputs", file.inputs}, {"inputs_hash", file.inputs_hash}, {"cloud_points", file.cloud_points}};
+  if (!file.first_input.empty()) json["first_input"] = file.first_input;
   if (file.origin) json["origin"] = {(*file.origin)[0], (*file.origin)[1], (*file.origin)[2]};
   json["filter"] = file.filter;
   json["range"] = file.counts.range;
@@ -163,7 +165,8 @@ PartialFile parse_partial_file(std::string_view content, bool has_partial) {
   require(content.starts_with(kFormat), "is no file of partial results, as --partial writes them");
   std::string_view rest = content.substr(kFormat.size());
   require(rest.size() > 6, "is truncated");
-  require(rest.starts_with(kVersion), "was written by another version of pcl_bv: this one reads version 1");
+  require(rest.starts_with(kVersion),
+          "was written by another version of pcl_bv: this one reads versions 1 and 2");
   const std::size_t sum = 4;
   require(content.substr(content.size() - sum) == check_sum(content.substr(0, content.size() - sum)),
           "is damaged: the checksum does not match");
@@ -181,19 +184,6 @@ PartialFile parse_partial_file(std::string_view content, bool has_partial) {
   } catch (const std::invalid_argument& error) {
     throw IoError(error.what());
   }
-}
-
-void write_partial_file(const std::filesystem::path& path, const PartialFile& file) {
-  create_parent_folders(path);
-  write_file_atomically(path, partial_file_content(file));
-}
-
-PartialFile read_partial_file(const std::filesystem::path& path) {
-  const InputFile file(path);
-  require(file.size() <= kMaxFileBytes, "is too large for partial results (files of objects need --cluster)");
-  std::string content(file.size(), '\0');
-  file.read(0, content.data(), content.size());
-  return parse_partial_file(content);
 }
 
 }  // namespace pcl_bv::detail

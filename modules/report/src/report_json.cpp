@@ -156,6 +156,12 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
     return take(text);
   }
   if (report.parts) json.add("parts", *report.parts);
+  if (!report.left_out.empty()) {
+    json.key("left_out").begin('[');
+    for (const LeftOutInput& input : report.left_out)
+      json.begin('{').add("file", input.file).add("error", input.error).end('}');
+    json.end(']');
+  }
   json.add("points", report.points);
   if (report.origin) json.add("origin", *report.origin);
   add_counts(report.counts, json);

@@ -86,24 +86,24 @@ void CellRange::merge(const CellRange& other) {
   max_y = std::max(max_y, other.max_y);
 }
 
-CellRange CellRange::grown(double cells) const {
+CellRange CellRange::inflated(double cells) const {
   if (empty()) return {};
   return {cell_of(min_x - cells), cell_of(min_y - cells), cell_of(max_x + cells), cell_of(max_y + cells)};
 }
 
 // The surface in a cell is the lowest of the cones on the cells that are no outliers. In the range and next
 // to it, it is at most `highest` plus the rise over kFarFromOutlier cells: a cell is the source of a cone
-// itself, or there is a source at most so far away. A cone that is `reach` away is higher. Whether a cell is
-// an outlier depends on cells within kFarFromOutlier, and on the sizes of their patches up to kPatchCells
-// cells, each at most kLinkedCells from the one before.
+// itself, or there is a source at most so far away. A cone that is farther away than `max_distance` is not
+// lower. Whether a cell is an outlier depends on cells within kFarFromOutlier, and on the sizes of their
+// patches up to kPatchCells cells, each at most kLinkedCells from the one before.
 CellRange cells_that_matter(const CellRange& range, double lowest, double highest,
                             const GroundSlopeOptions& options) {
   const FloatEnvironment environment;
-  static_assert(kCellsOfHighest >= kFarFromOutlier + 1);
+  static_assert(kBoundMargin >= kFarFromOutlier + 1);
   const double rise = rise_of(options), difference = std::max(highest - lowest, 0.0);
-  const double reach = difference > 0 ? kFarFromOutlier + difference / rise : kFarFromOutlier;
+  const double max_distance = difference > 0 ? kFarFromOutlier + difference / rise : kFarFromOutlier;
   constexpr int for_outliers = kFarFromOutlier + kPatchCells * kLinkedCells;
-  return range.grown(reach + for_outliers + 2);  // the neighbours of cells, and roundings
+  return range.inflated(max_distance + for_outliers + 2);  // the neighbours of cells, and roundings
 }
 
 struct LowestPoints::State {
@@ -201,9 +201,10 @@ std::size_t SlopeSurface::cell_count() const {
 
 // The lowest point of a cell on a slope is half a rise below the centre, along each axis. So the plane
 // through the height of the cell is raised by half its rises.
-void SlopeSurface::classify(const PointView& points, std::uint8_t* ground) const {
+std::size_t SlopeSurface::classify(const PointView& points, std::uint8_t* ground) const {
   const FloatEnvironment environment;
   const SlopeCell* cell = nullptr;
+  std::size_t outside = 0;
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates coordinates = load_point(points, i);
     ground[i] = 0;
@@ -211,7 +212,10 @@ void SlopeSurface::classify(const PointView& points, std::uint8_t* ground) const
     const GridPoint p = state_->point(coordinates);
     if (cell == nullptr || cell->at.x != p.cell.x || cell->at.y != p.cell.y) {
       const std::optional<std::uint32_t> number = state_->cells.find(p.cell);
-      if (!number) continue;
+      if (!number) {
+        ++outside;
+        continue;
+      }
       cell = &state_->cells[*number];
     }
     const double x = cell->rise_x, y = cell->rise_y;
@@ -219,6 +223,7 @@ void SlopeSurface::classify(const PointView& points, std::uint8_t* ground) const
         (cell->height + 0.5 * (std::abs(x) + std::abs(y))) + (x * p.in_cell_x + y * p.in_cell_y);
     ground[i] = p.height - surface <= state_->distance ? 1 : 0;
   }
+  return outside;
 }
 
 }  // namespace pcl_bv::detail

@@ -9,13 +9,10 @@
 #include <new>
 #include <utility>
 
-#include "commands/shared/interruption.h"
-#include "commands/shared/messages.h"
 #include "object_texts.h"
 #include "pcl_bv/report/ground_file.h"
 #include "pipeline/ground.h"
-#include "shares.h"
-#include "tile_progress.h"
+#include "share_points.h"
 
 namespace pcl_bv::detail {
 
@@ -62,7 +59,7 @@ CellRange cells_for_share(const GroundFiles& files, const PointRange& share,
   const CellRange own = cells_of_share(files, share);
   double highest = -std::numeric_limits<double>::infinity();
   for (const auto& file : files)
-    if (file->bounds().cells.intersects(own.grown(kCellsOfHighest)))
+    if (file->bounds().cells.intersects(own.inflated(kBoundMargin)))
       highest = std::max(highest, file->bounds().highest);
   CellRange all;
   for (const auto& file : files) {  // the low points of a file that is too far away do not matter
@@ -108,22 +105,6 @@ CloudGround read_ground_parts(const Tiles& tiles, const ShareOption& share, cons
     files.push_back(job.input);
   }
   return read_ground_parts(tiles, share, options, files);
-}
-
-Status make_ground_part(const Job& job, const Options& options) {
-  const Interruption interruption([] {});
-  if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
-  const TileProgress progress(*job.tiles, options);
-  try {
-    write_ground_part(*job.tiles, options.share, options, *options.partial, FileLife::lasting);
-    report_notes(*job.tiles);
-    return Status::done;
-  } catch (const TileError& error) {
-    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
-  } catch (const IoError& error) {
-    report_problem(options.partial->string() + ": " + error.what());
-  }
-  return Status::failed;
 }
 
 }  // namespace pcl_bv::detail

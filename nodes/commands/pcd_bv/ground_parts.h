@@ -14,7 +14,6 @@
 #include "options.h"
 #include "pcl_bv/report/object_file.h"
 #include "pcl_bv/segmentation/slope_surface.h"
-#include "status.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
@@ -35,8 +34,5 @@ CloudGround read_ground_parts(const Tiles& tiles, const ShareOption& share, cons
                               const std::vector<std::string>& files);
 /// As above, for the files of --ground-parts.
 CloudGround read_ground_parts(const Tiles& tiles, const ShareOption& share, const Options& options);
-
-/// Writes the file of --partial with the ground of a share. Reports problems.
-Status make_ground_part(const Job& job, const Options& options);
 
 }  // namespace pcl_bv::detail

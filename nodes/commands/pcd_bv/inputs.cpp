@@ -115,11 +115,7 @@ Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<
     for (const Job& input : inputs)
       job.partials.push_back(input.input);
   } else {
-    std::vector<TileHeader> headers(inputs.size());
-    for_each_chunk(options.pipeline.execution().parallel, inputs.size(),
-                   [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
-    job.tiles = std::make_shared<Tiles>(std::move(inputs), std::move(headers),
-                                        thread_count(options.pipeline.execution().parallel));
+    job.tiles = open_tiles(std::move(inputs), options.pipeline.execution().parallel);
   }
   return job;
 }
@@ -155,6 +151,12 @@ std::vector<Job> list_inputs(const Options& options) {
 
 fs::path label_file(const fs::path& folder, const std::string& input) {
   return folder / (stem(input) + ".pcd");
+}
+
+std::shared_ptr<Tiles> open_tiles(std::vector<Job> inputs, const ParallelPolicy& policy) {
+  std::vector<TileHeader> headers(inputs.size());
+  for_each_chunk(policy, inputs.size(), [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
+  return std::make_shared<Tiles>(std::move(inputs), std::move(headers), thread_count(policy));
 }
 
 namespace {

@@ -45,6 +45,9 @@ bool is_synth(const std::string& input);
 /// Returns all inputs as jobs without output files. Folders are expanded in natural order.
 std::vector<Job> list_inputs(const Options& options);
 
+/// Returns a tiled cloud of the inputs, whose headers are read.
+std::shared_ptr<Tiles> open_tiles(std::vector<Job> inputs, const ParallelPolicy& policy);
+
 /// Returns the jobs with their output files. There is one job for each input, or one job for all inputs
 /// (--together, --merge). A tiled cloud consists of `tiles`. If `tiles` is null, the headers of the inputs
 /// are read to create the tiles. Throws UsageError if two results would go to the same file or an input would

@@ -4,11 +4,11 @@
 #include "mode_options.h"
 
 #include <filesystem>
-#include <limits>
 #include <vector>
 
 #include "commands/shared/values.h"
 #include "pcl_bv/fitting/partial.h"
+#include "tiled_settings.h"
 
 namespace pcl_bv::detail {
 
@@ -24,26 +24,17 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   const bool over_ranks = command == PcdBvCommand::mpi;
   if (options.partial || !options.clusters()) reject_combinations(line, option, {"--labels"});
-  const auto reject = [&](bool given, const char* what) {
+  const auto reject = [&](bool given, const std::string& what) {
     if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
-  const bool ground = config.ground.method != GroundMethod::none;
-  const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   if (options.clusters()) {
     const std::string with_clusters = std::string(option) + " --cluster";
     reject_combinations(line, with_clusters.c_str(), {"--image", "--view-html"});
     if (!over_ranks) reject_combinations(line, with_clusters.c_str(), {"--gpu"});
-    reject(ground && config.ground.method != GroundMethod::slope,
-           "--ground plane or zones (ground.method), only with --ground slope");
-    reject(config.cluster.tolerance_per_metre > 0, "a tolerance that grows with range");
-    reject(config.cluster.oversized == Oversized::split, "--oversized split");
-    reject(config.track.enabled, "track.enabled");
-    reject(config.effective_refine() != Refine::off, "cluster.refine");
-  } else {
-    reject(ground && !options.writes_ground_part(), "--ground (ground.method)");
-    reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
-           "cluster.min_size or max_size");
   }
+  const std::string setting =
+      setting_not_for_tiles(config, options.clusters() || options.writes_ground_part());
+  reject(!setting.empty(), setting);
   reject(over_ranks && options.clusters() && options.origin.requested && !options.origin.at,
          "--origin auto and --cluster over ranks");
   if (!options.merge && !options.partial) return;
@@ -55,6 +46,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options, Pcd
                          "--bin-fields", "--columns", "--topic"});
   if (options.partial)
     reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
+  if (options.writes_ground_part()) reject_combinations(line, "--partial --ground slope", {"--volume"});
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
   const bool all_methods = options.clusters() || options.writes_ground_part();

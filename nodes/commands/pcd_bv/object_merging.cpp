@@ -17,56 +17,18 @@
 #include "object_shares.h"
 #include "object_texts.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "process.h"
 #include "share_inputs.h"
 #include "stopwatch.h"
 
 namespace pcl_bv::detail {
 namespace {
 
-// Clouds of files that were made independently. They are parts of one cloud in the order of the files.
-class MergedClouds {
- public:
-  /// Throws std::invalid_argument if the share does not belong to the others.
-  void add(const ObjectFileHeader& header) {
-    const PartialFile& cloud = header.cloud;
-    if (!clouds_.empty() && cloud.origin != clouds_.front().origin)
-      throw std::invalid_argument("is a share with another --origin");
-    if (!clouds_.empty() && cloud.filter != clouds_.front().filter)
-      throw std::invalid_argument("is a share with another --range or other regions");
-    const auto same = std::find_if(clouds_.begin(), clouds_.end(), [&](const PartialFile& other) {
-      return other.inputs_hash == cloud.inputs_hash && other.cloud_points == cloud.cloud_points;
-    });
-    if (same == clouds_.end())
-      clouds_.push_back(cloud);
-    else
-      same->merge(cloud);
-  }
-
-  /// Returns the number of points of all clouds before that of a share.
-  std::size_t points_before(const ObjectFileHeader& header) const {
-    std::size_t points = 0;
-    for (const PartialFile& cloud : clouds_) {
-      if (cloud.inputs_hash == header.cloud.inputs_hash && cloud.cloud_points == header.cloud.cloud_points)
-        return points;
-      points += cloud.cloud_points;
-    }
-    return points;
-  }
-
-  const std::vector<PartialFile>& clouds() const { return clouds_; }
-
- private:
-  std::vector<PartialFile> clouds_;
-};
-
 bool have_same_ground(const ObjectFileHeader& a, const ObjectFileHeader& b) {
   return a.ground ? b.ground && a.ground->check_sum == b.ground->check_sum : !b.ground;
 }
 
 // Opens the files. Reports each that cannot be opened or does not belong to the others; then returns false.
-bool open_files(const std::vector<std::string>& files, const Options& options, OpenShares& open,
-                MergedClouds& clouds) {
+bool open_files(const std::vector<std::string>& files, const Options& options, OpenShares& open) {
   bool good = true;
   const std::string clusters = clusters_text(options.pipeline);
   for (const std::string& name : files) {
@@ -77,8 +39,8 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
         if (!open.shares.empty() && open.shares.front()->scalar() != share->scalar())
           throw IoError("has points of another type (float32, float64) than the files before");
         if (!open.shares.empty() && !have_same_ground(open.shares.front()->header(), share->header()))
-          throw IoError("has another ground than the files before: --ground-parts were not the same");
-        clouds.add(share->header());
+          throw IoError("was made with other --ground-parts than the files before");
+        open.clouds.add(share->header().cloud);
         open.shares.push_back(std::move(share));
         open.names.push_back(name);
       }
@@ -92,10 +54,10 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
   return good;
 }
 
-void describe(const OpenShares& open, const MergedClouds& clouds, Report& report) {
+void describe(const OpenShares& open, Report& report) {
   report.parts = 0;
-  for (const PartialFile& cloud : clouds.clouds()) {
-    if (!cloud.is_whole()) throw IoError("shares are missing: " + cloud.missing());
+  open.clouds.require_whole();
+  for (const PartialFile& cloud : open.clouds.clouds()) {
     *report.parts += cloud.inputs;
     report.points += cloud.cloud_points;
     report.counts.range += cloud.counts.range;
@@ -132,8 +94,10 @@ class ClassMerger {
     try {
       while (!attempt(list, fit_seconds)) {
       }
-      return status_;
+      report_problems();
+      return problems_.empty() ? Status::done : Status::failed;
     } catch (const ShareError& error) {
+      report_problems();
       throw IoError(*names_[error.share()] + ": " + error.what());
     }
   }
@@ -148,7 +112,7 @@ class ClassMerger {
     };
     if (life_ == FileLife::lasting)
       store.on_lost = [&](const ShareError& error, std::uint64_t points) {
-        report_once(error.share(), std::string(error.what()) + ": " + std::to_string(points) +
+        add_problem(error.share(), std::string(error.what()) + ": " + std::to_string(points) +
                                        " points are left out, so objects near them may be incomplete (JSON: "
                                        "\"incomplete\")");
       };
@@ -163,9 +127,15 @@ class ClassMerger {
     return true;
   }
 
-  void report_once(std::size_t share, const std::string& problem) {
-    status_ = Status::failed;
-    if (reported_.emplace(share, problem).second) report_problem(*names_[share] + ": " + problem);
+  void report_problems() const {
+    for (const auto& [share, problem] : problems_)
+      report_problem(*names_[share] + ": " + problem);
+  }
+
+  // Several threads may call it at the same time.
+  void add_problem(std::size_t share, const std::string& problem) {
+    const std::lock_guard lock(mutex_);
+    problems_.emplace(share, problem);
   }
 
   bool has_volumes(const ComponentOfShare& component) const {
@@ -191,8 +161,8 @@ class ClassMerger {
     try {
       return object_of(shares_[component.share]->text(component.number).value());
     } catch (const IoError& error) {
+      add_problem(component.share, std::string(error.what()) + ": such volumes are fitted again");
       const std::lock_guard lock(mutex_);
-      report_once(component.share, std::string(error.what()) + ": such volumes are fitted again");
       bad_texts_.emplace(component.share, component.number);
       has_new_bad_texts_ = true;
       return {};
@@ -207,9 +177,8 @@ class ClassMerger {
   std::vector<const ObjectFile*> shares_;
   std::vector<const std::string*> names_;
   FileLife life_;
-  Status status_ = Status::done;
-  std::set<std::pair<std::size_t, std::string>> reported_;  // problems of shares
   std::mutex mutex_;
+  std::set<std::pair<std::size_t, std::string>> problems_;     // of shares, each once
   std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_;  // shares and numbers of components
   bool has_new_bad_texts_ = false;
 };
@@ -218,8 +187,7 @@ class ClassMerger {
 
 bool join_object_files(const std::vector<std::string>& files, const Options& options) {
   OpenShares open;
-  MergedClouds clouds;
-  if (!open_files(files, options, open, clouds)) return false;
+  if (!open_files(files, options, open)) return false;
   join_object_files(*options.partial, open.shares);
   return true;
 }
@@ -228,19 +196,18 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
                           const Options& options, Report& report) {
   const Stopwatch watch;
   OpenShares open;
-  MergedClouds clouds;
-  if (!open_files(files, options, open, clouds)) {
+  if (!open_files(files, options, open)) {
     report.error = "some partial results cannot be merged";
     return Status::failed;
   }
-  describe(open, clouds, report);
+  describe(open, report);
   const std::vector<LabelledInput> labelled =
-      options.labels ? inputs_to_label(open, clouds.clouds(), options) : std::vector<LabelledInput>();
+      options.labels ? inputs_to_label(open, options) : std::vector<LabelledInput>();
   const ClassTable table(options.pipeline);
   std::map<std::optional<std::int64_t>, ClassMerger> classes;
   for (std::size_t i = 0; i < open.shares.size(); ++i) {
     ObjectFile& share = *open.shares[i];
-    share.first_number = clouds.points_before(share.header());
+    share.first_number = open.clouds.points_before(share.header().cloud);
     const auto value = share.header().class_value;
     classes.try_emplace(value, options, table, life, value, report.points)
         .first->second.add(share, open.names[i]);
@@ -257,7 +224,7 @@ Status merge_object_files(const Job& job, const std::vector<std::string>& files,
     const ScalarType scalar = open.shares.front()->scalar();
     status = worse(status, write_input_labels(labelled, open, report.origin, scalar, list));
   }
-  return worse(status, report_failures(report));
+  return status;
 }
 
 }  // namespace pcl_bv::detail

@@ -3,19 +3,14 @@
 
 #include "object_shares.h"
 
-#include <new>
 #include <utility>
 
 #include "class_points.h"
-#include "commands/shared/interruption.h"
-#include "commands/shared/messages.h"
 #include "object_fitter.h"
 #include "object_texts.h"
-#include "pcl_bv/io/raw_cloud.h"
 #include "pipeline/ground_view.h"
 #include "share_inputs.h"
-#include "shares.h"
-#include "tile_progress.h"
+#include "share_points.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -149,43 +144,6 @@ void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, 
                                   const GatherCells& gather) {
   write_share(tiles, share, options, ground, path, FileLife::temporary,
               needs_all_records(options) ? GatherCells() : gather);
-}
-
-namespace {
-
-// Reports the file that cannot be used; then returns nothing.
-std::optional<CloudGround> ground_of_parts(const Tiles& tiles, const Options& options) {
-  if (!options.ground_parts) return std::nullopt;
-  try {
-    return read_ground_parts(tiles, options.share, options);
-  } catch (const IoError& error) {
-    report_problem(error.what());
-    return std::nullopt;
-  }
-}
-
-}  // namespace
-
-Status make_object_file(const Job& job, const Options& options) {
-  const Interruption interruption([] {});
-  try {
-    if (!job.partials.empty())
-      return join_object_files(job.partials, options) ? Status::done : Status::failed;
-    if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
-    const TileProgress progress(*job.tiles, options);
-    const std::optional<CloudGround> ground = ground_of_parts(*job.tiles, options);
-    if (options.ground_parts && !ground) return Status::failed;
-    write_object_share(*job.tiles, options.share, options, ground, *options.partial);
-    report_notes(*job.tiles);
-    return Status::done;
-  } catch (const TileError& error) {
-    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    report_problem(options.partial->string() + ": " + error.what());
-  }
-  return Status::failed;
 }
 
 }  // namespace pcl_bv::detail

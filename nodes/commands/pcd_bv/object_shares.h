@@ -33,18 +33,15 @@ void write_temporary_object_share(const Tiles& tiles, const ShareOption& share, 
 
 bool needs_all_records(const Options& options);
 
-/// Finds the clusters of the share that the options name, fits their volumes and writes the file of
-/// --partial. Or, with --merge, writes all files to one. Reports problems on standard error.
-Status make_object_file(const Job& job, const Options& options);
-
 /// Writes the shares of all files to the file of --partial. Reports each file that does not belong to the
 /// others; then returns false.
 bool join_object_files(const std::vector<std::string>& files, const Options& options);
 
 /// Merges the clusters of the files. Volumes are those of the files if they have the requested methods, and
 /// are fitted if not. Writes the points of the objects if the job says so. Reports each file that cannot be
-/// merged; then the report has an error. Damaged points of lasting files are left out, and reported. Returns
-/// whether all volumes were fitted, as report_failures().
+/// merged; then the report has an error. Damaged points of lasting files are left out, and reported; then
+/// returns Status::failed. All reports come from the calling thread. Volumes that could not be fitted are not
+/// reported.
 Status merge_object_files(const Job& job, const std::vector<std::string>& files, FileLife life,
                           const Options& options, Report& report);
 

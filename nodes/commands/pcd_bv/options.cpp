@@ -79,7 +79,9 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
     line.option(
         "--objects", texts.objects, "DIR",
         "With --cluster: write the points of each object as DIR/ID.pcd;\nseveral inputs: DIR/NAME/ID.pcd");
-    line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
+    line.option("--partial", texts.partial, "FILE",
+                "Write partial results for --merge instead of volumes, or the\nground for --ground-parts "
+                "(--ground slope without --cluster)");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.option("--ground-parts", texts.ground_parts, "PATH",
                 "With --partial, --cluster and --ground slope: folder of the files\nof all shares that "

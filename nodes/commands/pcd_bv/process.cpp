@@ -16,6 +16,7 @@
 
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
+#include "commands/shared/values.h"
 #include "loaded_cloud.h"
 #include "object_files.h"
 #include "object_shares.h"
@@ -178,6 +179,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
     try {
       status = worse(status, options.clusters() ? process_tiled_objects(job, options, outcome.report)
                                                 : process(job, options, pipeline, outcome));
+      set_left_out(*job.tiles, outcome.report);
       report_notes(*job.tiles);
       return status;
     } catch (const TileError& error) {
@@ -193,20 +195,23 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
   if (options.clusters()) {
     report.file = kTiledName;
     const Status status = merge_object_files(job, job.partials, FileLife::lasting, options, report);
-    return report.error ? status : worse(status, write_mesh(job, report.clusters));
+    if (report.error) return status;
+    report_ground_warning(report, options);
+    return worse(status, worse(report_failures(report), write_mesh(job, report.clusters)));
   }
   Stopwatch watch;
-  const std::optional<PartialFile> all = merge_files(job.partials);
-  if (!all) {  // each file that cannot be merged has been reported
+  const std::optional<MergedClouds> clouds = merge_files(job.partials);
+  if (!clouds) {  // each file that cannot be merged has been reported
     report.error = "some partial results cannot be merged";
     return Status::failed;
   }
-  if (!all->is_whole()) throw IoError("shares are missing: " + all->missing());
+  clouds->require_whole();
+  const PartialFile all = clouds->joined();
   const double read = watch.lap();
   const std::vector<const Method*> methods = options.pipeline.methods();
-  report = report_of(*all, methods);
+  report = report_of(all, methods);
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    Fitted<AnyVolume> fitted = all->partial.fit(*methods[i], method_options(options), execution_of(options));
+    Fitted<AnyVolume> fitted = all.partial.fit(*methods[i], method_options(options), execution_of(options));
     set_volume(i, fitted, std::move(fitted.volume), report);
   }
   if (options.timings) report.seconds = {read, 0, watch.lap()};
@@ -297,6 +302,15 @@ std::string detail::coarse_warning(const Aabb& box, ScalarType scalar) {
   return text;
 }
 
+void detail::report_ground_warning(const Report& report, const Options& options) {
+  FrameResult counted;
+  counted.config = std::make_shared<PipelineConfig>(options.pipeline);
+  counted.points = report.points;
+  counted.counts = report.counts;
+  const std::string warning = ground_warning(counted, option_names(false));
+  if (!warning.empty()) report_problem(report.file + ": " + warning);
+}
+
 MethodOptions detail::method_options(const Options& options) {
   return options.pipeline.method_options();
 }
@@ -307,6 +321,8 @@ Outcome detail::process(const Job& job, const Options& options, FramePipeline& p
   try {
     outcome.status = process_any(job, options, pipeline, outcome);
     return outcome;
+  } catch (const UsageError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";
   } catch (const std::exception& error) {

@@ -33,12 +33,15 @@ struct Outcome {
 
 /// Processes a job: loads the cloud, finds clusters, fits and checks volumes, and writes the labels, the
 /// mesh, the picture and the HTML page. Problems with inputs or files are not thrown, but reported on
-/// standard error. They change the status. For a failed input, `report.error` is set, too.
+/// standard error. They change the status. For a failed input, `report.error` is set, too. Throws UsageError.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
 /// Reports failed fits and points outside of volumes on standard error. Returns the resulting status.
 Status report_failures(const Report& report);
 Status report_failures(const std::string& file, const ClusterSource& clusters);
+
+/// Warns on standard error if no point or each point of a cloud is ground.
+void report_ground_warning(const Report& report, const Options& options);
 
 /// Writes the mesh of the job, if it is requested. A .glb file also has the points of the cloud.
 Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters, const GlbCloud& cloud = {});

@@ -56,17 +56,17 @@ struct NamedInput {
 };
 
 // For each cloud, its inputs by their numbers.
-std::vector<std::map<std::size_t, NamedInput>> named_inputs(const OpenShares& open,
-                                                            const std::vector<PartialFile>& clouds) {
+std::vector<std::map<std::size_t, NamedInput>> named_inputs(const OpenShares& open) {
+  const std::vector<PartialFile>& clouds = open.clouds.clouds();
   std::vector<std::map<std::size_t, NamedInput>> named(clouds.size());
   for (std::size_t s = 0; s < open.shares.size(); ++s) {
     const ObjectFileHeader& header = open.shares[s]->header();
     if (!header.inputs)
-      throw IoError(
-          open.names[s] +
-          ": an older version wrote it, without its inputs, which --labels needs: " + "make it again");
+      throw IoError(open.names[s] +
+                    ": was written by an older version, without the paths of its inputs: make it again to "
+                    "use --labels");
     const auto cloud = std::find_if(clouds.begin(), clouds.end(), [&](const PartialFile& other) {
-      return other.inputs_hash == header.cloud.inputs_hash && other.cloud_points == header.cloud.cloud_points;
+      return other.has_inputs_of(header.cloud);
     });
     for (const ObjectInput& input : header.inputs->list)
       named[static_cast<std::size_t>(cloud - clouds.begin())].try_emplace(
@@ -84,7 +84,7 @@ void require_inputs(const std::map<std::size_t, NamedInput>& named, const Partia
                     each.input->points);
   if (found.inputs != cloud.inputs || found.inputs_hash != cloud.inputs_hash ||
       found.cloud_points != cloud.cloud_points)
-    throw IoError("the shares do not name all inputs");
+    throw IoError("the paths in the shares do not match their cloud: make the shares again");
 }
 
 // Opens each recording once.
@@ -139,9 +139,9 @@ void claim_files(const OpenShares& open, const std::vector<LabelledInput>& input
 
 }  // namespace
 
-std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const std::vector<PartialFile>& clouds,
-                                           const Options& options) {
-  const auto named = named_inputs(open, clouds);
+std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const Options& options) {
+  const std::vector<PartialFile>& clouds = open.clouds.clouds();
+  const auto named = named_inputs(open);
   std::vector<LabelledInput> inputs;
   JobMaker jobs;
   std::size_t first = 0;
@@ -186,20 +186,21 @@ void require_points(PointView points, const std::optional<Eigen::Vector3d>& orig
 
 // Sets the labels of points of the ground, the first of which has the number `first` among all clouds.
 void label_ground(const OpenShares& open, std::size_t first, std::vector<std::uint32_t>& labels) {
+  std::vector<std::uint8_t> ground;
   for (std::size_t s = 0; s < open.shares.size(); ++s) {
     const ObjectFile& share = *open.shares[s];
     const ObjectFileHeader& header = share.header();
     const std::size_t last = share.first_number + header.cloud.cloud_points;  // of the cloud
     if (!header.ground || first < share.first_number || first >= last) continue;
-    std::vector<std::uint8_t> ground(labels.size());
+    ground.resize(labels.size());
     try {
       share.mark_ground(first - share.first_number, ground);
     } catch (const IoError& error) {
       throw IoError(open.names[s] + ": " + error.what());
     }
-    for (std::size_t i = 0; i < ground.size(); ++i)
-      if (ground[i] != 0) labels[i] = kLabelGround;
   }
+  for (std::size_t i = 0; i < ground.size(); ++i)
+    if (ground[i] != 0) labels[i] = kLabelGround;
 }
 
 void write_labels_of(const LabelledInput& input, const OpenShares& open,

@@ -27,6 +27,7 @@ ObjectInputs inputs_of_share(const Tiles& tiles, const PointRange& range, const 
 struct OpenShares {
   std::vector<std::unique_ptr<ObjectFile>> shares;
   std::vector<std::string> names;  ///< Of the files of the shares.
+  MergedClouds clouds;
 };
 
 /// An input, and the file that it is written to.
@@ -36,10 +37,9 @@ struct LabelledInput {
   std::filesystem::path file;
 };
 
-/// Returns the inputs of clouds that the shares cover, in their order. Throws IoError if a share does not
+/// Returns the inputs of the clouds of the shares, in their order. Throws IoError if a share does not
 /// name them, and UsageError if two of them would go to the same file or a file would be overwritten.
-std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const std::vector<PartialFile>& clouds,
-                                           const Options& options);
+std::vector<LabelledInput> inputs_to_label(const OpenShares& open, const Options& options);
 
 /// Writes each input with a field `label`. Reports those that are missing or have other points than the
 /// shares, and files that cannot be written; the others are written.

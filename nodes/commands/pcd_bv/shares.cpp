@@ -3,9 +3,6 @@
 
 #include "shares.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 
@@ -13,65 +10,10 @@
 #include "commands/shared/messages.h"
 #include "ground_parts.h"
 #include "object_shares.h"
-#include "pipeline/config/settings.h"
-#include "shifted_points.h"
 #include "tile_progress.h"
 
 namespace pcl_bv {
 using namespace detail;
-namespace {
-
-std::uint64_t hash_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  PartialFile hash;
-  hash.add_input(std::string(std::istreambuf_iterator<char>(file), {}), 0);
-  return hash.inputs_hash;
-}
-
-// Returns a text of the filter settings, which is equal for shares that drop the same points. It has the
-// content of region files, but not their names.
-std::string filter_text(const FilterConfig& filter) {
-  std::string text = to_text(filter.range_min) + ':' + to_text(filter.range_max);
-  if (filter.own_box_min)
-    text += " own box " + to_text(*filter.own_box_min) + ' ' + to_text(*filter.own_box_max);
-  for (const RegionConfig& region : filter.regions) {
-    text += region.keep ? " keep " : " drop ";
-    text += std::to_string(hash_of_file(region.file)) + '+' + to_text(region.padding);
-  }
-  return text;
-}
-
-std::string name_without_folders(const Job& job) {
-  return std::filesystem::path(job.input).filename().string();
-}
-
-}  // namespace
-
-Execution detail::execution_of(const Options& options) {
-  return options.pipeline.execution();
-}
-
-SharePoints::SharePoints(const Tiles& tiles, const PointRange& range,
-                         const std::optional<Eigen::Vector3d>& origin, const Options& options) {
-  PointView points = tiles.xyz();
-  if (origin) {
-    shifted_ = std::make_unique<ShiftedPoints>(points, *origin);
-    points = view_of(*shifted_, points.count, ScalarType::float64);
-  }
-  points = points.slice(range.first, range.second - range.first);
-  filtered_ = filter_points(points, options.pipeline.filter, execution_of(options));
-}
-
-PartialFile detail::describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
-                                   const Options& options) {
-  PartialFile file;
-  for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
-    if (!tiles.header(i).error) file.add_input(name_without_folders(tiles.jobs()[i]), tiles.header(i).points);
-  }
-  file.origin = origin;
-  file.filter = filter_text(options.pipeline.filter);
-  return file;
-}
 
 void detail::add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
                        PartialFile& file) {
@@ -82,13 +24,14 @@ void detail::add_share(const SharePoints& points, const PointRange& range, const
   file.partial = Partial(points.view(), 0, execution);
 }
 
-std::optional<PartialFile> detail::merge_files(const std::vector<std::string>& files) {
-  std::optional<PartialFile> all;
+std::optional<MergedClouds> detail::merge_files(const std::vector<std::string>& files) {
+  MergedClouds all;
   bool failed = false;
   for (const std::string& name : files) {
     try {
-      PartialFile file = read_partial_file(name);
-      all ? all->merge(file) : void(all = std::move(file));
+      const MergedClouds file = read_partial_file(name);
+      for (const PartialFile& cloud : file.clouds())
+        all.add(cloud);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -96,7 +39,7 @@ std::optional<PartialFile> detail::merge_files(const std::vector<std::string>& f
       failed = true;
     }
   }
-  return failed ? std::nullopt : all;
+  return failed ? std::nullopt : std::optional(std::move(all));
 }
 
 Report detail::report_of(const PartialFile& whole, const std::vector<const Method*>& methods) {
@@ -130,6 +73,11 @@ Status detail::report_excluded_inputs(const Tiles& tiles) {
   return status;
 }
 
+void detail::set_left_out(const Tiles& tiles, Report& report) {
+  for (std::size_t i = 0; i < tiles.jobs().size(); ++i)
+    if (const auto& error = tiles.header(i).error) report.left_out.push_back({tiles.jobs()[i].input, *error});
+}
+
 void detail::report_notes(const Tiles& tiles) {
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     const std::string note = tiles.note(i);
@@ -139,14 +87,66 @@ void detail::report_notes(const Tiles& tiles) {
 
 namespace {
 
-Status write_or_report(const std::filesystem::path& path, const PartialFile& file) {
+Status write_or_report(const std::filesystem::path& path, const MergedClouds& clouds) {
   try {
-    write_partial_file(path, file);
+    write_partial_file(path, clouds);
     return Status::done;
   } catch (const IoError& error) {
     report_problem(path.string() + ": " + error.what());
     return Status::failed;
   }
+}
+
+// Writes the file of --partial with the ground of a share. Reports problems.
+Status make_ground_part(const Job& job, const Options& options) {
+  const Interruption interruption([] {});
+  if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
+  const TileProgress progress(*job.tiles, options);
+  try {
+    write_ground_part(*job.tiles, options.share, options, *options.partial, FileLife::lasting);
+    report_notes(*job.tiles);
+    return Status::done;
+  } catch (const TileError& error) {
+    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+  } catch (const IoError& error) {
+    report_problem(options.partial->string() + ": " + error.what());
+  }
+  return Status::failed;
+}
+
+// Reports the file that cannot be used; then returns nothing.
+std::optional<CloudGround> ground_of_parts(const Tiles& tiles, const Options& options) {
+  if (!options.ground_parts) return std::nullopt;
+  try {
+    return read_ground_parts(tiles, options.share, options);
+  } catch (const IoError& error) {
+    report_problem(error.what());
+    return std::nullopt;
+  }
+}
+
+// Finds the clusters of the share that the options name, fits their volumes and writes the file of --partial.
+// Or, with --merge, writes all files to one. Reports problems on standard error.
+Status make_object_file(const Job& job, const Options& options) {
+  const Interruption interruption([] {});
+  try {
+    if (!job.partials.empty())
+      return join_object_files(job.partials, options) ? Status::done : Status::failed;
+    if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
+    const TileProgress progress(*job.tiles, options);
+    const std::optional<CloudGround> ground = ground_of_parts(*job.tiles, options);
+    if (options.ground_parts && !ground) return Status::failed;
+    write_object_share(*job.tiles, options.share, options, ground, *options.partial);
+    report_notes(*job.tiles);
+    return Status::done;
+  } catch (const TileError& error) {
+    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    report_problem(options.partial->string() + ": " + error.what());
+  }
+  return Status::failed;
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
   if (options.writes_ground_part()) return make_ground_part(job, options);
   const Interruption interruption([] {});
   if (!job.partials.empty()) {
-    const std::optional<PartialFile> merged = merge_files(job.partials);
+    const std::optional<MergedClouds> merged = merge_files(job.partials);
     return merged ? write_or_report(*options.partial, *merged) : Status::failed;
   }
   // No input may be excluded: the other shares contain it, so they would belong to a different cloud.
@@ -174,7 +174,9 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
     report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
     return Status::failed;
   }
-  return write_or_report(*options.partial, file);
+  MergedClouds clouds;
+  clouds.add(file);
+  return write_or_report(*options.partial, clouds);
 }
 
 }  // namespace pcl_bv

@@ -4,45 +4,18 @@
 // Partial results for shares of a cloud in several inputs, and volumes from merged partial results.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "options.h"
-#include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/report/partial_file.h"
 #include "pcl_bv/report/report.h"
-#include "pipeline/filtered_view.h"
+#include "share_points.h"
 #include "status.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
-
-Execution execution_of(const Options& options);
-
-/// The points of a share, relative to an origin and filtered, with the sources that load them. Cannot be
-/// copied or moved.
-class SharePoints {
- public:
-  /// `range` holds the numbers of the points. The filter makes an additional pass over the points to count
-  /// the dropped ones.
-  SharePoints(const Tiles& tiles, const PointRange& range, const std::optional<Eigen::Vector3d>& origin,
-              const Options& options);
-  SharePoints(const SharePoints&) = delete;
-  SharePoints& operator=(const SharePoints&) = delete;
-
-  const PointView& view() const { return filtered_.points; }  ///< Points keep their numbers.
-  const Counts& counts() const { return filtered_.counts; }
-
- private:
-  std::unique_ptr<PointSource> shifted_;
-  FilteredView filtered_;
-};
-
-/// Returns a partial file with the data that all shares of a cloud have in common. The file has no share yet.
-PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
-                           const Options& options);
 
 /// Adds the points of a share to `file`. `range` holds the numbers of the points.
 void add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
@@ -50,7 +23,7 @@ void add_share(const SharePoints& points, const PointRange& range, const Executi
 
 /// Merges the partial results of the files. Reports each file that cannot be read or does not belong to the
 /// other files. If there is such a file, returns nullopt.
-std::optional<PartialFile> merge_files(const std::vector<std::string>& files);
+std::optional<MergedClouds> merge_files(const std::vector<std::string>& files);
 
 /// Returns a report of the whole cloud with an empty entry for the volume of each method.
 Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods);
@@ -64,6 +37,9 @@ Status make_partial_file(const Job& job, const Options& options);
 
 /// Reports every excluded input. Returns Status::failed if there is one.
 Status report_excluded_inputs(const Tiles& tiles);
+
+/// Sets the list of excluded inputs.
+void set_left_out(const Tiles& tiles, Report& report);
 
 /// Reports the notes of all inputs that are not excluded.
 void report_notes(const Tiles& tiles);

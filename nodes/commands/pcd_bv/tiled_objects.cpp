@@ -11,7 +11,6 @@
 
 #include "class_points.h"
 #include "commands/shared/messages.h"
-#include "commands/shared/setting_options.h"
 #include "loaded_cloud.h"
 #include "object_fitter.h"
 #include "object_list.h"
@@ -171,8 +170,7 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   counted.counts = report.counts;
   const std::string range = range_warning(counted, options.range_from);
   if (!range.empty()) report_problem(job.input + ": " + range);
-  const std::string ground = ground_warning(counted, option_names(false));
-  if (!ground.empty()) report_problem(job.input + ": " + ground);
+  report_ground_warning(report, options);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info =

@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <mutex>
+#include <utility>
 
 #include "pcl_bv/io/untrusted_text.h"
 
@@ -18,7 +19,8 @@ namespace {
 
 std::mutex mutex;
 std::string command;
-std::string status_line;  // empty if none is shown
+std::string status_line;            // empty if none is shown
+std::vector<std::string> problems;  // if the program is no command
 thread_local DeferredMessages* holder = nullptr;
 
 // Ignores errors, because they cannot be reported elsewhere.
@@ -53,7 +55,19 @@ void print_message(std::string_view text) {
 }
 
 void report_problem(std::string_view problem) {
-  holder != nullptr ? void(holder->messages.emplace_back(problem)) : print_message(problem);
+  if (holder != nullptr) {
+    holder->messages.emplace_back(problem);
+  } else if (!command.empty()) {
+    print_message(problem);
+  } else {
+    const std::lock_guard lock(mutex);
+    problems.emplace_back(problem);
+  }
+}
+
+std::vector<std::string> take_problems() {
+  const std::lock_guard lock(mutex);
+  return std::exchange(problems, {});
 }
 
 void warn_of_subfolders(const std::string& folder, std::size_t subfolders) {

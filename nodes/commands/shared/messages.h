@@ -18,8 +18,12 @@ void name_command(std::string_view command);
 void print_message(std::string_view text);
 
 /// Prints a problem as print_message() does. While the calling thread has a DeferredMessages object, stores
-/// the problem in that object instead.
+/// the problem in that object instead. Without name_command(), the program is no command, and the problem is
+/// stored for take_problems().
 void report_problem(std::string_view problem);
+
+/// Returns and removes the stored problems of all threads, if the program is no command.
+std::vector<std::string> take_problems();
 
 /// If `subfolders` is not 0, warns that the subfolders of a folder are not read.
 void warn_of_subfolders(const std::string& folder, std::size_t subfolders);

@@ -3,8 +3,6 @@
 
 #include "merged_cloud.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -17,6 +15,7 @@
 #include "commands/pcd_bv/process.h"
 #include "commands/pcd_bv/shares.h"
 #include "commands/shared/messages.h"
+#include "costs.h"
 #include "failures.h"
 #include "pcl_bv/fitting/fit.h"
 #include "volume_bytes.h"
@@ -39,12 +38,6 @@ struct QueryFailed {};
 // Whether the method is fitted by rounds of queries to all ranks.
 bool needs_query_rounds(const Method& method, const Tiles& tiles) {
   return method.name == "sphere-exact" && tiles.xyz().count > Partial::kMaxStored;
-}
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
 /// One attempt to fit the volumes to the tiles that are not excluded. All ranks execute the same steps. A
@@ -249,24 +242,6 @@ Report Attempt::report() const {
   return report;
 }
 
-/// Prints the cost of the run (--timings): the CPU time and the messages, summed over all ranks, and the
-/// maximum memory of a rank.
-void print_costs(Ranks& ranks, double seconds, double cpu_seconds, std::size_t rounds) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const std::vector<std::size_t> sums =
-      ranks.sum({static_cast<std::size_t>(cpu_seconds * 1e6), ranks.messages_sent(), ranks.bytes_sent()});
-  const double memory = -ranks.min_over_ranks({-static_cast<double>(usage.ru_maxrss)}).front();
-  if (!ranks.first()) return;
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "%zu ranks: %.3f s wall time, %.3f s CPU time, %zu query rounds, %zu messages with %zu bytes in "
-      "total, maximum memory of a rank %.0f KiB",
-      ranks.size(), seconds, static_cast<double>(sums[0]) / 1e6, rounds, sums[1], sums[2], memory);
-  print_message(text);
-}
-
 }  // namespace
 
 Status detail::fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
@@ -283,10 +258,13 @@ Status detail::fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Re
       continue;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (options.timings) print_costs(ranks, seconds.count(), now.cpu_seconds(), now.rounds());
+    if (options.timings)
+      print_costs(ranks, {seconds.count(), now.cpu_seconds(), ranks.messages_sent(), ranks.bytes_sent(),
+                          now.rounds()});
     if (!ranks.first()) return status;
     report_notes(tiles);
     report = now.report();
+    set_left_out(tiles, report);
     if (options.timings) report.seconds = {0, 0, seconds.count()};
     return worse(status, report_failures(report));
   }

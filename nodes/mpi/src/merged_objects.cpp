@@ -16,7 +16,9 @@
 #include "commands/pcd_bv/object_shares.h"
 #include "commands/pcd_bv/process.h"
 #include "commands/pcd_bv/shares.h"
+#include "commands/pcd_bv/stopwatch.h"
 #include "commands/shared/messages.h"
+#include "costs.h"
 #include "failures.h"
 
 namespace pcl_bv {
@@ -101,6 +103,11 @@ class CellExchange {
     return others;
   }
 
+  /// What this rank has sent, and the CPU time of waiting for the cells of others.
+  std::size_t messages() const { return messages_; }
+  std::size_t bytes() const { return bytes_; }
+  double waiting_seconds() const { return waiting_seconds_; }
+
   /// Tells the ranks that wait for cells of this rank that it has failed, if it did not make all calls.
   void end() {
     if (calls_ < kGatherCalls && !failed_) exchange(kFailed);
@@ -110,7 +117,11 @@ class CellExchange {
   static constexpr const char* kFailed = "failed";  // the bytes of cells are a multiple of 8
 
   std::vector<std::string> exchange(const std::string& text) {
+    const double begin = processor_seconds();
     std::vector<std::string> all = ranks_.all_gather(text);
+    waiting_seconds_ += processor_seconds() - begin;
+    messages_ += ranks_.size() - 1;
+    bytes_ += (ranks_.size() - 1) * text.size();
     ++calls_;
     failed_ = std::find(all.begin(), all.end(), kFailed) != all.end();
     return all;
@@ -118,13 +129,17 @@ class CellExchange {
 
   Ranks& ranks_;
   int calls_ = 0;
+  std::size_t messages_ = 0, bytes_ = 0;
+  double waiting_seconds_ = 0;
   bool failed_ = false;
 };
 
-// Runs work() of a rank, and then end(), even if it fails. Returns the input that fails on any rank. Throws
-// IoError on all ranks if the work of a rank fails otherwise.
+// Runs work() of a rank, and then end(), even if it fails. Adds what both cost; end() returns the CPU time of
+// waiting. Returns the input that fails on any rank. Throws IoError on all ranks if the work of a rank fails
+// otherwise.
 template <typename Work, typename End>
-std::optional<TileFailure> run_on_all(Ranks& ranks, const Work& work, const End& end) {
+std::optional<TileFailure> run_on_all(Ranks& ranks, RankCosts& costs, const Work& work, const End& end) {
+  const double begin = processor_seconds();
   std::string problem;
   const auto failure = run_and_catch([&] {
     try {
@@ -137,7 +152,8 @@ std::optional<TileFailure> run_on_all(Ranks& ranks, const Work& work, const End&
       problem = error.what();
     }
   });
-  end();
+  const double waiting = end();
+  costs.cpu_seconds += processor_seconds() - begin - waiting;
   for (const std::string& each : ranks.all_gather(problem))
     if (!each.empty()) throw IoError(each);
   return first_failure(ranks, failure);
@@ -145,11 +161,12 @@ std::optional<TileFailure> run_on_all(Ranks& ranks, const Work& work, const End&
 
 // Writes the files of the ground, and reads those of all ranks. Returns the input that fails on any rank.
 std::optional<TileFailure> find_ground(Ranks& ranks, const Tiles& tiles, const Options& options,
-                                       const CommonFolder& folder, std::optional<CloudGround>& ground) {
+                                       const CommonFolder& folder, RankCosts& costs,
+                                       std::optional<CloudGround>& ground) {
   if (!options.slope_ground()) return std::nullopt;
-  const auto no_more = [] {};
+  const auto no_more = [] { return 0.0; };
   const auto failure = run_on_all(
-      ranks,
+      ranks, costs,
       [&] {
         write_ground_part(tiles, {ranks.rank(), ranks.size()}, options, folder.ground_file(ranks.rank()),
                           FileLife::temporary);
@@ -160,22 +177,22 @@ std::optional<TileFailure> find_ground(Ranks& ranks, const Tiles& tiles, const O
   for (std::size_t rank = 0; rank < ranks.size(); ++rank)
     files.push_back(folder.ground_file(rank));
   return run_on_all(
-      ranks,
+      ranks, costs,
       [&] {
         ground = read_ground_parts(tiles, {ranks.rank(), ranks.size()}, options, files);
       },
       no_more);
 }
 
-// Writes the file of a rank. Returns the input that fails on any rank. Throws IoError on all ranks if a rank
-// cannot write.
+// Writes the file of a rank, and adds what it costs. Returns the input that fails on any rank. Throws IoError
+// on all ranks if a rank cannot write.
 std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
-                                        const CommonFolder& folder) {
+                                        const CommonFolder& folder, RankCosts& costs) {
   std::optional<CloudGround> ground;
-  if (const auto failure = find_ground(ranks, tiles, options, folder, ground)) return failure;
+  if (const auto failure = find_ground(ranks, tiles, options, folder, costs, ground)) return failure;
   CellExchange messages(ranks);
   return run_on_all(
-      ranks,
+      ranks, costs,
       [&] {
         try {
           write_temporary_object_share(tiles, {ranks.rank(), ranks.size()}, options, ground,
@@ -186,6 +203,9 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
       },
       [&] {
         if (!needs_all_records(options)) messages.end();
+        costs.messages += messages.messages();
+        costs.bytes += messages.bytes();
+        return messages.waiting_seconds();
       });
 }
 
@@ -193,12 +213,14 @@ std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const 
 
 Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& options, Report& report,
                                    InterruptAction& interrupted) {
+  const Stopwatch watch;
+  RankCosts costs;
   Tiles& tiles = *job.tiles;
   Status status = ranks.first() ? report_excluded_inputs(tiles) : Status::done;
   const CommonFolder folder(ranks, interrupted);
   for (;;) {
     if (tiles.included_count() == 0) throw IoError("no input could be read");
-    const auto failure = write_shares(ranks, tiles, options, folder);
+    const auto failure = write_shares(ranks, tiles, options, folder, costs);
     if (!failure) break;
     if (ranks.first()) report_problem(tiles.jobs()[failure->tile].input + ": " + failure->reason);
     tiles.exclude(failure->tile, failure->reason);
@@ -206,22 +228,29 @@ Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& 
   }
   std::string problem;
   ranks.work_on_first([&](std::size_t ranks_here) {
+    const double begin = processor_seconds();
     try {
       report_notes(tiles);
+      set_left_out(tiles, report);
       std::vector<std::string> files;
       for (std::size_t rank = 0; rank < ranks.size(); ++rank)
         files.push_back(folder.file(rank));
       Options merging = options;
       merging.pipeline.threads *= static_cast<decltype(merging.pipeline.threads)>(ranks_here);
       status = worse(status, merge_object_files(job, files, FileLife::temporary, merging, report));
+      if (!report.error) report_ground_warning(report, options);
+      status = worse(status, report_failures(report));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
       problem = error.what();
     }
+    costs.cpu_seconds += processor_seconds() - begin;
   });
   problem = ranks.broadcast(problem);
   if (!problem.empty()) throw IoError(problem);
+  costs.seconds = watch.seconds();
+  if (options.timings) print_costs(ranks, costs);
   return status;
 }
 

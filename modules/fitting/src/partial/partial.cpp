@@ -73,15 +73,6 @@ PartialState state_of(const PointView& points, std::size_t first, const Executio
   return state;
 }
 
-// Converts a state that stores all points to the form for more than kMaxStored points.
-PartialState reduced(PartialState state) {
-  if (!state.stores_all() || state.loose.empty()) return state;
-  const PackedPoints packed(state.loose, state.scalar);
-  add_extremes(
-      packed.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
-  return state;
-}
-
 // Calls visit(block, points) for the loose points of each block.
 template <typename Visit>
 void for_each_block(const NumberedPoints& loose, const Visit& visit) {
@@ -158,14 +149,6 @@ NumberedPoints representative_points(const PartialState& state) {
   return points;
 }
 
-std::shared_ptr<const Moments> moments_of_all(const PartialState& state) {
-  MomentNodes nodes(state.blocks.begin(), state.blocks.end());
-  for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
-    nodes.push_back({block, 1, moments_of_block(points, state.scalar)});
-  });
-  return std::make_shared<Moments>(tree_of(std::move(nodes)).total());
-}
-
 // Returns the supports of the whole cloud. The indices are positions in `points`, which represent the cloud.
 Supports supports_of(const PartialState& state, const NumberedPoints& points, const PointView& view,
                      const Execution& execution) {
@@ -175,7 +158,7 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
   supports.used = state.used;
   supports.dropped = state.dropped;
   supports.points = view;
-  supports.moments = moments_of_all(state);
+  supports.moments = std::make_shared<Moments>(moments_of_all(state));
   const auto position = [&](const SupportPoint& p) {
     const auto found = std::lower_bound(points.begin(), points.end(), NumberedPoint{p.index, {}});
     return static_cast<std::size_t>(found - points.begin());
@@ -191,6 +174,22 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
 }
 
 }  // namespace
+
+PartialState detail::reduced(PartialState state) {
+  if (!state.stores_all() || state.loose.empty()) return state;
+  const PackedPoints packed(state.loose, state.scalar);
+  add_extremes(
+      packed.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
+  return state;
+}
+
+Moments detail::moments_of_all(const PartialState& state) {
+  MomentNodes nodes(state.blocks.begin(), state.blocks.end());
+  for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
+    nodes.push_back({block, 1, moments_of_block(points, state.scalar)});
+  });
+  return tree_of(std::move(nodes)).total();
+}
 
 Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
   const FloatEnvironment environment;
@@ -234,10 +233,6 @@ Fitted<AnyVolume> Partial::fit(const Method& method, const MethodOptions& option
 }
 
 namespace detail {
-
-struct PartialAccess {
-  static const PartialState& state(const Partial& partial) { return *partial.state_; }
-};
 
 Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
                                                          const FarthestQuery& farthest,

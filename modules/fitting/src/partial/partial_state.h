@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <utility>
 
 #include "moment_tree.h"
 #include "partial/numbered_points.h"
@@ -40,6 +42,21 @@ struct PartialState {
 inline std::size_t block_of_number(std::size_t number) {
   return number / kBlockPoints;
 }
+
+/// Converts a state that stores all points to the form for more than kMaxStored points.
+PartialState reduced(PartialState state);
+
+/// Returns the moments of all points of a state. The points of an incomplete block are treated as a block.
+Moments moments_of_all(const PartialState& state);
+
+struct PartialAccess {
+  static const PartialState& state(const Partial& partial) { return *partial.state_; }
+  static Partial partial(PartialState state) {
+    Partial made;
+    made.state_ = std::make_shared<PartialState>(std::move(state));
+    return made;
+  }
+};
 
 /// Throws std::invalid_argument if two nodes of `blocks` share a block, or if a loose point is in a node's
 /// block.

@@ -118,7 +118,7 @@ void MergedShares::add_points_of_run(const RunPosition& position, bool active, c
   const std::uint32_t component =
       (run.component == ShareRun::kNoise ? kNoComponent : component_number(position.share, run.component)) |
       (lost_.is_near(run.cell) ? kNearLost : 0);
-  const std::uint64_t max_number = labels_ == nullptr ? kNumberMask : labels_->points - 1;
+  const std::uint64_t end = labels_ == nullptr ? kNumberMask + 1 : std::min(labels_->points, kNumberMask + 1);
   PieceReader reader(file_, {position.offset, run.points, {&share, position.share, run.check_sum}}, scalar_,
                      kRunBytes);
   std::byte record[record_bytes(ScalarType::float64) + sizeof component];
@@ -130,8 +130,7 @@ void MergedShares::add_points_of_run(const RunPosition& position, bool active, c
     view.data = reader.record();
     const Coordinates point = load_point(view, 0);
     if (!is_valid(point)) throw ShareError(position.share, "has points that are not finite");
-    if (reader.number() > max_number)
-      throw ShareError(position.share, "has numbers of points that are too large");
+    if (reader.number() >= end) throw ShareError(position.share, "has numbers of points that are too large");
     const Bricks::Place at = bricks.place(point, cursor);
     const std::uint64_t number = reader.number() | (number_of_record(reader.record(), scalar_) & kCore);
     const auto add = [&](std::uint32_t brick, std::uint64_t mark) {
@@ -170,7 +169,9 @@ void MergedShares::label(const ParallelPolicy& policy) {
     if (run.component == ShareRun::kNoise || is_active(run)) return 0;
     return first_label_ + component_number(share, run.component);
   };
-  label_runs(shares_, label_of, policy, file_, *labels_);
+  const std::size_t points_at_a_time =
+      std::clamp(store_.points_in_memory / thread_count(policy), std::size_t{1} << 14, std::size_t{1} << 20);
+  label_runs(shares_, label_of, {policy, points_at_a_time}, file_, *labels_);
 }
 
 void MergedShares::join() {

@@ -13,23 +13,20 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kRunReadBytes = 1U << 20U;  // of a run at a time
-// Points that are sorted by number before they are written. Neighbours in a cell are rarely neighbours in the
-// cloud, and each range of numbers is a call of the system.
-constexpr std::size_t kPointsPerBlock = 1U << 20U;
 
-// Runs of a share with about kPointsPerBlock points.
+// Runs of a share with about LabelExecution::points_at_a_time points.
 struct RunBlock {
   std::uint32_t share, first_run, end_run;
   std::uint64_t offset;  // of the first byte
 };
 
-std::vector<RunBlock> blocks_of(const std::vector<const ClusterShare*>& shares) {
+std::vector<RunBlock> blocks_of(const std::vector<const ClusterShare*>& shares, std::size_t block_points) {
   std::vector<RunBlock> blocks;
   for (std::uint32_t s = 0; s < shares.size(); ++s) {
     const std::vector<ShareRun>& runs = shares[s]->runs();
-    std::uint64_t offset = 0, points = kPointsPerBlock;
+    std::uint64_t offset = 0, points = block_points;
     for (std::uint32_t r = 0; r < runs.size(); ++r) {
-      if (points >= kPointsPerBlock) {
+      if (points >= block_points) {
         blocks.push_back({s, r, r, offset});
         points = 0;
       }
@@ -41,14 +38,18 @@ std::vector<RunBlock> blocks_of(const std::vector<const ClusterShare*>& shares) 
   return blocks;
 }
 
-// Writes labels and check sums in the order of the points.
+// Writes labels and check sums in the order of the points. Neighbours in a cell are rarely neighbours in the
+// cloud, and each range of numbers is a call of the system.
 class SortedLabels {
  public:
-  explicit SortedLabels(ShareLabels& written) : written_(written) { points_.reserve(kPointsPerBlock); }
+  SortedLabels(ShareLabels& written, std::size_t points_at_a_time)
+      : written_(written), points_at_a_time_(points_at_a_time) {
+    points_.reserve(points_at_a_time);
+  }
 
   void add(std::uint64_t number, std::uint32_t label, std::uint32_t check_sum) {
     points_.push_back({number, label, check_sum});
-    if (points_.size() == kPointsPerBlock) write();
+    if (points_.size() == points_at_a_time_) write();
   }
 
   void write() {
@@ -70,18 +71,19 @@ class SortedLabels {
     std::uint32_t label, check_sum;
   };
   ShareLabels& written_;
+  std::size_t points_at_a_time_;
   std::vector<Point> points_;
 };
 
 }  // namespace
 
 void label_runs(const std::vector<const ClusterShare*>& shares, const LabelOfRun& label_of,
-                const ParallelPolicy& policy, const SpillFile& file, ShareLabels& written) {
-  const std::vector<RunBlock> blocks = blocks_of(shares);
-  for_each_chunk(policy, blocks.size(), [&](std::size_t b) {
+                const LabelExecution& execution, const SpillFile& file, ShareLabels& written) {
+  const std::vector<RunBlock> blocks = blocks_of(shares, execution.points_at_a_time);
+  for_each_chunk(execution.policy, blocks.size(), [&](std::size_t b) {
     const RunBlock& block = blocks[b];
     const ClusterShare& share = *shares[block.share];
-    SortedLabels labels(written);
+    SortedLabels labels(written, execution.points_at_a_time);
     std::uint64_t offset = block.offset;
     for (std::uint32_t r = block.first_run; r < block.end_run; ++r) {
       const ShareRun& run = share.runs()[r];

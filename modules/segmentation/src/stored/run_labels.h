@@ -30,8 +30,15 @@ struct ShareLabels {
 /// Tells the label of a run of a share: 0 if its points have labels already, nothing if it cannot be read.
 using LabelOfRun = std::function<std::optional<std::uint32_t>(std::uint32_t share, std::uint32_t run)>;
 
+/// How label_runs() works.
+struct LabelExecution {
+  ParallelPolicy policy;
+  /// Of each thread. They are sorted by number before they are written, which takes 16 bytes for each.
+  std::size_t points_at_a_time;
+};
+
 /// Reads all runs, and writes their labels and the check sums of their points. Throws ShareError.
 void label_runs(const std::vector<const ClusterShare*>& shares, const LabelOfRun& label_of,
-                const ParallelPolicy& policy, const SpillFile& file, ShareLabels& written);
+                const LabelExecution& execution, const SpillFile& file, ShareLabels& written);
 
 }  // namespace pcl_bv::detail

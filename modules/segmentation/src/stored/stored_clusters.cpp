@@ -239,7 +239,7 @@ std::optional<StoredVisit> StoredClusters::visit(std::size_t cluster) const {
 
 std::vector<std::uint32_t> StoredClusters::labels(std::size_t first, std::size_t count) const {
   const State& state = *state_;
-  if (!state.labels && !state.share_labels) throw std::logic_error("labels were not asked for");
+  if (!state.labels && !state.share_labels) throw std::logic_error("labels were not requested");
   std::vector<std::uint32_t> labels =
       (state.labels ? *state.labels : state.share_labels->labels).read(first, count);
   for (std::uint32_t& label : labels)
@@ -248,7 +248,7 @@ std::vector<std::uint32_t> StoredClusters::labels(std::size_t first, std::size_t
 }
 
 std::vector<std::uint32_t> StoredClusters::check_sums(std::size_t first, std::size_t count) const {
-  if (!state_->share_labels) throw std::logic_error("labels of shares were not asked for");
+  if (!state_->share_labels) throw std::logic_error("labels of shares were not requested");
   return state_->share_labels->check_sums.read(first, count);
 }
 

@@ -82,10 +82,17 @@ struct CloudInfo : CloudStatistics {
   std::vector<PointField> fields;
 };
 
+/// An input of a merged cloud that could not be read. Objects near its points may lack points.
+struct LeftOutInput {
+  std::string file;   ///< Path as the user named it. Writers replace invalid UTF-8.
+  std::string error;  ///< Why it could not be read.
+};
+
 /// The result of one input. If `error` is set, the input failed, and only `file` and `error` are valid.
 struct Report {
   std::string file;                       ///< Path as the user named it. Writers replace invalid UTF-8.
   std::optional<std::size_t> parts;       ///< Number of inputs, if several inputs are merged into one cloud.
+  std::vector<LeftOutInput> left_out;     ///< Inputs of a merged cloud that could not be read.
   std::size_t points = 0;                 ///< Number of all points of the input, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
   Counts counts;                          ///< Numbers of dropped points by reason.

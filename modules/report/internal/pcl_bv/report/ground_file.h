@@ -22,7 +22,8 @@ struct GroundFileHeader {
   std::string options;  ///< Those of the ground. Files with others do not belong together.
 };
 
-/// Writes a file; a lasting one atomically, with missing folders. Throws IoError.
+/// Writes a file; a lasting one atomically, with missing folders. Equal points give equal bytes. Throws
+/// IoError.
 void write_ground_file(const std::filesystem::path& path, FileLife life, const GroundFileHeader& header,
                        const LowestPoints& lowest);
 
@@ -32,6 +33,7 @@ struct GroundBounds {
   double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
 
   void add(const LowestPoint& point);
+  bool contain(const LowestPoint& point) const;
 };
 
 /// A file, of which only what comes before the lowest points is in memory.

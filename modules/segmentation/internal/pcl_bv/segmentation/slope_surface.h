@@ -33,15 +33,15 @@ struct CellRange {
   bool intersects(const CellRange& other) const;
   void merge(const CellRange& other);
   /// Returns the range with `cells` more on each side, at most the whole grid.
-  CellRange grown(double cells) const;
+  CellRange inflated(double cells) const;
 };
 
 /// Number of cells around a range that `highest` of cells_that_matter() includes.
-inline constexpr int kCellsOfHighest = 11;
+inline constexpr int kBoundMargin = 11;
 
 /// Returns the range of all cells whose lowest points can change the surface in a range. `lowest` is at most
-/// the height of each of them. `highest` is at least the height of each cell (LowestPoint) in
-/// range.grown(kCellsOfHighest).
+/// the height of the cells that the caller asks about; call it for each group of cells and merge the ranges.
+/// `highest` is at least the height of each cell (LowestPoint) in range.inflated(kBoundMargin).
 CellRange cells_that_matter(const CellRange& range, double lowest, double highest,
                             const GroundSlopeOptions& options);
 
@@ -93,8 +93,9 @@ class SlopeSurface {
   std::size_t cell_count() const;
 
   /// Sets ground[i] to 1 for each point of the view that is ground, otherwise to 0. The points must be in
-  /// memory and must be points of the cloud. Points that are not valid are not ground.
-  void classify(const PointView& points, std::uint8_t* ground) const;
+  /// memory and must be points of the cloud. Points that are not valid are not ground. Returns the number of
+  /// valid points whose cells the surface lacks: they are no points of the cloud, and not ground.
+  std::size_t classify(const PointView& points, std::uint8_t* ground) const;
 
  private:
   std::unique_ptr<LowestPoints::State> state_;
