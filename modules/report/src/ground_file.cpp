@@ -4,13 +4,13 @@
 #include "pcl_bv/report/ground_file.h"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <cstring>
 #include <fstream>
 #include <tuple>
 #include <vector>
 
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/crc32.h"
 #include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv::detail {
@@ -41,13 +41,12 @@ std::string_view bytes_of(const T* items, std::size_t count) {
 // Writes the bytes that `write` writes to the sink it gets, and their CRC-32.
 template <typename Write>
 void write_summed(const FileSink& sink, const Write& write) {
-  boost::crc_32_type sum;
+  std::uint32_t sum = 0;
   write([&](std::string_view bytes) {
-    sum.process_bytes(bytes.data(), bytes.size());
+    sum = crc32_of(bytes.data(), bytes.size(), sum);
     sink(bytes);
   });
-  const std::uint32_t value = sum.checksum();
-  sink(bytes_of(&value, 1));
+  sink(bytes_of(&sum, 1));
 }
 
 // The cells are numbered in the order in which threads find them. Sorted, equal cells give equal bytes.
@@ -129,10 +128,8 @@ GroundFile::GroundFile(const std::filesystem::path& path) : path_(path) {
   file.read(sizeof preamble, text.data(), text.size());
   file.read(first_point_ - sizeof sum, &sum, sizeof sum);
   file.read(file.size() - sizeof points_sum, &points_sum, sizeof points_sum);
-  boost::crc_32_type expected;
-  expected.process_bytes(&preamble, sizeof preamble);
-  expected.process_bytes(text.data(), text.size());
-  require_ground(sum == expected.checksum(), "is damaged: the checksum does not match");
+  const std::uint32_t expected = crc32_of(text.data(), text.size(), crc32_of(&preamble, sizeof preamble));
+  require_ground(sum == expected, "is damaged: the checksum does not match");
   header_.options = text.substr(0, preamble.option_bytes);
   header_.cloud = parse_partial_file(std::string_view(text).substr(preamble.option_bytes), false);
   bounds_ = preamble.bounds;
@@ -142,18 +139,18 @@ GroundFile::GroundFile(const std::filesystem::path& path) : path_(path) {
 void GroundFile::read(const CellRange& cells, LowestPoints& lowest) const {
   const InputFile file(path_);
   std::vector<LowestPoint> block;
-  boost::crc_32_type expected;
+  std::uint32_t expected = 0;
   for (std::uint64_t first = 0; first < points_; first += block.size()) {
     block.resize(std::min<std::uint64_t>(points_ - first, kLowestPerBlock));
     const std::size_t bytes = block.size() * sizeof(LowestPoint);
     file.read(first_point_ + first * sizeof(LowestPoint), block.data(), bytes);
-    expected.process_bytes(block.data(), bytes);
+    expected = crc32_of(block.data(), bytes, expected);
     for (const LowestPoint& point : block) {
       require_ground(bounds_.contain(point), "is damaged: a cell is outside its bounds");
       if (cells.contains(point)) lowest.add(point);
     }
   }
-  require_ground(static_cast<std::uint32_t>(check_sum_) == expected.checksum(),
+  require_ground(static_cast<std::uint32_t>(check_sum_) == expected,
                  "is damaged: the checksum does not match");
 }
 
