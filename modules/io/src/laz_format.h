@@ -28,8 +28,8 @@ struct LazChunk {
   std::size_t offset = 0, bytes = 0;  ///< Place in the file.
   std::size_t points = 0;             ///< Points to read, > 0.
   bool whole = false;                 ///< The chunk certainly has no other points.
-  /// If set, the chunk is not decompressed: each of its points is here, and all other fields are 0.
-  std::optional<std::array<double, 3>> instead{};
+  /// If set, the chunk need not be decompressed: each of its points is here, and all other fields are 0.
+  std::optional<std::array<double, 3>> placeholder{};
 };
 
 /// How the points are compressed, as the record "laszip encoded" of the file says.
@@ -51,9 +51,9 @@ struct LazLayout {
 /// than the header. Throws IoError if the layout is invalid, or in builds without LASzip.
 void read_laz_layout(const InputFile& file, LasHeader& header, LazLayout layout);
 
-/// Marks the chunks that read_las() with `is_unneeded` does not decompress. Adds a note to the cloud if the
+/// Marks the chunks that read_las() with `can_skip` does not decompress. Adds a note to the cloud if the
 /// tree of a COPC file is invalid; then no chunk is marked.
-void skip_nodes(const InputFile& file, LasHeader& header, const SkipsBox& is_unneeded);
+void mark_skipped_chunks(const InputFile& file, LasHeader& header, const BoxPredicate& can_skip);
 
 /// Reads the points into header.cloud.data. Memory grows with the points that were decompressed. Throws
 /// IoError.
