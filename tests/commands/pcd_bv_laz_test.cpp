@@ -55,6 +55,7 @@ TEST_F(PcdBvLaz, ResultsAreThoseOfTheLasFileWhateverTheFilterKeeps) {
        "1"},
       {"--range", "0:40", "--drop-inside", at("keep.json"), "--threads", "2"},
       {"--range", "0:60", "--ground", "zones"},
+      {"--range", "0:inf", "--ground", "zones", "--keep-inside", at("keep.json")},
       {"--range", "0:60", "--ground", "plane", "--cluster", "8"},
       {"--range", "0:60", "--ground", "slope"},
       {"--range", "0:60", "--cluster", "8", "--refine", "neck"},
