@@ -48,15 +48,16 @@ struct LazLayout {
 
 /// Reads the layout of a file with compressed points. header.data_offset, header.record, the number of points
 /// and the format of `layout` must have been read. Adds a note to the cloud if the chunks have more points
-/// than the header. Throws IoError if the layout is invalid, or in builds without LASzip.
+/// than the header. Throws IoError if the layout is invalid, if the header says 0 points but chunks follow,
+/// or in builds without LASzip.
 void read_laz_layout(const InputFile& file, LasHeader& header, LazLayout layout);
 
-/// Marks the chunks that read_las() with `can_skip` does not decompress. Adds a note to the cloud if the
-/// tree of a COPC file is invalid; then no chunk is marked.
+/// Marks the chunks that read_las() with `can_skip` need not decompress. If the tree of a COPC file is
+/// invalid or does not contain the bounding box of the header, marks none and adds a note to the cloud.
 void mark_skipped_chunks(const InputFile& file, LasHeader& header, const BoxPredicate& can_skip);
 
-/// Reads the points into header.cloud.data. Memory grows with the points that were decompressed. Throws
-/// IoError.
+/// Reads the points into header.cloud.data. For more than 32 points per compressed byte, memory grows with
+/// the points that were decompressed. Throws IoError.
 void read_laz_points(const InputFile& file, LasHeader& header, const ParallelPolicy& policy);
 
 /// Decompresses one chunk.

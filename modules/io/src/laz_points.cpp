@@ -18,6 +18,7 @@ constexpr std::size_t kStep = 1U << 16U;
 // have more points in relation to their bytes.
 constexpr std::size_t kPlausible = 32;
 
+// Returns whether memory for all points may be taken at once.
 bool is_plausible(const LasHeader& header) {
   std::size_t bytes = 0;
   for (const LazChunk& chunk : header.laz->chunks)
