@@ -51,6 +51,11 @@ bool PointFilter::keeps_all() const {
          !cropped_;
 }
 
+std::optional<std::vector<Aabb>> PointFilter::kept_extents() const {
+  if (!cropped_) return std::nullopt;
+  return cropped_->extents();
+}
+
 // Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,
 // not on regions. The loop compares distances without a branch.
 template <typename T, bool from_origin, typename Take>

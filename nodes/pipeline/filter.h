@@ -48,6 +48,10 @@ class PointFilter {
   /// Returns whether all finite points are kept.
   bool keeps_all() const;
 
+  /// Returns boxes around the volumes of the regions to keep; nullopt if points need not be in a region.
+  /// Points outside all boxes are dropped.
+  std::optional<std::vector<Aabb>> kept_extents() const;
+
   /// Computes the verdict of each point. The points must be in memory. Distances are measured from the origin
   /// or, in a merged cloud, from the sensor that measured the point. For float32 and the origin, the relative
   /// error of a distance is below 2e-16: the square of a float is exact in double, and only the two additions

@@ -332,6 +332,10 @@ void FramePipeline::set_support_finder(std::shared_ptr<SupportFinder> finder) {
   state_->supports_by_device = std::move(finder);
 }
 
+std::optional<std::vector<Aabb>> FramePipeline::kept_extents() const {
+  return state_->current()->filter->kept_extents();
+}
+
 void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const FloatEnvironment environment;
   const std::shared_ptr<const Prepared> now = state_->current();

@@ -43,7 +43,8 @@ LasFile las_of(std::size_t points) {
 
 std::string points_of(const CopcNode& node, std::mt19937& random) {
   std::string bytes;
-  for (std::size_t i = 0; i < node.points; ++i) {
+  const std::size_t different = node.equal ? 1 : node.points;
+  for (std::size_t i = 0; i < different; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       append(bytes,
              static_cast<std::int32_t>(std::lround(
@@ -51,6 +52,9 @@ std::string points_of(const CopcNode& node, std::mt19937& random) {
     for (std::size_t k = 12; k < kRecord; ++k)
       bytes += static_cast<char>(random());
   }
+  const std::string first = bytes;
+  for (std::size_t i = different; i < node.points; ++i)
+    bytes += first;
   return bytes;
 }
 
@@ -64,7 +68,7 @@ void add_chunk(const std::string& points, const std::filesystem::path& folder, C
   std::string bytes = las.bytes();
   bytes.replace(las.first_record(), std::string::npos, points);
   write_text(folder / "part.las", bytes);
-  compress_las(folder / "part.las", folder / "part.laz");
+  compress_las(folder / "part.las", folder / "part.laz", static_cast<std::uint32_t>(las.points));
   const std::string laz = file_content(folder / "part.laz");
   const std::size_t vlr = laz.find("laszip encoded") - 2, begin = value_at<std::uint32_t>(laz, 96) + 8;
   const auto end = static_cast<std::size_t>(value_at<std::int64_t>(laz, begin - 8));
@@ -139,6 +143,10 @@ CopcFile make_copc(const std::vector<CopcNode>& nodes, const std::filesystem::pa
   append(info, std::uint64_t{tree.root_bytes});
   info.resize(160);
   file.copc = file.las.substr(0, kHeader) + record("copc", 1, info) + laszip;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    LasFile::put(file.copc, 179 + 16 * axis, 64.0);
+    LasFile::put(file.copc, 187 + 16 * axis, -64.0);
+  }
   LasFile::put(file.copc, 96, static_cast<std::uint32_t>(data));
   LasFile::put(file.copc, 100, 2U);
   LasFile::put(file.copc, 104, static_cast<std::uint8_t>(128 + 7));

@@ -18,6 +18,7 @@ struct CopcNode {
   std::array<std::int32_t, 3> at{};
   std::size_t points = 0;
   bool on_second_page = false;
+  bool equal = false;  ///< All points are equal.
 
   /// Returns a bound of the node in metres.
   double low(std::size_t axis) const;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <utility>
 
 #include "copc_files.h"
 #include "files.h"
@@ -21,9 +22,18 @@ class Copc : public FileTest {
     write_text(file("a.copc.laz"), made_.copc);
   }
 
-  RawCloud read(const SkipsBox& is_unneeded) const {
-    return read_las(file("a.copc.laz"), Threads{2}, is_unneeded);
+  RawCloud read(const BoxPredicate& can_skip) const {
+    return read_las(file("a.copc.laz"), Threads{2}, can_skip);
   }
+
+  // Skips nodes with x > 0.
+  RawCloud read_with_gaps(const std::string& bytes) const {
+    write_text(file("b.laz"), bytes);
+    return read_las(file("b.laz"), Serial{}, [](const LasBox& box) { return box.low[0] > -1; });
+  }
+
+  static constexpr const char* kMismatch =
+      "the COPC octree does not match the table of chunks; all points are read";
 
   const std::vector<CopcNode> nodes_{
       {0, {0, 0, 0}, 100},      {1, {0, 0, 0}, 50},       {1, {1, 1, 1}, 70},     {1, {1, 0, 0}, 0},
@@ -39,7 +49,7 @@ TEST_F(Copc, HasThePointsOfTheLasFileInTheOrderOfTheFile) {
   EXPECT_TRUE(read({}).data == cloud.data);
 }
 
-TEST_F(Copc, NodesThatAreNotNeededHaveTheirCentreForEachPoint) {
+TEST_F(Copc, SkippedNodesHaveTheirCentreForEachPoint) {
   const RawCloud all = read_cloud(file("a.las"));
   std::size_t asked = 0;
   const RawCloud some = read([&](const LasBox& box) {
@@ -87,7 +97,8 @@ TEST_F(Copc, BoxesHaveAllPointsOfTheirNodes) {
   }
 }
 
-// Each value of each entry: what the tree says does not change the points.
+// Each value of each entry. A tree is used only if it has each chunk once, so that a note comes with all
+// points.
 TEST_F(Copc, WithAnInvalidTreeIsReadCompletely) {
   const RawCloud all = read_cloud(file("a.las"));
   const std::size_t words = (made_.copc.size() - made_.first_entry) / 4;
@@ -96,14 +107,59 @@ TEST_F(Copc, WithAnInvalidTreeIsReadCompletely) {
     for (const std::int32_t value : {-2, -1, 0x7FFFFFFF}) {
       std::string bytes = made_.copc;
       LasFile::put(bytes, made_.first_entry + 4 * word, value);
-      write_text(file("b.laz"), bytes);
-      const RawCloud cloud = read_las(file("b.laz"), Serial{}, [](const LasBox&) { return false; });
+      const RawCloud cloud = read_with_gaps(bytes);
+      ASSERT_EQ(cloud.data.size(), all.data.size()) << word << ", " << value;
+      if (cloud.note.empty()) continue;
+      ASSERT_EQ(cloud.note, kMismatch);
       ASSERT_TRUE(cloud.data == all.data) << word << ", " << value;
-      refused += cloud.note == "the tree of COPC contradicts the chunks; all nodes are read" ? 1 : 0;
+      ++refused;
     }
   }
   EXPECT_EQ(words, 64U);
   EXPECT_GT(refused, 160U);  // nodes without points may be anywhere
+}
+
+TEST_F(Copc, WhoseTreeHasAChunkTwiceAndAnotherNeverIsReadCompletely) {
+  const RawCloud all = read_cloud(file("a.las"));
+  const auto copied = [&](std::size_t from, std::size_t to) {
+    std::string bytes = made_.copc;
+    return bytes.replace(made_.first_entry + 32 * to, 32, made_.copc, made_.first_entry + 32 * from, 32);
+  };
+  EXPECT_FALSE(read_with_gaps(made_.copc).data == all.data);
+  for (const auto& [from, to] : {std::pair{3, 4}, {3, 5}, {0, 1}, {5, 0}}) {
+    const RawCloud cloud =
+        read_with_gaps(copied(static_cast<std::size_t>(from), static_cast<std::size_t>(to)));
+    EXPECT_EQ(cloud.note, kMismatch) << from << " to " << to;
+    EXPECT_TRUE(cloud.data == all.data) << from << " to " << to;
+  }
+}
+
+TEST_F(Copc, WhoseCubeDoesNotContainTheBoundsIsReadCompletely) {
+  const RawCloud all = read_cloud(file("a.las"));
+  constexpr std::size_t info = 375 + 54;
+  for (const auto& [at, value] : {std::pair{0, 1.0}, {8, -1.0}, {16, 128.0}, {24, 63.9}}) {
+    std::string bytes = made_.copc;
+    LasFile::put(bytes, info + static_cast<std::size_t>(at), value);
+    const RawCloud cloud = read_with_gaps(bytes);
+    EXPECT_EQ(cloud.note,
+              "the COPC cube does not contain the bounding box of the header; all points are read");
+    EXPECT_TRUE(cloud.data == all.data) << at;
+  }
+}
+
+// Memory for more than 32 points per byte is taken step by step, also if nodes are skipped.
+TEST_F(Copc, OfManyEqualPointsHasSkippedNodesToo) {
+  const CopcFile made = make_copc({{1, {0, 0, 0}, 200'000, false, true}, {1, {1, 1, 1}, 50}}, folder());
+  write_text(file("b.las"), made.las);
+  const RawCloud all = read_cloud(file("b.las")), cloud = read_with_gaps(made.copc);
+  ASSERT_EQ(cloud.data.size(), all.data.size());
+  EXPECT_EQ(cloud.note, "");
+  const std::size_t first = 200'000 * all.point_step;
+  EXPECT_EQ(std::memcmp(cloud.data.data(), all.data.data(), first), 0);
+  for (std::size_t i = 200'000; i < all.size(); ++i) {
+    const Coordinates p = load_point(cloud.xyz(), i);
+    ASSERT_TRUE(p.x == 32 && p.y == 32 && p.z == 32) << i;
+  }
 }
 
 TEST_F(Copc, WhosePagesNameEachOtherIsReadCompletely) {

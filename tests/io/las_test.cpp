@@ -100,11 +100,11 @@ TEST_F(Las, PackedBitsAreFieldsOfTheirOwn) {
 TEST_F(Las, CompressedWithoutLaszipIsRefusedWithWhatToDo) {
   std::string bytes = LasFile().bytes();
   bytes[104] = static_cast<char>(0x80);
-  const std::string expected =
-      reads_laz()
-          ? "header: the points are compressed, but the record of LASzip is missing"
-          : "compressed (LAZ) points need a build with LASzip (Debian 13's liblaszip-dev); without it, "
-            "unpack them first, with laszip or pdal";
+  const std::string expected = reads_laz()
+                                   ? "header: the points are compressed, but the record of LASzip is missing"
+                                   : "compressed (LAZ) points: this build has no LASzip (Debian 13: "
+                                     "liblaszip-dev). Decompress the file "
+                                     "with laszip or pdal first";
   EXPECT_EQ(reason_for_content(bytes, ".laz"), expected);
   EXPECT_EQ(reason_for_content(bytes, ".las"), expected);
 }

@@ -156,6 +156,31 @@ TEST_F(Laz, OfChunksOfDifferentSizesIsReadInTheirOrder) {
   }
 }
 
+// Returns the file with a table of chunks of its own.
+std::string with_table(std::string laz, const std::vector<LazTableEntry>& entries) {
+  const LazPlaces places(laz);
+  const std::size_t table = places.table();
+  LasFile::put<std::uint32_t>(laz, places.record() + 12, 0xFFFFFFFF);
+  return laz.substr(0, table) + laz_table(entries, true);
+}
+
+TEST_F(Laz, ChunksWithoutPointsAreLeftOut) {
+  const std::string whole = compressed(LasFile{4, 7, 36, 100}.bytes());
+  const RawCloud las = read_cloud(file("a.las"));
+  const LazPlaces places(whole);
+  const auto bytes = static_cast<std::uint32_t>(places.table() - places.data() - 8);
+  for (const auto& entries : std::vector<std::vector<LazTableEntry>>{
+           {{0, 0}, {100, bytes}}, {{100, bytes}, {0, 0}}, {{0, 0}, {0, 0}, {100, bytes}, {0, 0}}}) {
+    write_text(file("b.laz"), with_table(whole, entries));
+    const RawCloud cloud = read_cloud(file("b.laz"));
+    expect_same(cloud, las, "");
+    EXPECT_EQ(cloud.note, "");
+  }
+  EXPECT_EQ(reason(with_table(whole, {{100, 35}})), "corrupt: chunk 0 has 35 bytes, a point has 36");
+  EXPECT_EQ(reason(with_table(whole, {{100, bytes + 1}})),
+            "corrupt: chunk 0 of " + std::to_string(bytes + 1) + " bytes ends behind the table of chunks");
+}
+
 // Many points in few bytes are no reason to refuse a file.
 TEST_F(Laz, OfEqualPointsIsReadCompletely) {
   for (const int format : {0, 6}) {
@@ -229,9 +254,26 @@ TEST_F(DamagedLaz, IsRefusedWithTheReason) {
 TEST_F(DamagedLaz, CannotAskForMuchMemory) {
   EXPECT_THAT(reason_with(247, std::uint64_t{1} << 40U), HasSubstr("cannot have 1099511627776 points"));
   const std::size_t layers = data() + 8 + 36;
-  EXPECT_THAT(reason_with(layers, 0U), HasSubstr("does not have the bytes or points of its layers"));
-  EXPECT_THAT(reason_with(layers + 4, 0xFFFFFFF0U),
-              HasSubstr("does not have the bytes or points of its layers"));
+  EXPECT_THAT(reason_with(layers + 4, 0xFFFFFFF0U), HasSubstr("does not have the bytes of its layers"));
+  whole_ = compressed(LasFile{4, 7, 36 + 4096, 3}.bytes());
+  EXPECT_EQ(reason(whole_), "");
+  whole_ = compressed(LasFile{4, 7, 36 + 4097, 3}.bytes());
+  EXPECT_EQ(reason(whole_),
+            "header: 4097 extra bytes per point, at most 4096 are read from compressed files");
+}
+
+TEST_F(DamagedLaz, ChunkOfOtherThanItsPointsIsRefused) {
+  const std::size_t first = data() + 8 + 36;
+  const std::string chunk = "corrupt: the chunk at byte " + std::to_string(data() + 8) + " has ";
+  EXPECT_EQ(reason_with(first, 0U), chunk + "0 points, the table of chunks says 100");
+  EXPECT_EQ(reason_with(first, 101U), chunk + "101 points, the table of chunks says 100");
+}
+
+// A recorder that stopped early leaves such a header.
+TEST_F(DamagedLaz, OfNoPointsWithChunksIsRefusedLikeLas) {
+  EXPECT_EQ(reason_with(247, std::uint64_t{0}), "header: 0 points, but 3 chunks of points follow");
+  whole_ = compressed(LasFile{2, 1, 28, 300}.bytes(), 100);
+  EXPECT_EQ(reason_with(107, 0U), "header: 0 points, but 3 chunks of points follow");
 }
 
 // LASzip 3.5 would read outside of its tables.

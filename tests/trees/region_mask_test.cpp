@@ -96,6 +96,37 @@ TEST(RegionMask, OfDoublesIsContainsOfTheGrownVolume) {
   expect_contains<double>();
 }
 
+// Corners of the inflated volumes may be far beyond aabb() plus the padding.
+TEST(RegionMask, ExtentsHoldAllPointsInside) {
+  Random random(7);
+  const auto is_in = [](const std::vector<Aabb>& boxes, const Vector3d& point) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& box) { return box.contains(point); });
+  };
+  for (const Scale& scale : {scales()[0], scales()[1], scales()[5]}) {
+    std::size_t in = 0, beyond = 0;
+    for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
+      const double padding = 0.5 * scale.extent;
+      const RegionMask mask({{volume, padding}});
+      const std::vector<Aabb> extents = mask.extents();
+      ASSERT_EQ(extents.size(), 1U);
+      const Vector3d grown = Vector3d::Constant(padding * (1 + 1e-6));
+      const Aabb box = aabb(volume), simple(box.min() - grown, box.max() + grown);
+      for (int i = 0; i < 3000; ++i) {
+        const Vector3d point =
+            box.center() + (0.5 * (box.max() - box.min()) + 2 * grown).cwiseProduct(random.vector(1));
+        if (!mask.contains(point)) continue;
+        ++in;
+        beyond += simple.contains(point) ? 0 : 1;
+        ASSERT_TRUE(is_in(extents, point)) << shape_name(volume) << ", " << scale.name;
+      }
+    }
+    EXPECT_GT(in, 1000U) << scale.name;
+    EXPECT_GT(beyond, 10U) << scale.name;
+  }
+  EXPECT_TRUE(RegionMask({}).extents().empty());
+  EXPECT_TRUE(RegionMask({{Aabb(), 1}}).extents().empty());
+}
+
 TEST(RegionMask, OfManyRegionsIsTheirUnion) {
   Random random(2);
   for (const Scale& scale : {scales()[0], scales()[1], scales()[3], scales()[5]}) {

@@ -65,6 +65,19 @@ LasBox box_of(const CopcInfo& info, const LasHeader& header, const CopcEntry& en
   return box;
 }
 
+// Returns whether the cube contains the bounding box of the header.
+bool contains_bounds(const CopcInfo& info, const InputFile& file, const LasHeader& header) {
+  constexpr std::size_t bounds_at = 179;  // greatest and smallest x, then y and z
+  double bounds[6];
+  file.read(bounds_at, bounds, sizeof bounds);
+  const LasBox cube = box_of(info, header, {});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool within = bounds[2 * axis] <= cube.high[axis] && bounds[2 * axis + 1] >= cube.low[axis];
+    if (!within) return false;
+  }
+  return true;
+}
+
 class CopcTree {
  public:
   CopcTree(const InputFile& file, LasHeader& header, const CopcInfo& info)
@@ -79,7 +92,10 @@ class CopcTree {
       if (!add_page(page)) return std::nullopt;
     }
     if (found_ != boxes_.size()) return std::nullopt;
-    return std::move(boxes_);
+    std::vector<LasBox> all;
+    for (const std::optional<LasBox>& box : boxes_)
+      all.push_back(*box);
+    return all;
   }
 
  private:
@@ -87,7 +103,7 @@ class CopcTree {
     const std::size_t size = file_.size();
     if (page.offset > size || page.bytes > size - page.offset || page.bytes % sizeof(CopcEntry) != 0)
       return false;
-    // Pages are parts of the file, so that pages that repeat end here.
+    // Valid pages do not overlap, so their sum is at most the file size. This stops cycles of pages.
     read_bytes_ += page.bytes + sizeof(CopcEntry);
     if (read_bytes_ > size) return false;
     std::vector<CopcEntry> entries(page.bytes / sizeof(CopcEntry));
@@ -112,30 +128,37 @@ class CopcTree {
         chunk->bytes != static_cast<std::size_t>(entry.bytes) ||
         chunk->points != static_cast<std::size_t>(entry.points))
       return false;
-    boxes_[static_cast<std::size_t>(chunk - chunks.begin())] = box_of(info_, header_, entry);
-    return ++found_ <= chunks.size();
+    std::optional<LasBox>& box = boxes_[static_cast<std::size_t>(chunk - chunks.begin())];
+    if (box) return false;
+    box = box_of(info_, header_, entry);
+    ++found_;
+    return true;
   }
 
   const InputFile& file_;
   LasHeader& header_;
   const CopcInfo info_;
-  std::vector<LasBox> boxes_;
+  std::vector<std::optional<LasBox>> boxes_;  // of the chunks that were found
   std::vector<CopcPage> pages_;
   std::size_t found_ = 0, read_bytes_ = 0;
 };
 
 }  // namespace
 
-void skip_nodes(const InputFile& file, LasHeader& header, const SkipsBox& is_unneeded) {
-  if (!is_unneeded || !header.laz || header.laz->compressor != LazLayout::layered) return;
+void mark_skipped_chunks(const InputFile& file, LasHeader& header, const BoxPredicate& can_skip) {
+  if (!can_skip || !header.laz || header.laz->compressor != LazLayout::layered) return;
   const std::optional<CopcInfo> info = read_info(file, header);
   if (!info) return;
+  if (!contains_bounds(*info, file, header))
+    return add_note(header.cloud,
+                    "the COPC cube does not contain the bounding box of the header; all points are read");
   const auto boxes = CopcTree(file, header, *info).boxes();
-  if (!boxes) return add_note(header.cloud, "the tree of COPC contradicts the chunks; all nodes are read");
+  if (!boxes)
+    return add_note(header.cloud, "the COPC octree does not match the table of chunks; all points are read");
   for (std::size_t i = 0; i < boxes->size(); ++i) {
     const LasBox& box = (*boxes)[i];
-    if (!is_unneeded(box)) continue;
-    std::array<double, 3>& center = header.laz->chunks[i].instead.emplace();
+    if (!can_skip(box)) continue;
+    std::array<double, 3>& center = header.laz->chunks[i].placeholder.emplace();
     for (std::size_t axis = 0; axis < 3; ++axis)
       center[axis] = box.low[axis] / 2 + box.high[axis] / 2;
   }

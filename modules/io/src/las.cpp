@@ -111,9 +111,8 @@ bool is_compressed(const HeaderBytes& bytes) {
   if (bytes.at<std::uint8_t>(104) < kCompressed) return false;
   if (!reads_laz())
     throw IoError(
-        "compressed (LAZ) points need a build with LASzip (Debian 13's liblaszip-dev); without it, unpack "
-        "them "
-        "first, with laszip or pdal");
+        "compressed (LAZ) points: this build has no LASzip (Debian 13: liblaszip-dev). Decompress the file "
+        "with laszip or pdal first");
   return true;
 }
 

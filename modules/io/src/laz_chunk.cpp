@@ -88,7 +88,7 @@ void write_prefix(const LasHeader& header, std::size_t points, ByteBuffer& bytes
   put(bytes, size + 20, static_cast<std::uint16_t>(laz.record.size()));
   std::memcpy(bytes.data() + size + kVlrHead, laz.record.data(), laz.record.size());
   put(bytes, size + kVlrHead + 12, std::numeric_limits<std::uint32_t>::max() - 1);  // points of a chunk
-  // Its own place means that there is no table.
+  // An offset equal to the position of this field tells LASzip that there is no table.
   if (laz.compressor != LazLayout::pointwise) put(bytes, data, static_cast<std::int64_t>(data));
 }
 
@@ -96,27 +96,31 @@ void write_prefix(const LasHeader& header, std::size_t points, ByteBuffer& bytes
   throw IoError("corrupt: the chunk at byte " + std::to_string(chunk.offset) + " " + what);
 }
 
-// Throws IoError if the coder's first value is its greatest, which is outside of its interval. No encoder
-// writes it, and LASzip would read outside of its tables.
+// Throws IoError if the first four bytes are 0xFFFFFFFF. The coder's value must be below its interval length
+// 0xFFFFFFFF; LASzip does not check this and would read beyond its tables.
 void check_coded(const std::byte* at, std::size_t bytes, const LazChunk& chunk) {
   constexpr std::size_t word = 4;
   if (bytes >= word && std::all_of(at, at + word, [](std::byte byte) { return byte == std::byte{0xFF}; }))
     refuse_chunk(chunk, "begins with no coded number");
 }
 
-// Throws IoError unless the sizes of the layers are those of the chunk.
+// Throws IoError unless the number of points and the sizes of the layers are those of the chunk.
 void check_layers(const std::byte* bytes, const LazChunk& chunk, const LasHeader& header) {
   const std::size_t layers = header.laz->layers, head = header.record + 4 * (1 + layers);
   if (chunk.bytes < head) refuse_chunk(chunk, "is too short for its layers");
   std::vector<std::uint32_t> sizes(1 + layers);  // the number of points comes first
   std::memcpy(sizes.data(), bytes + header.record, 4 * sizes.size());
+  if (chunk.whole ? sizes[0] != chunk.points : sizes[0] < chunk.points)
+    refuse_chunk(chunk, "has " + std::to_string(sizes[0]) + " points, " +
+                            (chunk.whole ? "the table of chunks says " : "the header needs ") +
+                            std::to_string(chunk.points));
   std::size_t at = head;
   for (std::size_t i = 1; i < sizes.size() && sizes[i] <= chunk.bytes - at; ++i) {
     check_coded(bytes + at, sizes[i], chunk);
     at += sizes[i];
-    if (i == layers && at == chunk.bytes && sizes[0] >= chunk.points) return;
+    if (i == layers && at == chunk.bytes) return;
   }
-  refuse_chunk(chunk, "does not have the bytes or points of its layers");
+  refuse_chunk(chunk, "does not have the bytes of its layers");
 }
 
 void check_chunk(const std::byte* bytes, const LazChunk& chunk, const LasHeader& header) {

@@ -28,8 +28,8 @@ struct LazChunk {
   std::size_t offset = 0, bytes = 0;  ///< Place in the file.
   std::size_t points = 0;             ///< Points to read, > 0.
   bool whole = false;                 ///< The chunk certainly has no other points.
-  /// If set, the chunk is not decompressed: each of its points is here, and all other fields are 0.
-  std::optional<std::array<double, 3>> instead{};
+  /// If set, the chunk need not be decompressed: each of its points is here, and all other fields are 0.
+  std::optional<std::array<double, 3>> placeholder{};
 };
 
 /// How the points are compressed, as the record "laszip encoded" of the file says.
@@ -48,15 +48,16 @@ struct LazLayout {
 
 /// Reads the layout of a file with compressed points. header.data_offset, header.record, the number of points
 /// and the format of `layout` must have been read. Adds a note to the cloud if the chunks have more points
-/// than the header. Throws IoError if the layout is invalid, or in builds without LASzip.
+/// than the header. Throws IoError if the layout is invalid, if the header says 0 points but chunks follow,
+/// or in builds without LASzip.
 void read_laz_layout(const InputFile& file, LasHeader& header, LazLayout layout);
 
-/// Marks the chunks that read_las() with `is_unneeded` does not decompress. Adds a note to the cloud if the
-/// tree of a COPC file is invalid; then no chunk is marked.
-void skip_nodes(const InputFile& file, LasHeader& header, const SkipsBox& is_unneeded);
+/// Marks the chunks that read_las() with `can_skip` need not decompress. If the tree of a COPC file is
+/// invalid or does not contain the bounding box of the header, marks none and adds a note to the cloud.
+void mark_skipped_chunks(const InputFile& file, LasHeader& header, const BoxPredicate& can_skip);
 
-/// Reads the points into header.cloud.data. Memory grows with the points that were decompressed. Throws
-/// IoError.
+/// Reads the points into header.cloud.data. For more than 32 points per compressed byte, memory grows with
+/// the points that were decompressed. Throws IoError.
 void read_laz_points(const InputFile& file, LasHeader& header, const ParallelPolicy& policy);
 
 /// Decompresses one chunk.

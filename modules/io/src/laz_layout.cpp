@@ -44,6 +44,9 @@ constexpr std::uint32_t kMaxRecords = 1U << 16U;
 // points, up to 700 share a byte.
 constexpr std::uint64_t kMaxPointsPerByte = 4096;
 
+// Maximum number of extra bytes of a point. Files have fewer than 100. LASzip takes 2.3 kB for each.
+constexpr std::size_t kMaxExtraBytes = 4096;
+
 // The value of a fixed number of points per chunk that means a number for each chunk.
 constexpr std::uint32_t kVariablePoints = std::numeric_limits<std::uint32_t>::max();
 
@@ -145,6 +148,10 @@ void check_record(LazLayout& layout, std::size_t record_bytes) {
                   std::to_string(coder) + " is not one of LASzip's for point format " +
                   std::to_string(layout.point_format));
   const std::vector<LazItem> items = items_of(layout.point_format, record_bytes);
+  const LazItem& last = items.back();
+  if ((last.type == bytes10 || last.type == bytes14) && last.size > kMaxExtraBytes)
+    throw IoError("header: " + std::to_string(last.size) + " extra bytes per point, at most " +
+                  std::to_string(kMaxExtraBytes) + " are read from compressed files");
   check_items(layout.record, items, wide);
   if (wide) layout.layers = count_layers(items);
 }
@@ -165,7 +172,13 @@ std::size_t chunk_table_offset(const InputFile& file, std::size_t data_offset) {
   return static_cast<std::size_t>(at);
 }
 
-// Adds chunks until they have all points. The table has more chunks if the header has too few points.
+// Returns whether a file may have a table of chunks. A file without points need not have one.
+bool has_table(const InputFile& file, const LasHeader& header) {
+  return file.size() >= header.data_offset && file.size() - header.data_offset >= 2 * sizeof(std::int64_t);
+}
+
+// Adds chunks until they have all points. The table has more chunks if the header has too few points. Writers
+// that stopped early leave 0 points in the header.
 void read_chunks(const InputFile& file, LasHeader& header, LazLayout& layout) {
   std::uint32_t used_chunks = 0;
   const std::size_t points = header.cloud.width;
@@ -180,10 +193,13 @@ void read_chunks(const InputFile& file, LasHeader& header, LazLayout& layout) {
                   std::to_string(table - offset) + " bytes");
   for (std::uint32_t i = 0; i < entries.size() && done < points; ++i) {
     const ChunkTableReader::Entry entry = entries.next();
-    if (entry.bytes > table - offset || entry.bytes < header.record)
-      throw IoError("corrupt: chunk " + std::to_string(i) + " has " + std::to_string(entry.bytes) +
-                    " bytes, " + std::to_string(table - offset) + " are left");
     const std::size_t count = fixed == kVariablePoints ? entry.points : fixed;
+    if (entry.bytes > table - offset)
+      throw IoError("corrupt: chunk " + std::to_string(i) + " of " + std::to_string(entry.bytes) +
+                    " bytes ends behind the table of chunks");
+    if (count > 0 && entry.bytes < header.record)
+      throw IoError("corrupt: chunk " + std::to_string(i) + " has " + std::to_string(entry.bytes) +
+                    " bytes, a point has " + std::to_string(header.record));
     const bool whole = count < points - done || (fixed == kVariablePoints && count == points - done);
     const std::size_t used = std::min(count, points - done);
     if (used > 0) layout.chunks.push_back({offset, entry.bytes, used, whole});
@@ -191,9 +207,13 @@ void read_chunks(const InputFile& file, LasHeader& header, LazLayout& layout) {
     offset += entry.bytes;
     used_chunks = i + 1;
   }
-  if (done == points && used_chunks < entries.size())
-    add_note(header.cloud, "the header says " + std::to_string(points) + " points; " +
-                               std::to_string(entries.size() - used_chunks) +
+  std::uint32_t more = 0;
+  for (std::uint32_t i = used_chunks; i < entries.size(); ++i)
+    more += fixed != kVariablePoints || entries.next().points > 0 ? 1 : 0;
+  if (more > 0 && points == 0)
+    throw IoError("header: 0 points, but " + std::to_string(more) + " chunks of points follow");
+  if (more > 0)
+    add_note(header.cloud, "the header says " + std::to_string(points) + " points; " + std::to_string(more) +
                                " more chunks of points follow, which are not read");
   if (done < points)
     throw IoError("truncated: the chunks have " + std::to_string(done) + " points, the header says " +
@@ -212,7 +232,7 @@ void read_laz_layout(const InputFile& file, LasHeader& header, LazLayout layout)
   if (points > 0 && layout.compressor == LazLayout::pointwise) {
     if (header.data_offset >= size) throw IoError("truncated: the points are missing");
     layout.chunks.push_back({header.data_offset, size - header.data_offset, points, false});
-  } else if (points > 0) {
+  } else if (layout.compressor != LazLayout::pointwise && (points > 0 || has_table(file, header))) {
     read_chunks(file, header, layout);
   }
   header.laz = std::move(layout);

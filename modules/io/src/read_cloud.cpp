@@ -140,10 +140,10 @@ RawCloud detail::read_las(const std::filesystem::path& path, const Execution& ex
 }
 
 RawCloud detail::read_las(const std::filesystem::path& path, const Execution& execution,
-                          const SkipsBox& is_unneeded) {
+                          const BoxPredicate& can_skip) {
   const auto read_header = [&](const InputFile& file) {
     LasHeader header = read_las_header(file);
-    skip_nodes(file, header, is_unneeded);
+    mark_skipped_chunks(file, header, can_skip);
     return header;
   };
   return read_file(path, read_header, execution.parallel);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "convex_region.h"
 #include "inflated.h"
@@ -73,6 +74,17 @@ RegionMask::RegionMask(const std::vector<Region>& regions) {
   std::shared_ptr<const VolumeBoxes> boxes;
   if (volumes.size() > kFewRegions) boxes = boxes_of(volumes);
   state_ = std::make_shared<State>(State{std::move(volumes), std::move(tests), std::move(boxes)});
+}
+
+std::vector<Aabb> RegionMask::extents() const {
+  const FloatEnvironment environment;
+  std::vector<Aabb> boxes;
+  for (const AnyVolume& volume : state_->volumes) {
+    constexpr double most = std::numeric_limits<double>::max();  // a corner of a box is finite
+    const PositionBounds extent = extent_of(volume);
+    boxes.emplace_back(vector(extent.low).cwiseMax(-most), vector(extent.high).cwiseMin(most));
+  }
+  return boxes;
 }
 
 bool RegionMask::contains(const Eigen::Vector3d& point) const {

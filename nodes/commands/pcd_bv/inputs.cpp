@@ -231,14 +231,14 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   return jobs;
 }
 
-RawCloud load_cloud(const Job& job, const Execution& execution, const SkipsBox& is_unneeded) {
+RawCloud load_cloud(const Job& job, const Execution& execution, const BoxPredicate& can_skip) {
   if (job.error) throw IoError(*job.error);
   if (is_synth(job.input)) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
   if (job.recording) return load_recorded(job);
-  if (is_unneeded) return read_las(job.input, execution, is_unneeded);
+  if (can_skip) return read_las(job.input, execution, can_skip);
   return read_cloud(job.input, {job.bin_fields, job.columns}, execution);
 }
 

@@ -65,8 +65,8 @@ std::vector<Job> list_partials(const std::string& argument);
 /// Returns the file in a folder for the labels of an input.
 std::filesystem::path label_file(const std::filesystem::path& folder, const std::string& input);
 
-/// Loads the cloud of a job. Nodes of a COPC file that `is_unneeded` accepts are left out as in read_las().
+/// Loads the cloud of a job. Nodes of a COPC file that `can_skip` accepts are left out as in read_las().
 /// Throws IoError if that fails, and std::invalid_argument for an unknown scene.
-RawCloud load_cloud(const Job& job, const Execution& execution, const SkipsBox& is_unneeded = {});
+RawCloud load_cloud(const Job& job, const Execution& execution, const BoxPredicate& can_skip = {});
 
 }  // namespace pcl_bv::detail

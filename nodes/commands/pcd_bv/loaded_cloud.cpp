@@ -25,7 +25,7 @@ RawCloud header_of(const PointView& points) {
 }  // namespace
 
 LoadedCloud::LoadedCloud(const Job& job, bool in_memory, const Execution& execution,
-                         const OriginOption& origin, const SkipsBox& is_unneeded) {
+                         const OriginOption& origin, const BoxPredicate& can_skip) {
   if (job.tiles) {
     tiles_ = job.tiles;
     xyz_ = tiles_->xyz();
@@ -35,7 +35,7 @@ LoadedCloud::LoadedCloud(const Job& job, bool in_memory, const Execution& execut
   } else {
     if (!in_memory && !job.error && !job.recording && !is_synth(job.input))
       file_ = CloudFile::open(job.input, job.bin_fields);
-    if (!file_) cloud_ = load_cloud(job, execution, is_unneeded);
+    if (!file_) cloud_ = load_cloud(job, execution, can_skip);
     xyz_ = file_ ? file_->xyz() : cloud_.xyz();
   }
   if (!origin.requested) return;

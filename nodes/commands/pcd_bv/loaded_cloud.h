@@ -15,10 +15,10 @@ class LoadedCloud {
  public:
   /// With `in_memory`, reads the cloud into memory. Generated and recorded clouds are always in memory. For a
   /// tiled cloud, `in_memory` has no effect: such a cloud is in memory if it has at most kChunkPoints points.
-  /// The origin, if requested, is subtracted from the points of xyz(). `is_unneeded` is that of load_cloud().
+  /// The origin, if requested, is subtracted from the points of xyz(). `can_skip` is that of load_cloud().
   /// Throws as load_cloud(), and TileError for a tiled cloud.
   LoadedCloud(const Job& job, bool in_memory, const Execution& execution, const OriginOption& origin,
-              const SkipsBox& is_unneeded = {});
+              const BoxPredicate& can_skip = {});
 
   /// Returns the cloud with fields, size and viewpoint. It has points only if the cloud is in memory.
   const RawCloud& cloud() const { return file_ ? file_->header() : cloud_; }

@@ -30,10 +30,10 @@
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "shares.h"
+#include "skip_predicate.h"
 #include "stopwatch.h"
 #include "tile_progress.h"
 #include "tiled_objects.h"
-#include "unneeded_boxes.h"
 #include "view_html.h"
 
 namespace pcl_bv {
@@ -131,7 +131,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   Stopwatch watch;
   const Execution execution = options.pipeline.execution();
   const bool segmented = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
-  LoadedCloud loaded(job, segmented || job.labels, execution, options.origin, unneeded_boxes(job, options));
+  LoadedCloud loaded(job, segmented || job.labels, execution, options.origin,
+                     make_skip_predicate(job, options, pipeline));
   const double read = watch.lap();
   const std::string note = job.recording ? job.recording->new_note(job.number) : loaded.cloud().note;
   if (!note.empty()) report_problem(job.input + ": " + note);

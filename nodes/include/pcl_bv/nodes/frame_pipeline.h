@@ -6,10 +6,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/volumes/aabb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -57,6 +60,10 @@ class FramePipeline {
   /// Private. Lets a device find the supports of the clusters, which changes no bit. Null: the processor
   /// does.
   void set_support_finder(std::shared_ptr<detail::SupportFinder> finder);
+
+  /// Private. Returns boxes around the volumes of the regions with RegionConfig::keep; nullopt if there are
+  /// no such regions. The next frame's points outside all boxes are dropped.
+  std::optional<std::vector<Aabb>> kept_extents() const;
 
  private:
   struct State;

@@ -47,13 +47,16 @@ struct LasBox {
 };
 
 /// Returns whether the caller needs none of the points of a box.
-using SkipsBox = std::function<bool(const LasBox&)>;
+using BoxPredicate = std::function<bool(const LasBox&)>;
 
 /// Reads like read_las() above, but saves time in a COPC file: it does not decompress nodes whose points are
-/// in a box that `is_unneeded` accepts. Each point of such a node has the coordinates of the centre of its
-/// box, and 0 in all other fields, so that number and order of the points stay. If the tree of nodes is
-/// invalid, all points are read and RawCloud::note says so. In other files, `is_unneeded` has no effect.
-RawCloud read_las(const std::filesystem::path& path, const Execution& execution, const SkipsBox& is_unneeded);
+/// in a box that `can_skip` accepts. Each point of such a node has the coordinates of the centre of its box,
+/// and 0 in all other fields, so that number and order of the points stay. Nodes with more than 32 points per
+/// byte may be decompressed nevertheless. If the tree of nodes is invalid, or its cube does not contain the
+/// bounding box of the header, all points are read and RawCloud::note says so. In other files, `can_skip` has
+/// no effect.
+RawCloud read_las(const std::filesystem::path& path, const Execution& execution,
+                  const BoxPredicate& can_skip);
 
 /// Returns whether this build reads compressed points (LAZ), which needs LASzip.
 bool reads_laz();

@@ -64,6 +64,11 @@ class RegionMask {
   void mark(const PointView& points, std::vector<std::uint8_t>& inside,
             const Execution& execution = {}) const;
 
+  /// Returns a box around each inflated volume that is not empty, in the order of the regions. contains()
+  /// holds for no point outside all boxes. The box of a sharp Hull or Kdop may be much larger than that of
+  /// the volume before inflation. Sides that no plane limits are the largest finite number.
+  std::vector<Aabb> extents() const;
+
   /// Largest number of regions that are tested without a tree.
   static constexpr std::size_t kFewRegions = 12;
 
