@@ -7,7 +7,8 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/segmentation/ground.h"
 
-namespace pcl_bv::detail {
+namespace pcl_bv {
+namespace [[gnu::visibility("default")]] detail {
 
 /// Smallest number of points for which warnings about the ground settings are given.
 inline constexpr std::size_t kFewPoints = 100;
@@ -24,4 +25,5 @@ GroundSlopeOptions slope_settings(const GroundConfig& config);
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
                   const Execution& execution, GroundZones& zones, GroundSplit& split);
 
-}  // namespace pcl_bv::detail
+}  // namespace detail
+}  // namespace pcl_bv
