@@ -70,32 +70,15 @@ struct GroundZones::Scratch : ZonePoints {
     split.ground.resize(number.size());
     split.rest.resize(number.size());
     parts.for_each(policy, [&](ZonePart& part) {
-      const auto is_ground = [&](std::size_t i) {
-        return central && surface.clearance(*this, i) <= limit[surface.has_object(*this, i)];
+      const auto visit = [&](const auto& put) {
+        for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
+          put(number[i], central && surface.clearance(*this, i) <= limit[surface.has_object(*this, i)]);
       };
-      part.listed = divide(part.begin, part.begin + part.valid, is_ground, split);
+      part.listed = write_lists(part.begin, split, visit).ground;
     });
     split.ground.resize(join_lists(parts, split.ground, [](const ZonePart& part) { return part.listed; }));
     split.rest.resize(
         join_lists(parts, split.rest, [](const ZonePart& part) { return part.valid - part.listed; }));
-  }
-
- private:
-  // Writes the cloud indices of points `begin` to `end` to split.ground or split.rest. Both lists start at
-  // position `begin`, so parts do not overlap. Each index is written to both, but only one position advances.
-  // This takes half the time of a branch, because branches are unpredictable in clouds in scan order. Returns
-  // the number of ground points.
-  template <typename IsGround>
-  std::size_t divide(std::size_t begin, std::size_t end, const IsGround& is_ground,
-                     GroundSplit& split) const {
-    std::size_t ground = begin, rest = begin;
-    for (std::size_t i = begin; i < end; ++i) {
-      split.ground[ground] = split.rest[rest] = number[i];
-      const bool in_ground = is_ground(i);
-      ground += in_ground;
-      rest += !in_ground;
-    }
-    return ground - begin;
   }
 };
 

@@ -40,24 +40,38 @@ inline void set_plane(const std::optional<Plane>& plane, GroundSplit& split) {
   split.offset = plane ? plane->offset : 0;
 }
 
-/// Stores `plane` in the split and fills the two lists of the split. visit(put) must call put(index,
-/// is_ground) for each valid point, at most `max_count` times. Each index is written to both lists, but only
-/// the end of one list advances. This takes half the time of a branch, because branches are unpredictable in
-/// clouds in scan order.
+/// Numbers of points that write_lists() has written.
+struct ListedPoints {
+  std::size_t ground = 0, rest = 0;
+};
+
+/// Writes points to the two lists of the split, both from position `begin` on. visit(put) must call
+/// put(index, is_ground) for each valid point. Each index is written to both lists, but only the end of one
+/// list advances. This takes half the time of a branch, because branches are unpredictable in clouds in scan
+/// order.
+template <typename Visit>
+ListedPoints write_lists(std::size_t begin, GroundSplit& split, const Visit& visit) {
+  std::int32_t *const ground = split.ground.data() + begin, *const rest = split.rest.data() + begin;
+  ListedPoints listed;
+  visit([&](std::int32_t number, bool is_ground) {
+    ground[listed.ground] = rest[listed.rest] = number;
+    listed.ground += is_ground;
+    listed.rest += !is_ground;
+  });
+  return listed;
+}
+
+/// Stores `plane` in the split and fills the two lists of the split. visit(put) is that of write_lists(); it
+/// must call put() at most `max_count` times.
 template <typename Visit>
 void write_split(const std::optional<Plane>& plane, std::size_t max_count, GroundSplit& split,
                  const Visit& visit) {
   set_plane(plane, split);
   split.ground.resize(max_count);
   split.rest.resize(max_count);
-  std::size_t ground = 0, rest = 0;
-  visit([&](std::int32_t number, bool is_ground) {
-    split.ground[ground] = split.rest[rest] = number;
-    ground += is_ground;
-    rest += !is_ground;
-  });
-  split.ground.resize(ground);
-  split.rest.resize(rest);
+  const ListedPoints listed = write_lists(0, split, visit);
+  split.ground.resize(listed.ground);
+  split.rest.resize(listed.rest);
 }
 
 }  // namespace pcl_bv::detail

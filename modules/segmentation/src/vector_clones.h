@@ -12,7 +12,7 @@
 /// Off with sanitizers: the choice is made before their runtime is initialised. Off with other compilers, GCC
 /// before 12 and other C libraries, which do not support it; only speed differs.
 #if defined(__x86_64__) && defined(__GLIBC__) && __GNUC__ >= 12 && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__) && !defined(PCL_BV_NO_VECTOR_CLONES)
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define PCL_BV_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define PCL_BV_VECTOR_CLONES
