@@ -67,7 +67,7 @@ LasBox box_of(const CopcInfo& info, const LasHeader& header, const CopcEntry& en
 
 // Returns whether the cube contains the bounding box of the header.
 bool contains_bounds(const CopcInfo& info, const InputFile& file, const LasHeader& header) {
-  constexpr std::size_t bounds_at = 179;  // greatest and smallest x, then y and z
+  constexpr std::size_t bounds_at = 179;  // largest and smallest x, then y and z
   double bounds[6];
   file.read(bounds_at, bounds, sizeof bounds);
   const LasBox cube = box_of(info, header, {});

@@ -59,7 +59,7 @@ void put(ByteBuffer& bytes, std::size_t at, T value) {
 }
 
 // Returns the number of bytes before the chunk in the file that LASzip sees: the header, the record of LASzip
-// and, unless pointwise, the place of the table of chunks.
+// and, unless pointwise, the offset of the table of chunks.
 std::size_t prefix_bytes(const LazLayout& laz) {
   return (laz.point_format >= 6 ? kLazHeaderOf14 : kLazHeaderOf12) + kVlrHead + laz.record.size() +
          (laz.compressor == LazLayout::pointwise ? 0 : sizeof(std::int64_t));
