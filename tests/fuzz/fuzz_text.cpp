@@ -48,9 +48,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static MemoryFile memory;
   memory.assign({reinterpret_cast<const char*>(data), size});
   const InputFile file(memory.path());
+  const char separator = data[1] < 128 ? ' ' : ',';
   for (const bool returns : {false, true}) {
-    const Outcome whole = outcome({file, 2, returns}, data[0], Serial{});
-    const Outcome pieces = outcome({file, 2, returns, data[1] % 64 + std::size_t{1}}, data[0], Threads{3});
+    const Outcome whole = outcome({file, 2, returns, separator}, data[0], Serial{});
+    const TextBody small_pieces{file, 2, returns, separator, data[1] % 64 + std::size_t{1}};
+    const Outcome pieces = outcome(small_pieces, data[0], Threads{3});
     if (whole.error != pieces.error || whole.rows.count != pieces.rows.count ||
         whole.rows.more != pieces.rows.more)
       std::abort();
