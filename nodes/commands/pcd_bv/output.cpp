@@ -62,7 +62,9 @@ void render(const Report& report, const ClusterSource& clusters, const RenderOpt
     case OutputFormat::csv:
       return write_report_csv(report, clusters, not_empty);
     case OutputFormat::tiles:
-      return write_tileset(report, clusters, not_empty);
+      return write_tileset(report, clusters, TileFrame::cartesian, not_empty);
+    case OutputFormat::tile_regions:
+      return write_tileset(report, clusters, TileFrame::geographic, not_empty);
     default:
       break;
   }
