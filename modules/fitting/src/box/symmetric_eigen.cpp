@@ -3,6 +3,7 @@
 
 #include "box/symmetric_eigen.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,36 +12,61 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Applies to `a` and `v` the rotation that makes a(p, q) zero.
-void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
+struct Rotation {
+  double tangent, sine, cosine;
+};
+
+// Returns the rotation that makes `beside` zero. Below 2^-30 of the difference, the tangent is the angle and
+// the cosine is 1, both to 2^-60, without the two square roots. The last rounds have such angles only.
+Rotation rotation_of(double first, double second, double beside) {
+  const double twice = 2 * beside, difference = second - first;
+  if (std::abs(twice) <= 0x1p-30 * std::abs(difference)) {
+    const double angle = beside / difference;
+    return {angle, angle, 1};
+  }
+  const double length = std::sqrt(difference * difference + twice * twice);
+  const double tangent = twice / (difference + std::copysign(length, difference));
+  const double cosine = std::sqrt(0.5 + 0.5 * (std::abs(difference) / length));
+  return {tangent, tangent * cosine, cosine};
+}
+
+// Applies to `a`, of which only the upper triangle is kept, and to `v` the rotation that makes a(p, q) zero.
+template <int p, int q>
+void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v) {
   if (a(p, q) == 0) return;
-  const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
-  const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-  const auto rotate_pair = [&](double& x, double& y) {
+  constexpr int r = 3 - p - q;
+  const auto [t, s, c] = rotation_of(a(p, p), a(q, q), a(p, q));
+  const auto rotate_pair = [s = s, c = c](double& x, double& y) {
     const double old = x;
     x = c * old - s * y;
     y = s * old + c * y;
   };
-  for (int k = 0; k < 3; ++k)
-    rotate_pair(a(k, p), a(k, q));
-  for (int k = 0; k < 3; ++k)
-    rotate_pair(a(p, k), a(q, k));
+  a(p, p) -= t * a(p, q);
+  a(q, q) += t * a(p, q);
+  a(p, q) = 0;
+  rotate_pair(a(std::min(p, r), std::max(p, r)), a(std::min(q, r), std::max(q, r)));
   for (int k = 0; k < 3; ++k)
     rotate_pair(v(k, p), v(k, q));
+}
+
+// Returns the power of two that scales the matrix so that no square of a number overflows.
+double scale_of(const Eigen::Matrix3d& matrix) {
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  return largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1.0;
 }
 
 }  // namespace
 
 SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
-  Eigen::Matrix3d a = matrix, v = Eigen::Matrix3d::Identity();
+  const double scale = scale_of(matrix);
+  Eigen::Matrix3d a = scale * matrix, v = Eigen::Matrix3d::Identity();
   for (int sweep = 0; sweep < 20; ++sweep) {
     const double off = (std::abs(a(0, 1)) + std::abs(a(0, 2))) + std::abs(a(1, 2));
     const double on = (std::abs(a(0, 0)) + std::abs(a(1, 1))) + std::abs(a(2, 2));
     if (!(off > 0x1p-70 * on)) break;
-    rotate(a, v, 0, 1);
-    rotate(a, v, 0, 2);
-    rotate(a, v, 1, 2);
+    rotate<0, 1>(a, v);
+    rotate<0, 2>(a, v);
+    rotate<1, 2>(a, v);
   }
   int order[3] = {0, 1, 2};
   const auto greater_first = [&](int& i, int& j) {
@@ -51,7 +77,7 @@ SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
   greater_first(order[0], order[1]);
   SymmetricEigen result;
   for (int k = 0; k < 3; ++k) {
-    result.values[k] = a(order[k], order[k]);
+    result.values[k] = a(order[k], order[k]) / scale;
     result.vectors.col(k) = v.col(order[k]);
   }
   result.vectors.col(0) = unit3(result.vectors.col(0));
