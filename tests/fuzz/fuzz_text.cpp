@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Any bytes as rows of two numbers, at once and in pieces of a few bytes by three threads: the same records
-// or the same error. The first byte says how many rows are wanted, the second one how large pieces are.
+// or the same error. The first byte says how many rows are wanted, the second one how large pieces are
+// and which character separates values.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
