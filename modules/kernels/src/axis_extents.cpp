@@ -32,7 +32,8 @@ namespace HWY_NAMESPACE {
 // If kWholePoints is true for a layout, a register holds whole points (x, y, z and a fourth number). If
 // kTriples is true, registers hold consecutive triples x, y, z. Otherwise a register holds one axis.
 template <Layout layout>
-inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide) &&
+inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide ||
+                                      layout == Layout::narrow) &&
                                      !HWY_HAVE_SCALABLE;
 template <Layout layout>
 inline constexpr bool kTriples = layout == Layout::packed12;
@@ -53,10 +54,10 @@ HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, 
     v2 = hn::LoadU(d, p + 2 * n);
     v3 = hn::LoadU(d, p + 3 * n);
   } else if constexpr (kWholePoints<layout>) {
-    v0 = load_blocks(d, points, first, 4, 0);
-    v1 = load_blocks(d, points, first + 1, 4, 0);
-    v2 = load_blocks(d, points, first + 2, 4, 0);
-    v3 = load_blocks(d, points, first + 3, 4, 0);
+    v0 = load_whole_points<layout>(d, points, first, 4);
+    v1 = load_whole_points<layout>(d, points, first + 1, 4);
+    v2 = load_whole_points<layout>(d, points, first + 2, 4);
+    v3 = load_whole_points<layout>(d, points, first + 3, 4);
   } else {
     load_packet_anywhere<layout>(d, points, first, v0, v1, v2);
   }
