@@ -122,9 +122,8 @@ void TrackedVolumes::know_objects(const std::vector<PointView>& clusters, const 
   const Pose& pose = tracker_.sensor();
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     if (assignments_[i].merged) continue;
-    Eigen::AlignedBox3d box;
-    for (std::size_t j = 0; j < clusters[i].count; ++j)
-      box.extend(pose * point_at(clusters[i], j));
+    Eigen::AlignedBox3d box = box_along(Isa::automatic, clusters[i], pose.linear());
+    box.translate(pose * point_at(clusters[i], 0));
     tracker_.know(assignments_[i].slot, box, result.refinements[i]);
   }
 }
