@@ -74,7 +74,7 @@ std::optional<Coordinates> first_valid(const PointView& points) {
   return std::nullopt;
 }
 
-// Returns the number of the coordinate axis that `axis` is, or nothing.
+// Returns k if `axis` is the unit vector of coordinate k. Otherwise returns nothing.
 std::optional<std::size_t> coordinate_axis(const Eigen::Vector3d& axis) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (axis[k] == 1 && axis[(k + 1) % 3] == 0 && axis[(k + 2) % 3] == 0) return k;
@@ -82,23 +82,25 @@ std::optional<std::size_t> coordinate_axis(const Eigen::Vector3d& axis) {
   return std::nullopt;
 }
 
-// Returns what Obb::from_slabs() returns, but with a margin instead of exact sums, which take a seventh of
-// the time of a box of 300 points. The offset q of the centre from the origin is a rounded difference, so
-// axis . q has an error of at most 4.01 2^-53 |q|_1 (volumes/src/obb.cpp). The half extent h, a difference
-// and a sum that are rounded, adds 2^-52 h. The margin is at least twice that.
+// Same as Obb::from_slabs(), but adds an error bound to the half extents instead of summing exactly. Exact
+// sums take a seventh of the time of a box of 300 points. The offset q of the centre from the origin is a
+// rounded difference, so axis . q has an error of at most 4.01 2^-53 |q|_1 (volumes/src/obb.cpp). The rounded
+// difference and sum of the half extent h add 2^-52 h. The bound is at least twice that.
 Obb box_between(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, const Eigen::Vector3d& low,
                 const Eigen::Vector3d& high) {
-  const auto along = [&](int i, const Eigen::Vector3d& q) { return dot3(axes.col(i), q); };
-  const auto sum_of = [&](const Eigen::Vector3d& s) -> Eigen::Vector3d {
+  const auto projections = [&](const Eigen::Vector3d& q) {
+    return Eigen::Vector3d(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q));
+  };
+  const auto from_axes = [&](const Eigen::Vector3d& s) -> Eigen::Vector3d {
     return (axes.col(0) * s[0] + axes.col(1) * s[1]) + axes.col(2) * s[2];
   };
-  const Eigen::Vector3d middle = low + 0.5 * (high - low), rough = sum_of(middle);
+  const Eigen::Vector3d middle = low + 0.5 * (high - low), rough = from_axes(middle);
   // The second round corrects for axes that are not exactly orthogonal.
-  const Eigen::Vector3d rest = middle - Eigen::Vector3d(along(0, rough), along(1, rough), along(2, rough));
-  const Eigen::Vector3d center = origin + (rough + sum_of(rest)), q = center - origin;
+  const Eigen::Vector3d center = origin + (rough + from_axes(middle - projections(rough)));
+  const Eigen::Vector3d q = center - origin, projection = projections(q);
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
-    const double at = along(i, q), half = std::max(high[i] - at, at - low[i]);
+    const double half = std::max(high[i] - projection[i], projection[i] - low[i]);
     half_extents[i] = half + (0x1p-50 * (taxicab3(q) + half) + kSmallestNormal);
   }
   return {center, axes, half_extents};
@@ -120,17 +122,17 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
   const auto side = [&](std::size_t axis) { return supports.along[axis].high - supports.along[axis].low; };
   const double rounding = 0x1p-50 * ((side(0) + side(1)) + side(2)) + kSmallestNormal;
   Eigen::Vector3d low, high;
-  bool exact = false;
+  bool has_coordinate_axis = false;
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = found.low[i] - rounding;
     high[i] = found.high[i] + rounding;
     const std::optional<std::size_t> k = coordinate_axis(axes.col(i));
     if (!k) continue;
-    exact = true;
+    has_coordinate_axis = true;
     low[i] = round_down(exact_sum(supports.along[*k].low, -from[*k], 0));
     high[i] = round_up(exact_sum(supports.along[*k].high, -from[*k], 0));
   }
-  return exact ? Obb::from_slabs(axes, from, low, high) : box_between(axes, from, low, high);
+  return has_coordinate_axis ? Obb::from_slabs(axes, from, low, high) : box_between(axes, from, low, high);
 }
 
 // Measures the box of many points. The support search rejects nearly all points in float arithmetic, and its

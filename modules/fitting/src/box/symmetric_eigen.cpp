@@ -16,24 +16,29 @@ struct Rotation {
   double tangent, sine, cosine;
 };
 
-// Returns the rotation that makes `beside` zero. Below 2^-30 of the difference, the tangent is the angle and
-// the cosine is 1, both to 2^-60, without the two square roots. The last rounds have such angles only.
-Rotation rotation_of(double first, double second, double beside) {
-  const double twice = 2 * beside, difference = second - first;
-  if (std::abs(twice) <= 0x1p-30 * std::abs(difference)) {
-    const double angle = beside / difference;
+// Returns the rotation that makes `off_diagonal` zero. Below 2^-30 of the difference, the tangent is the
+// angle and the cosine is 1, both to 2^-60, without the two square roots. The last rounds have such angles
+// only.
+Rotation rotation_of(double first, double second, double off_diagonal) {
+  const double twice_off_diagonal = 2 * off_diagonal, difference = second - first;
+  if (std::abs(twice_off_diagonal) <= 0x1p-30 * std::abs(difference)) {
+    const double angle = off_diagonal / difference;
     return {angle, angle, 1};
   }
-  const double length = std::sqrt(difference * difference + twice * twice);
-  const double tangent = twice / (difference + std::copysign(length, difference));
+  const double length = std::sqrt(difference * difference + twice_off_diagonal * twice_off_diagonal);
+  const double tangent = twice_off_diagonal / (difference + std::copysign(length, difference));
   const double cosine = std::sqrt(0.5 + 0.5 * (std::abs(difference) / length));
   return {tangent, tangent * cosine, cosine};
 }
 
-// Applies to `a`, of which only the upper triangle is kept, and to `v` the rotation that makes a(p, q) zero.
+// Rotates `v` and the upper triangle of `a` so that a(p, q) becomes zero. The largest entry is about 1, so an
+// entry below 2^-500 changes nothing, and its square could underflow to 0.
 template <int p, int q>
 void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v) {
-  if (a(p, q) == 0) return;
+  if (std::abs(a(p, q)) < 0x1p-500) {
+    a(p, q) = 0;
+    return;
+  }
   constexpr int r = 3 - p - q;
   const auto [t, s, c] = rotation_of(a(p, p), a(q, q), a(p, q));
   const auto rotate_pair = [s = s, c = c](double& x, double& y) {
@@ -49,7 +54,7 @@ void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v) {
     rotate_pair(v(k, p), v(k, q));
 }
 
-// Returns the power of two that scales the matrix so that no square of a number overflows.
+// Returns a power of two that brings the largest entry to [1, 2), so that no square overflows.
 double scale_of(const Eigen::Matrix3d& matrix) {
   const double largest = matrix.cwiseAbs().maxCoeff();
   return largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1.0;
