@@ -55,6 +55,15 @@ TYPED_TEST(CountLinked, CountsThePointsThatOneComparisonAtATimeFinds) {
   }
 }
 
+TYPED_TEST(CountLinked, StopsSoonAfterEnoughAreFound) {
+  PointColumns<TypeParam> columns;
+  columns.assign(std::vector<Point<TypeParam>>(3000, {1, 2, 3}));
+  const PositionRange all{0, 3000};
+  const std::size_t found = columns.count_linked(&all, 1, {1, 2, 3}, 1, 5);
+  EXPECT_GE(found, 5U);
+  EXPECT_LT(found, 1000U);
+}
+
 TYPED_TEST(CountLinked, OfNoPointsOrRunsIsZero) {
   PointColumns<TypeParam> columns;
   columns.assign({});

@@ -67,7 +67,8 @@ struct CoreSearch {
 };
 
 // Returns whether a point is a core point. Searches other blocks only if too few linked points are found in
-// the point's own block. Near few points, all are compared; near many, group by group until enough are found.
+// the point's own block. Compares all points of the cells around if they are at most 1024, which takes less
+// than 0.5 us in columns. Otherwise compares group by group until enough are found.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   constexpr std::size_t few_points = 1024;
@@ -86,9 +87,9 @@ bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& n
   return true;
 }
 
-// Returns whether fewer than min_points points are in the blocks around a block, so that none is core there.
+// Returns whether the 27 blocks have fewer than min_points points. Then the middle block has no core point.
 template <typename T>
-bool are_few(const CoreSearch<T>& search, const BlocksAround& around) {
+bool has_too_few_points(const CoreSearch<T>& search, const BlocksAround& around) {
   const Cells<T>& cells = search.cells;
   std::size_t points = 0;
   for (const std::uint32_t number : around) {
@@ -120,7 +121,7 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
     }
     if (around == nullptr) {
       around = &find_around();
-      if (are_few(search, *around)) {
+      if (has_too_few_points(search, *around)) {
         cells_with_non_core = block.occupied;
         break;
       }

@@ -14,8 +14,8 @@
 
 namespace pcl_bv::detail {
 
-/// Buffers that calls reuse. They take about 22 bytes per point and 16 bytes per block. A position is a
-/// position in Cells::points.
+/// Buffers that calls reuse. They take about 22 (float) or 35 (double) bytes per point and 16 bytes per
+/// block. A position is a position in Cells::points.
 template <typename T>
 struct CoreScratch {
   std::vector<std::uint8_t> core;         ///< For each position, whether the point is core.

@@ -10,7 +10,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-// Most runs are shorter than a register, so each step masks the points behind the end of its run.
+// Most runs are shorter than a register, so each step masks the points after the end of its run. The runs
+// have fewer than 2^31 points in all.
 template <typename T>
 [[gnu::always_inline]] inline std::size_t count(const T* x, const T* y, const T* z, const PositionRange* runs,
                                                 std::size_t run_count, const Point<T>& p, T r2,
@@ -29,10 +30,10 @@ template <typename T>
   for (std::size_t r = 0; r < run_count; ++r) {
     for (std::size_t i = runs[r].begin; i < runs[r].end; i += lanes) {
       const T *px = x + i, *py = y + i, *pz = z + i;
-      const auto left = static_cast<Count>(runs[r].end - i);
+      const auto remaining = static_cast<Count>(runs[r].end - i);
       for (Count k = 0; k < lanes; ++k) {
         const bool is_linked = squared_norm(px[k] - p.x, py[k] - p.y, pz[k] - p.z) < r2;
-        linked[k] += static_cast<Count>(is_linked & (k < left));
+        linked[k] += static_cast<Count>(is_linked & (k < remaining));
       }
       if (++steps % steps_between_sums == 0 && (found = sum()) >= needed) return found;
     }

@@ -17,7 +17,8 @@ namespace pcl_bv::detail {
 template <typename T>
 class PointColumns {
  public:
-  /// Number of points that are compared at a time. As many may be read after the last point.
+  /// Number of points that are compared at a time. count_linked() reads up to kLanes - 1 numbers after the
+  /// last point; assign() adds them.
   static constexpr std::size_t kLanes = 64 / sizeof(T);
 
   void assign(const std::vector<Point<T>>& points);
