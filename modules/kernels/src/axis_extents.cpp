@@ -215,8 +215,8 @@ template <Layout layout, typename T>
 void grow_over_lanes(Lanes<T>& lanes, T* low, T* high) {
   const Tag<T> d;
   const std::size_t n = hn::Lanes(d);
-  std::size_t numbers = 3 * n, next_of_axis = 1, next_axis = n;
-  if (kTriples<layout>) next_of_axis = 3, next_axis = 1;
+  std::size_t number_count = 3 * n, step_within_axis = 1, step_between_axes = n;
+  if (kTriples<layout>) step_within_axis = 3, step_between_axes = 1;
   if constexpr (sizeof(T) == 4 && kWholePoints<layout>) {
     const auto all_low = hn::Min(hn::Min(hn::Load(d, lanes.low), hn::Load(d, lanes.low + n)),
                                  hn::Min(hn::Load(d, lanes.low + 2 * n), hn::Load(d, lanes.low + 3 * n)));
@@ -224,12 +224,12 @@ void grow_over_lanes(Lanes<T>& lanes, T* low, T* high) {
                                   hn::Max(hn::Load(d, lanes.high + 2 * n), hn::Load(d, lanes.high + 3 * n)));
     hn::Store(all_low, d, lanes.low);
     hn::Store(all_high, d, lanes.high);
-    numbers = n, next_of_axis = 4, next_axis = 1;
+    number_count = n, step_within_axis = 4, step_between_axes = 1;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t first = axis * next_axis;
-    const std::size_t end = next_of_axis == 1 ? first + n : numbers;
-    for (std::size_t i = first; i < end; i += next_of_axis) {
+    const std::size_t first = axis * step_between_axes;
+    const std::size_t end = step_within_axis == 1 ? first + n : number_count;
+    for (std::size_t i = first; i < end; i += step_within_axis) {
       low[axis] = HWY_MIN(low[axis], lanes.low[i]);
       high[axis] = HWY_MAX(high[axis], lanes.high[i]);
     }

@@ -133,8 +133,8 @@ HWY_INLINE V<D> load_three(D d, const std::byte* x) {
   return hn::BitCast(d, hn::InterleaveLower(pairs, hn::Set(pairs, xy), hn::BitCast(pairs, hn::Set(d, z))));
 }
 
-/// Loads a register of whole points first, first + step, ... of one of the layouts wide and narrow. The
-/// fourth number of a point may be anything.
+/// Loads the points first, first + step, ... as x, y, z and a fourth number of any value. For the layouts
+/// wide and narrow.
 template <Layout layout, class D>
 HWY_INLINE V<D> load_whole_points(D d, const PointView& points, std::size_t first, std::size_t step) {
   if constexpr (layout == Layout::wide) {
@@ -244,8 +244,8 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 #if !HWY_HAVE_SCALABLE
   constexpr std::size_t lanes = hn::MaxLanes(D());
   if constexpr (layout == Layout::packed16 && lanes > 4) {
-    // The inverse of point_of_lane(). Three shuffles more than loading each point by itself needs, but a
-    // quarter of its time.
+    // The inverse of point_of_lane(). Needs three more shuffles than loading each point by itself, but takes
+    // half of its time (Zen 4, AVX-512).
     HWY_ALIGN std::int32_t lane_of_point[lanes];
     for (std::size_t i = 0; i < lanes; ++i)
       lane_of_point[i] = static_cast<std::int32_t>(i % (lanes / 4) * 4 + i / (lanes / 4));
@@ -257,14 +257,15 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 #endif
 }
 
-/// Loads the `count` points from `first` on in order, less than one packet. The other lanes hold the point
-/// `pad`.
+/// Loads `count` points from `first` on, in order; `count` is less than a packet and may be 0. The other
+/// lanes hold the point `pad`.
 template <Layout layout, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_tail_in_order(D d, const PointView& points, std::size_t first, std::size_t count,
                                    const T* pad, V<D>& x, V<D>& y, V<D>& z) {
   if constexpr (layout == Layout::packed16) {
     HWY_ALIGN T copy[4 * (kGroupBytes / sizeof(T))] = {};
-    std::memcpy(copy, reinterpret_cast<const T*>(points.data) + 4 * first, count * 4 * sizeof(T));
+    if (count > 0)
+      std::memcpy(copy, reinterpret_cast<const T*>(points.data) + 4 * first, count * 4 * sizeof(T));
     const PointView copied = PointView::of(copy, 4 * sizeof(T), hn::Lanes(d));
     load_packet_in_order<layout>(d, copied, 0, x, y, z);
     const auto loaded = hn::FirstN(d, count);
