@@ -122,7 +122,7 @@ TEST_F(PcdBv, GeographicCloudsHaveRegionsOf3dTiles) {
   const Result utm = run(regions);
   EXPECT_EQ(utm.status, 1);
   EXPECT_EQ(utm.out, "");
-  EXPECT_THAT(utm.err, HasSubstr("town.xyz: has the longitude 392000, which is not in -180 to 180 degrees"));
+  EXPECT_THAT(utm.err, HasSubstr("town.xyz: has the longitude 392000; allowed are -180 to 180 degrees"));
   EXPECT_THAT(run({"--format", "3dtiles-region", "--volume", "obb", kScene}).err,
               HasSubstr("--format 3dtiles-region: needs --volume aabb"));
   EXPECT_EQ(run({"--format", "3dtiles-region", "--volume", "aabb", kScene, kScene}).status, 2);

@@ -98,12 +98,17 @@ async function clusters() {
 
 async function geographic() {
   const { root } = JSON.parse(await readFile(folder));
-  const outside = measure(root.children[0].boundingVolume, new Matrix4());
+  const { region } = root.children[0].boundingVolume, outside = measure({ region }, new Matrix4());
   const rows = (await readFile(argument, "utf8")).trim().split("\n").slice(1).map((row) => row.split(" ").map(Number));
   const radian = Math.PI / 180, farthest = rows.map(([longitude, latitude, height]) =>
     outside(WGS84_ELLIPSOID.getCartographicToPosition(latitude * radian, longitude * radian, height, new Vector3())));
   const worst = Math.max(...farthest);
-  assert.ok(Math.abs(worst) < 1e-6, `region: the farthest point is ${worst} m outside`);
+  assert.ok(worst < 1e-6, `region: the farthest point is ${worst} m outside`);
+  [[0, 0], [1, 1], [2, 0], [3, 1], [4, 2], [5, 2]].forEach(([i, column]) => {
+    const values = rows.map((row) => row[column] * (column < 2 ? radian : 1));
+    const extreme = i < 2 || i == 4 ? Math.min(...values) : Math.max(...values);
+    assert.ok(Math.abs(region[i] - extreme) < 1e-15 * Math.max(1, Math.abs(extreme)), `region[${i}]: ${region[i]}, not ${extreme}`);
+  });
   console.log(`3dtiles-region: ${rows.length} points inside`);
 }
 

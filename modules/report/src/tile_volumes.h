@@ -25,13 +25,13 @@ inline void add_tile_volume(const Sphere& sphere, JsonText& json) {
   json.begin('{').add("sphere", std::array{c.x(), c.y(), c.z(), sphere.radius()}).end('}');
 }
 
-// Returns degrees in radians, rounded down. The constant has an error of 0.15 * 2^-53 and the product of
-// 2^-53, which two steps exceed. The largest value is that of the nearest double, as validators of tilesets
-// want.
+// Returns degrees in radians, rounded down. The product has an error of half a unit in the last place, and
+// the constant adds 0.16 of a unit, so one step down is enough. `largest` is the double nearest to pi or pi /
+// 2, because validators of tilesets allow no more.
 inline double radians_below(double degrees, double largest) {
   if (degrees == 0) return 0;
   const double nearest = degrees * (M_PI / 180);
-  return std::max(-largest, std::nextafter(std::nextafter(nearest, -HUGE_VAL), -HUGE_VAL));
+  return std::max(-largest, std::nextafter(nearest, -HUGE_VAL));
 }
 
 /// Adds the region of a box whose x and y are longitudes and latitudes in degrees.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -43,16 +44,18 @@ void require_geographic(const Aabb& all) {
        {std::tuple("longitude", 0, 180.0), std::tuple("latitude", 1, 90.0)}) {
     if (largest[axis] <= limit) continue;
     const double worst = -all.min()[axis] > limit ? all.min()[axis] : all.max()[axis];
-    throw IoError("has the " + std::string(name) + ' ' + shortest(worst) + ", which is not in -" +
+    throw IoError("has the " + std::string(name) + ' ' + shortest(worst) + "; allowed are -" +
                   shortest(limit) + " to " + shortest(limit) +
-                  " degrees: x, y, z must be longitude, latitude, height");
+                  " degrees. x, y, z must be longitude, latitude, height");
   }
 }
 
-// Returns the length of the diagonal in metres, at most; the error if no tile is shown.
+// Returns the length of the diagonal, the error if no tile is shown. For geographic coordinates it is an
+// upper bound in metres: 6399594 m is the largest radius of curvature of WGS84, at the poles.
 double size_of(const Aabb& all, TileFrame frame) {
   Eigen::Vector3d size = all.max() - all.min();
-  if (frame == TileFrame::geographic) size.head<2>() *= 6378137 * (M_PI / 180);  // at the equator of WGS84
+  if (frame == TileFrame::geographic)
+    size.head<2>() *= (6399594 + std::max(0.0, all.max().z())) * (M_PI / 180);
   return size.norm();
 }
 

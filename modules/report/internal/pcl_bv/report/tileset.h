@@ -21,12 +21,13 @@ enum class TileFrame : std::uint8_t {
   geographic  ///< x is the longitude and y the latitude in degrees, z the height in metres above WGS84.
 };
 
-/// Writes a tileset with a tile for each cluster, without content. Clusters without a volume of these kinds
-/// are left out. Writes nothing for a failed report.
+/// Writes a tileset with a tile for each cluster, without content. Writes nothing for a failed report.
 /// - cartesian: a `box` or `sphere` for the first box or sphere of the cluster, in the frame and unit of the
 ///   points. The root is the box along the axes around all of them.
 /// - geographic: a `region` for the first Aabb of the cluster, in radians. It is rounded outwards, so that it
-///   encloses the box in exact arithmetic, but not beyond the poles and the 180th meridian.
+///   encloses the box in exact arithmetic. It ends at the doubles nearest to the 180th meridian and the
+///   poles, because validators of tilesets allow no more: points there are up to 2^-52 outside.
+/// Clusters without such a volume are left out.
 ///
 /// Throws IoError before the first text if geographic coordinates are beyond 180 or 90 degrees.
 void write_tileset(const Report& report, const ClusterSource& clusters, TileFrame frame,
