@@ -181,8 +181,8 @@ void dbscan(const Scene& scene, float tolerance) {
   }
 }
 
-// Tolerances that grow with the range, beside one tolerance: the ratio is the latter's time over the
-// former's.
+// Alternates a fixed and a growing tolerance. The ratio is the time of the fixed tolerance divided by that of
+// the growing one.
 void growing(const Scene& scene, float tolerance, float per_metre, unsigned threads) {
   const std::string what =
       "growing-" + std::to_string(per_metre).substr(0, 4) + "/threads:" + std::to_string(threads);

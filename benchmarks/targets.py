@@ -113,9 +113,9 @@ def clusters_against_pcl(results):
 def conditions_of_clusters(results):
     lines = []
     for name in results.matching("dbscan-[0-9]+/(street|sweep)/n:.*/r:0.[25]"):
-        least, scene, n, r = re.match(r"dbscan-(\d+)/([^/]*)/n:(\d+)/r:(.*)", name).groups()
+        min_points, scene, n, r = re.match(r"dbscan-(\d+)/([^/]*)/n:(\d+)/r:(.*)", name).groups()
         median, of_minima = results.ratio(name)
-        what = f"DBSCAN, {least} points, time over no condition"
+        what = f"DBSCAN, {min_points} points, time over no condition"
         where = f"{scene}, {count(int(n))} points, {r} m, one thread"
         lines.append(Line(what, where, *judge(1 / median, "<=", 1.5, aside=1 / of_minima)))
     for name in results.matching("growing-"):
