@@ -5,8 +5,8 @@
 
 usage: docs/site/build.py OUT [--build DIR] [--examples DIR]
 
-Without --build (a folder of CMake) there are only the pages, and without --examples (the built programs of examples/)
-the gallery has no output of C++. OUT is emptied first. Any warning and any broken link is an error.
+Without --build (a folder of CMake) there are only the pages. Without --examples (the built programs of
+examples/) the gallery has no output of C++. OUT is emptied first. Warnings and broken links are errors.
 """
 import argparse
 import pathlib
@@ -75,7 +75,8 @@ def main():
 
         demo.write(out, build / "bin", build / "nodes/live/page.html")
         write_api(out)
-        gallery.write(site, build / "bin", arguments.examples and arguments.examples.resolve(), build / "python")
+        examples = arguments.examples and arguments.examples.resolve()
+        gallery.write(site, build / "bin", examples, build / "python")
     else:
         gallery.write(site)
     site.write_all()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: docs/site/check_links.py FOLDER: fails if a page in it links to a file or an anchor that is not there."""
+"""usage: docs/site/check_links.py FOLDER: fails if a page links to a file or an anchor that is not there."""
 import html.parser
 import os
 import pathlib

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The demo: the page of `--sink ws:` with the messages of a generated street in it. replay.js takes the place of the
+"""The demo: the page of `--sink ws:` with the messages of a generated street in it. replay.js replaces the
 server. So that it stays small, points far away and most others are left out, and numbers are rounded."""
 import base64
 import gzip
@@ -78,8 +78,8 @@ def record(programs):
     """The messages of the stream, each after its length."""
     messages = []
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([programs / "bv_stream", *STREAM, "--sink", "labels:labels", "--sink", "jsonl:frames.jsonl"],
-                       cwd=folder, check=True)
+        sinks = ["--sink", "labels:labels", "--sink", "jsonl:frames.jsonl"]
+        subprocess.run([programs / "bv_stream", *STREAM, *sinks], cwd=folder, check=True)
         lines = pathlib.Path(folder, "frames.jsonl").read_text().splitlines()
         files = sorted(pathlib.Path(folder, "labels").glob("*.pcd"))
         if len(lines) != FRAMES or len(files) != FRAMES:

@@ -33,8 +33,8 @@ mv pictures/frame000029.png rig.png"""),
 
 
 def run(arguments, folder, **variables):
-    done = subprocess.run(arguments, cwd=folder, env={**os.environ, **variables}, text=True, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, timeout=300, check=False)
+    done = subprocess.run(arguments, cwd=folder, env={**os.environ, **variables}, text=True, timeout=300,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
         raise SystemExit(f"site: status {done.returncode} of {arguments}:\n{done.stdout}")
     return done.stdout
@@ -52,8 +52,8 @@ def pictures(out, programs):
                 (out / f"gallery/{name}.png").write_bytes(open(f"{folder}/{name}.png", "rb").read())
             image = (f'<a href="gallery/{name}.png"><img src="gallery/{name}.png" loading="lazy" '
                      f'width="1600" height="1000" alt="{html.escape(title)}"></a>')
-        code = highlighted(commands, "sh")
-        figures.append(f"<figure><figcaption>{title}</figcaption>{image}<pre><code>{code}</code></pre></figure>")
+        code = f'<pre><code>{highlighted(commands, "sh")}</code></pre>'
+        figures.append(f"<figure><figcaption>{title}</figcaption>{image}{code}</figure>")
     return f'<div class="cards">{"".join(figures)}</div>'
 
 
@@ -69,8 +69,9 @@ def example(path, output):
     text = path.read_text()
     language = "python" if path.suffix == ".py" else "cpp"
     anchor = path.name.replace(".", "-")
+    code = f"<pre><code>{highlighted(text, language)}</code></pre>"
     parts = [f'<h3 id="{anchor}">{path.name}</h3>', f"<p>{html.escape(purpose(text))}</p>",
-             f"<details><summary>Code</summary><pre><code>{highlighted(text, language)}</code></pre></details>"]
+             f"<details><summary>Code</summary>{code}</details>"]
     if output is not None:
         parts.append(f"<pre><code>{html.escape(output.rstrip() or '(prints nothing)')}</code></pre>")
     return path.name, anchor, purpose(text), "\n".join(parts)
@@ -87,8 +88,8 @@ def output_of(path, examples, package):
 
 def write(site, programs=None, examples=None, package=None):
     """Writes gallery.html. Without programs there are no pictures, and without built examples no output."""
-    sections, body = [], ["<h1>Gallery</h1>", "<p>Each picture with the commands that draw it, without any other data. "
-                          "A click shows it in full size.</p>", pictures(site.out, programs)]
+    words = "Each picture with the commands that draw it, without other data. A click shows the full size."
+    sections, body = [], ["<h1>Gallery</h1>", f"<p>{words}</p>", pictures(site.out, programs)]
     for folder, title in {"examples": "Examples in C++", "examples/python": "Examples in Python"}.items():
         body.append(f'<h2 id="{title.split()[-1].lower().replace("+", "p")}">{title}</h2>')
         for path in sorted((ROOT / folder).glob("*.py" if "python" in folder else "*.cpp")):

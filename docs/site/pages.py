@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""HTML pages of the Markdown pages, and of the files to which they link. Each page has the path of its source."""
+"""HTML pages of the Markdown pages and of the files to which they link. A page has the path of its source."""
 import html
 import json
 import pathlib
@@ -23,17 +23,17 @@ HIGHLIGHT = pygments.formatters.HtmlFormatter(nowrap=True)
 STYLES = {"light": "friendly", "dark": "github-dark"}
 
 GROUPS = {
-    "Guide": ["docs/guide/ten-minutes.md", "docs/guide/volume.md", "docs/guide/tolerance.md", "docs/guide/tracking.md",
-              "docs/guide/many-machines.md"],
-    "Use": ["docs/pcd_bv.md", "docs/bv_stream.md", "docs/cpp.md", "docs/python.md", "docs/ros.md", "docs/live.md",
-            "docs/your-robot.md", "docs/streaming.md", "docs/recordings.md", "docs/formats.md", "docs/many-machines.md",
-            "docs/gpu.md", "docs/trees.md"],
+    "Guide": ["docs/guide/ten-minutes.md", "docs/guide/volume.md", "docs/guide/tolerance.md",
+              "docs/guide/tracking.md", "docs/guide/many-machines.md"],
+    "Use": ["docs/pcd_bv.md", "docs/bv_stream.md", "docs/cpp.md", "docs/python.md", "docs/ros.md",
+            "docs/live.md", "docs/your-robot.md", "docs/streaming.md", "docs/recordings.md",
+            "docs/formats.md", "docs/many-machines.md", "docs/gpu.md", "docs/trees.md"],
     "Methods": ["docs/segmentation.md", "docs/tracking.md", "docs/numerics.md", "docs/references.md",
                 "docs/glossary.md"],
     "Results": ["docs/benchmarks.md", "docs/comparison.md", "docs/segmentation-results.md",
                 "docs/tracking-results.md", "docs/scores.md"],
-    "Project": ["docs/architecture.md", "docs/kernels.md", "docs/adding-a-volume.md", "CONTRIBUTING.md", "SECURITY.md",
-                "CHANGELOG.md", "LICENSE"],
+    "Project": ["docs/architecture.md", "docs/kernels.md", "docs/adding-a-volume.md", "CONTRIBUTING.md",
+                "SECURITY.md", "CHANGELOG.md", "LICENSE"],
 }
 COMMANDS = ["pcd_bv", "bv_stream", "pcd_bv_mpi"]
 
@@ -86,7 +86,8 @@ class Page:
         return f"<h1>{html.escape(self.source)}</h1>\n<pre><code>{highlighted(text, name)}</code></pre>"
 
     def markdown(self, text):
-        parser = MarkdownIt("commonmark", {"html": True, "highlight": lambda code, name, _: highlighted(code, name)})
+        options = {"html": True, "highlight": lambda code, name, _: highlighted(code, name)}
+        parser = MarkdownIt("commonmark", options)
         parser.enable(["table", "strikethrough"])
         tokens = parser.parse(text)
         used, title = {}, None
@@ -113,7 +114,8 @@ class Page:
             if not name or re.match(r"[a-z]+:|#|$", token.attrs[name]):
                 continue
             path, _, anchor = token.attrs[name].partition("#")
-            source = posixpath.normpath(posixpath.join(posixpath.dirname(self.source), urllib.parse.unquote(path)))
+            folder = posixpath.dirname(self.source)
+            source = posixpath.normpath(posixpath.join(folder, urllib.parse.unquote(path)))
             self.links.add(source)
             token.attrs[name] = relative(self.target, target_of(source)) + (f"#{anchor}" if anchor else "")
 
@@ -161,12 +163,13 @@ class Site:
     def buttons(self):
         """What the first page offers to a reader who has no time."""
         targets = [(target_of(GROUPS["Guide"][0]), "Begin in ten minutes"), *self.extra]
-        return f'<p class="buttons">{" ".join(f"""<a href="{target}">{title}</a>""" for target, title in targets)}</p>'
+        links = [f'<a href="{target}">{title}</a>' for target, title in targets]
+        return f'<p class="buttons">{" ".join(links)}</p>'
 
     def write_manuals(self):
         for name in COMMANDS:
-            made = subprocess.run(["mandoc", "-T", "html", "-O", "fragment", ROOT / f"docs/man/{name}.1"], check=True,
-                                  stdout=subprocess.PIPE, text=True).stdout
+            command = ["mandoc", "-T", "html", "-O", "fragment", ROOT / f"docs/man/{name}.1"]
+            made = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
             made = made.replace("<table", '<div class="table"><table').replace("</table>", "</table></div>")
             words = re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]+>", " ", made)))
             self.write(f"docs/man/{name}.html", f"{name}(1)", f'<div class="manual">{made}</div>',
@@ -204,6 +207,11 @@ class Site:
         (self.out / "search-index.js").write_text(f"window.searchIndex = {json.dumps(self.index)};\n")
         for name in ["style.css", "search.js"]:
             shutil.copy(HERE / name, self.out / name)
-        rules = [pygments.formatters.HtmlFormatter(style=style).get_style_defs("pre") for style in STYLES.values()]
-        rules = [re.sub(r"^(pre|td|span)[^.\n]*\{.*\}\n|^pre \.hll .*\n", "", rule, flags=re.MULTILINE) for rule in rules]
-        (self.out / "code.css").write_text(f"{rules[0]}\n@media (prefers-color-scheme: dark) {{\n{rules[1]}\n}}\n")
+        light, dark = colour_rules(STYLES["light"]), colour_rules(STYLES["dark"])
+        (self.out / "code.css").write_text(f"{light}\n@media (prefers-color-scheme: dark) {{\n{dark}\n}}\n")
+
+
+def colour_rules(style):
+    """CSS of the words in code, without that of code itself."""
+    rules = pygments.formatters.HtmlFormatter(style=style).get_style_defs("pre")
+    return re.sub(r"^(pre|td|span)[^.\n]*\{.*\}\n|^pre \.hll .*\n", "", rules, flags=re.MULTILINE)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Replaces the server of the live page: a WebSocket that repeats the messages in the page (demo.py), two for each frame,
-// ten frames a second, and a GET /settings without settings.
+// Replaces the server of the live page: a WebSocket that repeats the messages in the page (demo.py), two for
+// each frame, ten frames a second, and a GET /settings without settings.
 (() => {
   const PERIOD_MS = 100;
   const CHANNELS = [

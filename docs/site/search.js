@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The navigation, the menu of narrow screens, and the search. The index is a script and not JSON, so that the pages also work from a
-// folder, without a server. It is loaded when the search gets the focus.
+// The navigation, the menu of narrow screens, and the search. The index is a script and not JSON, so that the
+// pages also work from a folder, without a server. It is loaded when the search gets the focus.
 const field = document.getElementById("search");
 const found = document.getElementById("found");
 const menu = document.getElementById("menu");
@@ -28,7 +28,8 @@ function load() {
   document.head.append(script);
 }
 
-// A word counts most in the heading of a section, then in the title of the page, then in the text. All words must occur.
+// A word counts most in the heading of a section, then in the title of the page, then in the text. All words
+// must occur.
 function score([title, heading, , text], words) {
   let sum = 0;
   for (const word of words) {
@@ -53,7 +54,8 @@ function show() {
     found.hidden = true;
     return;
   }
-  const ranked = window.searchIndex.map((entry) => [score(entry, words), entry]).filter(([points]) => points > 0);
+  const scored = window.searchIndex.map((entry) => [score(entry, words), entry]);
+  const ranked = scored.filter(([points]) => points > 0);
   ranked.sort((a, b) => b[0] - a[0]);
   found.replaceChildren(...ranked.slice(0, MOST).map(([, [title, heading, address, text]]) => {
     const item = document.createElement("li");

@@ -5,9 +5,9 @@
 
 usage: tests/guide/guide_test.py BIN_DIR PAGE.md... [--pictures FOLDER]
 
-The blocks ```sh of a page run one after another in an empty folder. In the block ```text after one, `...` stands for
-any text. A picture docs/images/guide-NAME.png is NAME.png of the page's commands; --pictures writes all of them, with
-ImageMagick.
+The blocks ```sh of a page run one after another in an empty folder. In the block ```text after one, `...`
+stands for any text. A picture docs/images/guide-NAME.png is NAME.png of the page's commands; --pictures writes
+all of them, with ImageMagick.
 """
 import argparse
 import os
@@ -19,7 +19,8 @@ import tempfile
 
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PICTURE = re.compile(r"\.\./images/guide-([a-z-]+\.png)")
-SMALL = ["-level", "9%,100%", "-resize", "720x", "+dither", "-colors", "24"]  # the dark background is one colour
+# The dark background becomes one colour.
+SMALL = ["-level", "9%,100%", "-resize", "720x", "+dither", "-colors", "24"]
 LONGEST = 300  # seconds for a block
 
 
@@ -27,8 +28,9 @@ def run_block(commands, folder, programs):
     """Standard output and error of a block. Any free port is used, so that tests can run side by side."""
     environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
     commands = commands.replace("ws:8765", "ws:0")
-    done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, env=environment, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LONGEST, check=False)
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, env=environment,
+                          text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LONGEST,
+                          check=False)
     if done.returncode != 0:
         raise AssertionError(f"status {done.returncode} of\n{commands}\n{done.stdout}")
     return done.stdout
@@ -40,7 +42,7 @@ def check_shown(shown, printed):
     for line in shown.splitlines():
         pattern = ".*".join(re.escape(part) for part in line.rstrip().split("..."))
         if not any(re.fullmatch(pattern, candidate.rstrip()) for candidate in lines):
-            raise AssertionError(f"the page shows\n{line}\nwhich is not printed, or not in this order:\n{printed}")
+            raise AssertionError(f"the page shows\n{line}\nwhich is not printed in this order:\n{printed}")
 
 
 def run_page(page, programs, pictures):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: sbom_test.py REPOSITORY BUILD_DIR: the bill of materials names every library that the commands ask for."""
+"""usage: sbom_test.py REPOSITORY BUILD_DIR: the bill of materials names every library of the commands."""
 import json
 import os
 import pathlib
@@ -17,8 +17,8 @@ ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 
 def made(folder, name):
     path = pathlib.Path(folder, name)
-    subprocess.run([ROOT / ".ci/sbom", BUILD, path], check=True, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"},
-                   stdout=subprocess.DEVNULL)
+    environment = {**os.environ, "SOURCE_DATE_EPOCH": "1700000000"}
+    subprocess.run([ROOT / ".ci/sbom", BUILD, path], check=True, env=environment, stdout=subprocess.DEVNULL)
     return path.read_text()
 
 
@@ -41,8 +41,8 @@ class Sbom(unittest.TestCase):
 
     def test_every_library_that_a_command_asks_for_has_a_package(self):
         for command in ["pcd_bv", "bv_stream"]:
-            asked = subprocess.run(["readelf", "-d", BUILD / "bin" / command], check=True, stdout=subprocess.PIPE,
-                                   text=True).stdout
+            asked = subprocess.run(["readelf", "-d", BUILD / "bin" / command], check=True,
+                                   stdout=subprocess.PIPE, text=True).stdout
             count = len(set(re.findall(r"\(NEEDED\).*\[(?!ld-linux|libpcl_bv)(.+)\]", asked)))
             self.assertGreater(count, 5)
             linked = [link["relatedSpdxElement"] for link in self.document["relationships"]
