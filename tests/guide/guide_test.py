@@ -6,8 +6,8 @@
 usage: tests/guide/guide_test.py BIN_DIR PAGE.md... [--pictures FOLDER]
 
 The blocks ```sh of a page run one after another in an empty folder. In the block ```text after one, `...`
-stands for any text. A picture docs/images/guide-NAME.png is NAME.png of the page's commands; --pictures writes
-all of them, with ImageMagick.
+stands for any text. A picture docs/images/guide-NAME.png is NAME.png of the page's commands; --pictures
+writes all of them, with ImageMagick.
 """
 import argparse
 import os
