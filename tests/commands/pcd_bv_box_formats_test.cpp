@@ -68,6 +68,21 @@ TEST_F(PcdBv, FormatsOfBoxesRefuseWhatTheyWouldLose) {
   EXPECT_THAT(error({"--object-type", "Car", kScene}), HasSubstr("only useful with a --format of boxes"));
 }
 
+TEST_F(PcdBv, FormatsOfBoxesRefuseMergedResultsWithAnOrigin) {
+  ASSERT_EQ(run({"--partial", at("moved"), "--origin", "1,2,3", "synth:box:1000"}).status, 0);
+  ASSERT_EQ(run({"--partial", at("same"), "--origin", "0,0,0", "synth:box:1000"}).status, 0);
+  for (const std::string format : {"3dtiles", "3dtiles-region", "openlabel"}) {
+    const auto merge = [&](const std::string& part) {
+      return run({"--merge", "--format", format, "--volume", "aabb", at(part)});
+    };
+    const Result moved = merge("moved");
+    EXPECT_EQ(moved.status, 1) << format;
+    EXPECT_THAT(moved.err, HasSubstr("was made with --origin, which this format would lose")) << format;
+    EXPECT_THAT(moved.out, testing::Not(HasSubstr("box"))) << format;
+    EXPECT_EQ(merge("same").status, 0) << format << merge("same").err;
+  }
+}
+
 TEST_F(PcdBv, BoxesOfEveryFormatDropThePointsInside) {
   for (const std::string format : {"kitti", "nuscenes", "openlabel", "sustech"}) {
     const std::string file = at("boxes." + format);
