@@ -97,9 +97,11 @@ ClusterSets sorted(ClusterSets sets) {
 
 class Ours {
  public:
-  Ours(const ClusterCloud& cloud, float tolerance, ParallelPolicy policy, std::size_t min_points = 1)
+  Ours(const ClusterCloud& cloud, float tolerance, ParallelPolicy policy, std::size_t min_points = 1,
+       float per_metre = 0)
       : view_(point_view(cloud)), settings_{tolerance}, policy_(policy) {
     settings_.min_points = min_points;
+    settings_.tolerance_per_metre = per_metre;
   }
 
   void operator()() { clusterer_.extract(view_, settings_, clusters_, policy_); }
@@ -179,6 +181,20 @@ void dbscan(const Scene& scene, float tolerance) {
   }
 }
 
+// Alternates a fixed and a growing tolerance. The ratio is the time of the fixed tolerance divided by that of
+// the growing one.
+void growing(const Scene& scene, float tolerance, float per_metre, unsigned threads) {
+  const std::string what =
+      "growing-" + std::to_string(per_metre).substr(0, 4) + "/threads:" + std::to_string(threads);
+  add_turns(row_name(what, scene, tolerance), kPairs, [=](benchmark::State& state) {
+    const ClusterCloud::ConstPtr cloud = cloud_of(scene);
+    Ours plain(*cloud, tolerance, policy_of(threads));
+    Ours ours(*cloud, tolerance, policy_of(threads), 1, per_metre);
+    compare(
+        state, [&] { plain(); }, ours);
+  });
+}
+
 #ifdef PCL_BV_BENCH_OPEN3D
 // Border points may go with another cluster than ours, which is that of the nearest core point.
 void over_open3d(const Scene& scene, float tolerance, std::size_t min_points) {
@@ -228,6 +244,10 @@ void register_all() {
     for (const float r : {0.2F, 0.5F}) {
       over_peers({"sweep", 0}, r, 5);
       dbscan({"sweep", 0}, r);
+    }
+    for (const unsigned threads : {1U, 2U}) {
+      growing({"sweep", 0}, 0.5F, 0.01F, threads);
+      growing({"sweep", 0}, 0.5F, 0.03F, threads);
     }
   }
   for (std::size_t rays = 3072; rays <= 3'145'728; rays *= 4)  // 1 k to 1 M points

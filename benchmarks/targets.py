@@ -110,6 +110,22 @@ def clusters_against_pcl(results):
     return Target("clusters", "Clusters against pcl::EuclideanClusterExtraction", "clusters", lines)
 
 
+def conditions_of_clusters(results):
+    lines = []
+    for name in results.matching("dbscan-[0-9]+/(street|sweep)/n:.*/r:0.[25]"):
+        min_points, scene, n, r = re.match(r"dbscan-(\d+)/([^/]*)/n:(\d+)/r:(.*)", name).groups()
+        median, of_minima = results.ratio(name)
+        what = f"DBSCAN, {min_points} points, time over no condition"
+        where = f"{scene}, {count(int(n))} points, {r} m, one thread"
+        lines.append(Line(what, where, *judge(1 / median, "<=", 1.5, aside=1 / of_minima)))
+    for name in results.matching("growing-"):
+        growth, threads, n, r = re.match(r"growing-([^/]*)/threads:(\d)/sweep/n:(\d+)/r:(.*)", name).groups()
+        where = f"sweep, {count(int(n))} points, {r} m, threads: {threads}"
+        reached = judge(results.rows[name]["second_us"] / 1e3, "<=", 5, unit=" ms")
+        lines.append(Line(f"tolerance grows by {growth} m a metre", where, *reached))
+    return Target("conditions", "Clusters with core points, and with growing tolerances", "clusters", lines)
+
+
 def least_box_against_cgal(results):
     lines = []
     for name in results.matching("turns/CGAL oriented_bounding_box over obb-min/"):
@@ -289,7 +305,8 @@ def all_targets(results):
         for target in (
             *(dop26_in_cache, dop26_from_memory, aabb_against_pcl, bad_points),
             *(epos26, exact_over_epos, exact_against_cgal),
-            *(clusters_against_pcl, least_box_against_cgal, many_clusters_against_pcl, many_clusters),
+            *(clusters_against_pcl, conditions_of_clusters),
+            *(least_box_against_cgal, many_clusters_against_pcl, many_clusters),
             *(two_threads, masks, tree_tables.target, pipeline, ground_of_sweeps, least_boxes_of_sweeps),
             *(binary_file, ascii_file, recordings, live_topics, nodelet),
         )

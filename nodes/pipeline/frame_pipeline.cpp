@@ -370,7 +370,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
   const bool tracked = now->config.track.enabled && !nothing;
   if (tracked) {
-    state_->tracks.update(now->config.track, state_->views, used, result);
+    state_->tracks.update(now->config.track, now->execution.isa, state_->views, used, result);
   } else {
     state_->tracks.reset();
   }

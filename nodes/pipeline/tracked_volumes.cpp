@@ -117,19 +117,19 @@ const std::vector<KnownObject>& TrackedVolumes::predict(const std::vector<PointV
 }
 
 // A box in the fixed frame is made from the points: a box around the box in the sensor's frame would be
-// larger.
-void TrackedVolumes::know_objects(const std::vector<PointView>& clusters, const FrameResult& result) {
+// larger. Clusters have at least one point, and all are valid.
+void TrackedVolumes::know_objects(UsableIsa isa, const std::vector<PointView>& clusters,
+                                  const FrameResult& result) {
   const Pose& pose = tracker_.sensor();
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     if (assignments_[i].merged) continue;
-    Eigen::AlignedBox3d box;
-    for (std::size_t j = 0; j < clusters[i].count; ++j)
-      box.extend(pose * point_at(clusters[i], j));
+    Eigen::AlignedBox3d box = box_along(isa, clusters[i], pose.linear());
+    box.translate(pose * point_at(clusters[i], 0));
     tracker_.know(assignments_[i].slot, box, result.refinements[i]);
   }
 }
 
-void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointView>& clusters,
+void TrackedVolumes::update(const TrackConfig& config, UsableIsa isa, const std::vector<PointView>& clusters,
                             const Frame& frame, FrameResult& result) {
   if (methods_ != result.methods) {
     methods_ = result.methods;
@@ -144,7 +144,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   if (!predicted_) tracker_.predict(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, frame.pose);
   viewpoints_.find(frame.sensors, result.points_after_filter(frame.points));
   tracker_.assign(boxes_, config, assignments_, viewpoints_);
-  if (predicted_) know_objects(clusters, result);
+  if (predicted_) know_objects(isa, clusters, result);
   predicted_ = false;
   result.track_time = clock_.source();
   tracker_.list_active(result.active_tracks);

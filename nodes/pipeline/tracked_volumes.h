@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/points/isa.h"
 #include "pipeline/track/box_filter.h"
 #include "pipeline/track/tracker.h"
 
@@ -34,9 +35,9 @@ class TrackedVolumes {
  public:
   /// Fills result.tracks and result.active_tracks. Gives the axes of each oriented box the order and
   /// directions of the object's last box. If requested, smooths the yaw of upright boxes and grows their
-  /// sizes. `clusters` holds the points of each cluster.
-  void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
-              FrameResult& result);
+  /// sizes. `clusters` holds the points of each cluster, valid and at least one.
+  void update(const TrackConfig& config, UsableIsa isa, const std::vector<PointView>& clusters,
+              const Frame& frame, FrameResult& result);
 
   /// Predicts the tracks to the time of the frame, from the clusters before they are refined. Returns what
   /// the tracker expects to see, sorted by the x of the centres, in the fixed frame. Call update()
@@ -53,7 +54,7 @@ class TrackedVolumes {
   }
 
  private:
-  void know_objects(const std::vector<PointView>& clusters, const FrameResult& result);
+  void know_objects(UsableIsa isa, const std::vector<PointView>& clusters, const FrameResult& result);
   void filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
                     const PointView& points, FrameResult& result);
 

@@ -57,7 +57,7 @@ TEST_F(PcdBv, FormatsOfBoxesRefuseWhatTheyWouldLose) {
     return result.err;
   };
   EXPECT_THAT(error(objects({"kitti", kScene, kScene})),
-              HasSubstr("--format: files of kitti, sustech and 3dtiles have one input, not 2"));
+              HasSubstr("--format: files of kitti, sustech and 3D Tiles have one input, not 2"));
   EXPECT_THAT(error({"--format", "kitti", "--volume", "sphere,obb", kScene}), HasSubstr("needs boxes"));
   EXPECT_THAT(error({"--format", "openlabel", "--volume", "sphere", kScene}), HasSubstr("obb or aabb"));
   EXPECT_THAT(error({"--format", "kitti", "--volume", "obb-yaw", "--up", "-y", kScene}), HasSubstr("--up"));
@@ -104,6 +104,28 @@ TEST_F(PcdBv, TilesetsAreUpdatedInTheirFiles) {
   const Json tiles = Json::parse(run(objects({"3dtiles", kScene})).out);
   EXPECT_GT(tiles["root"]["children"].size(), 3U);
   EXPECT_EQ(run(objects({"3dtiles", kScene, kScene})).status, 2);
+}
+
+TEST_F(PcdBv, GeographicCloudsHaveRegionsOf3dTiles) {
+  std::ofstream(at("town.xyz")) << "x y z\n13.25 52.5 30\n13.5 52.25 35.5\n";
+  const std::vector<std::string> regions{"--format", "3dtiles-region", "--volume", "aabb", at("town.xyz")};
+  const Result result = run(regions);
+  EXPECT_EQ(result.status, 0) << result.err;
+  const Json tile = Json::parse(result.out)["root"]["children"][0];
+  const auto region = tile["boundingVolume"]["region"].get<std::vector<double>>();
+  const std::vector<double> degrees{13.25, 52.25, 13.5, 52.5};
+  ASSERT_EQ(region.size(), 6U);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(region[i], degrees[i] / 180 * M_PI, 1e-15);
+  EXPECT_EQ(region[5], 35.5);
+  std::ofstream(at("town.xyz")) << "392000 5820000 30\n";  // UTM
+  const Result utm = run(regions);
+  EXPECT_EQ(utm.status, 1);
+  EXPECT_EQ(utm.out, "");
+  EXPECT_THAT(utm.err, HasSubstr("town.xyz: has the longitude 392000; allowed are -180 to 180 degrees"));
+  EXPECT_THAT(run({"--format", "3dtiles-region", "--volume", "obb", kScene}).err,
+              HasSubstr("--format 3dtiles-region: needs --volume aabb"));
+  EXPECT_EQ(run({"--format", "3dtiles-region", "--volume", "aabb", kScene, kScene}).status, 2);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ const std::vector<Eigen::Matrix3d>& matrices() {
                                                    symmetric(5, 1, 1, -2, 0, 0),
                                                    symmetric(1, 1e-6, 1e-12, 1e-4, 0, 1e-9),
                                                    symmetric(0, 0, 0, 0, 0, 0),
+                                                   symmetric(1, 1, 0, 1, 1e-163, 2e-163),
+                                                   symmetric(1, 1, 0, 1, 1e-170, 2e-170),
                                                    symmetric(4, 1, 9, 0.5, -0.25, 0.125)};
   return all;
 }
@@ -47,6 +49,17 @@ TEST(SymmetricEigen, ValuesDecrease) {
     const SymmetricEigen eigen = symmetric_eigen(m);
     EXPECT_TRUE(eigen.values[0] >= eigen.values[1] && eigen.values[1] >= eigen.values[2]) << m;
     EXPECT_NEAR(eigen.values[0] + eigen.values[1] + eigen.values[2], m.trace(), 1e-15 * m.norm()) << m;
+  }
+}
+
+TEST(SymmetricEigen, ScaleWithTheMatrix) {
+  for (const Eigen::Matrix3d& m : matrices()) {
+    const SymmetricEigen eigen = symmetric_eigen(m);
+    for (const double scale : {0x1p1000, 0x1p-500}) {
+      const SymmetricEigen scaled = symmetric_eigen(scale * m);
+      EXPECT_LE((scaled.vectors - eigen.vectors).norm(), 1e-15) << scale << '\n' << m;
+      EXPECT_LE((scaled.values / scale - eigen.values).norm(), 1e-15 * m.norm()) << scale << '\n' << m;
+    }
   }
 }
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Any bytes as rows of two numbers, at once and in pieces of a few bytes by three threads: the same records
-// or the same error. The first byte says how many rows are wanted, the second one how large pieces are.
+// or the same error. The first byte says how many rows are wanted, the second one how large pieces are
+// and which character separates values.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -48,9 +49,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static MemoryFile memory;
   memory.assign({reinterpret_cast<const char*>(data), size});
   const InputFile file(memory.path());
+  const char separator = data[1] < 128 ? ' ' : ',';
   for (const bool returns : {false, true}) {
-    const Outcome whole = outcome({file, 2, returns}, data[0], Serial{});
-    const Outcome pieces = outcome({file, 2, returns, data[1] % 64 + std::size_t{1}}, data[0], Threads{3});
+    const Outcome whole = outcome({file, 2, returns, separator}, data[0], Serial{});
+    const TextBody small_pieces{file, 2, returns, separator, data[1] % 64 + std::size_t{1}};
+    const Outcome pieces = outcome(small_pieces, data[0], Threads{3});
     if (whole.error != pieces.error || whole.rows.count != pieces.rows.count ||
         whole.rows.more != pieces.rows.more)
       std::abort();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "clouds.h"
@@ -75,11 +76,15 @@ void expect_the_same_bits() {
     const test::TestCloud<T> cloud = test::gaussian<T>(n, n + 1);
     const std::vector<float> seconds = times_for(n);
     const std::vector<T> expected = deskewed<T>(Isa::scalar, cloud.view(), seconds, kDrive);
-    const test::Records<T> wide(cloud, 32, 4), padded(cloud, 4 * sizeof(T));
+    const test::Records<T> wide(cloud, 32, 4), padded(cloud, 4 * sizeof(T)), narrow(cloud, 24 + 3 * sizeof(T), 24);
+    std::vector<std::int32_t> all(n);
+    std::iota(all.begin(), all.end(), 0);
+    const PointView listed = cloud.view().subset(all);
     const PointGroups groups(cloud.view());
     for (const Isa isa : usable_isas()) {
       SCOPED_TRACE(std::string(isa_name(isa)) + ", " + std::to_string(n));
-      for (const PointView& view : {cloud.view(), wide.view(), padded.view(), groups.view()})
+      for (const PointView& view :
+           {cloud.view(), wide.view(), padded.view(), narrow.view(), listed, groups.view()})
         EXPECT_EQ(deskewed<T>(isa, view, seconds, kDrive), expected);
     }
   }

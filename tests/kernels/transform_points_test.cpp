@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "clouds.h"
@@ -61,11 +62,15 @@ void expect_the_same_bits() {
   for (const std::size_t n : {0, 1, 3, 7, 8, 15, 16, 17, 31, 33, 100, 5003}) {
     const test::TestCloud<T> cloud = test::gaussian<T>(n, n + 1);
     const std::vector<T> expected = transformed<T>(Isa::scalar, cloud.view(), rows_of(mounting()));
-    const test::Records<T> wide(cloud, 32, 4), padded(cloud, 4 * sizeof(T));
+    const test::Records<T> wide(cloud, 32, 4), padded(cloud, 4 * sizeof(T)), narrow(cloud, 24 + 3 * sizeof(T), 24);
+    std::vector<std::int32_t> all(n);
+    std::iota(all.begin(), all.end(), 0);
+    const PointView listed = cloud.view().subset(all);
     const PointGroups groups(cloud.view());
     for (const Isa isa : usable_isas()) {
       SCOPED_TRACE(std::string(isa_name(isa)) + ", " + std::to_string(n));
-      for (const PointView& view : {cloud.view(), wide.view(), padded.view(), groups.view()})
+      for (const PointView& view :
+           {cloud.view(), wide.view(), padded.view(), narrow.view(), listed, groups.view()})
         EXPECT_EQ(transformed<T>(isa, view, rows_of(mounting())), expected);
     }
   }

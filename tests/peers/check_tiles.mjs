@@ -5,6 +5,7 @@
 // check_tiles.mjs check FOLDER: 3d-tiles-renderer reads contents and volumes, of which each holds the points of its
 // tile and of all tiles below, and is not larger than they need.
 // check_tiles.mjs clusters FILE.3dtiles FILE.json: the volumes of clusters are those of the report.
+// check_tiles.mjs geographic FILE.3dtiles FILE.xyz: the region holds the points in degrees, and is not larger.
 import assert from "node:assert";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { PNTSLoaderBase } from "3d-tiles-renderer/core";
@@ -95,7 +96,24 @@ async function clusters() {
   console.log(`3dtiles: ${root.children.length} volumes equal`);
 }
 
-if (verb == "make") await make(Number(argument));
+async function geographic() {
+  const { root } = JSON.parse(await readFile(folder));
+  const { region } = root.children[0].boundingVolume, outside = measure({ region }, new Matrix4());
+  const rows = (await readFile(argument, "utf8")).trim().split("\n").slice(1).map((row) => row.split(" ").map(Number));
+  const radian = Math.PI / 180, farthest = rows.map(([longitude, latitude, height]) =>
+    outside(WGS84_ELLIPSOID.getCartographicToPosition(latitude * radian, longitude * radian, height, new Vector3())));
+  const worst = Math.max(...farthest);
+  assert.ok(worst < 1e-6, `region: the farthest point is ${worst} m outside`);
+  [[0, 0], [1, 1], [2, 0], [3, 1], [4, 2], [5, 2]].forEach(([i, column]) => {
+    const values = rows.map((row) => row[column] * (column < 2 ? radian : 1));
+    const extreme = i < 2 || i == 4 ? Math.min(...values) : Math.max(...values);
+    assert.ok(Math.abs(region[i] - extreme) < 1e-15 * Math.max(1, Math.abs(extreme)), `region[${i}]: ${region[i]}, not ${extreme}`);
+  });
+  console.log(`3dtiles-region: ${rows.length} points inside`);
+}
+
+if (verb == "geographic") await geographic();
+else if (verb == "make") await make(Number(argument));
 else if (verb == "clusters") await clusters();
 else {
   const { root } = JSON.parse(await readFile(`${folder}/tileset.json`));

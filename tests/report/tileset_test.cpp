@@ -6,9 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 
 #include "files.h"
@@ -238,7 +241,8 @@ TEST_F(Tilesets, OfClustersHaveABoxOrSphereForEach) {
   report.clusters[1].volumes = {{"hull", Hull(), {}}};
   report.clusters[2].volumes = {{"aabb", Aabb({0, 0, 0}, {2, 4, 16}), {}}};
   std::string text;
-  write_tileset(report, vector_source(report.clusters), [&](std::string& piece) { text += piece; });
+  write_tileset(report, vector_source(report.clusters), TileFrame::cartesian,
+                [&](std::string& piece) { text += piece; });
   const Json json = Json::parse(text);
   EXPECT_EQ(json["asset"]["version"], "1.1");
   ASSERT_EQ(json["root"]["children"].size(), 2U);
@@ -248,8 +252,70 @@ TEST_F(Tilesets, OfClustersHaveABoxOrSphereForEach) {
   EXPECT_EQ(json["root"]["boundingVolume"], Json::parse(R"({"box":[1,2,7.5,4,0,0,0,4,0,0,0,8.5]})"));
   report.clusters.clear();
   text.clear();
-  write_tileset(report, vector_source(report.clusters), [&](std::string& piece) { text += piece; });
+  write_tileset(report, vector_source(report.clusters), TileFrame::cartesian,
+                [&](std::string& piece) { text += piece; });
   EXPECT_FALSE(Json::parse(text)["root"].contains("children"));
+}
+
+std::string regions_of(const std::vector<Aabb>& boxes) {
+  Report report;
+  for (const Aabb& box : boxes) {
+    report.clusters.emplace_back();
+    report.clusters.back().volumes = {{"sphere-exact", Sphere({1, 2, 3}, 4), {}}, {"aabb", box, {}}};
+  }
+  std::string text;
+  write_tileset(report, vector_source(report.clusters), TileFrame::geographic,
+                [&](std::string& piece) { text += piece; });
+  return text;
+}
+
+TEST_F(Tilesets, OfGeographicCloudsHaveRegionsThatEncloseTheirBoxesInExactArithmetic) {
+  using Exact = boost::multiprecision::cpp_bin_float_100;
+  const Exact radian = boost::math::constants::pi<Exact>() / 180;
+  std::mt19937_64 random(53);
+  const auto random_within = [&](double limit) {
+    return std::uniform_real_distribution<double>(-limit, limit)(random);
+  };
+  for (int round = 0; round < 2000; ++round) {
+    const Eigen::Vector3d one(random_within(180), random_within(90), random_within(9000)),
+        other(random_within(180), random_within(90), random_within(9000));
+    const Aabb box(one.cwiseMin(other), one.cwiseMax(other));
+    const Json root = Json::parse(regions_of({box}))["root"];
+    const auto region = root["children"][0]["boundingVolume"]["region"].get<std::vector<double>>();
+    ASSERT_EQ(region.size(), 6U);
+    EXPECT_EQ(root["boundingVolume"]["region"], root["children"][0]["boundingVolume"]["region"]);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Exact first = Exact(box.min()[axis]) * radian, last = Exact(box.max()[axis]) * radian;
+      const double low = region[static_cast<std::size_t>(axis)];
+      const double high = region[static_cast<std::size_t>(axis) + 2];
+      EXPECT_LE(Exact(low), first) << round;
+      EXPECT_GE(Exact(high), last) << round;
+      EXPECT_NEAR(low, first.convert_to<double>(), 2e-15) << round;
+      EXPECT_NEAR(high, last.convert_to<double>(), 2e-15) << round;
+    }
+    EXPECT_EQ(region[4], box.min().z());
+    EXPECT_EQ(region[5], box.max().z());
+  }
+}
+
+TEST_F(Tilesets, OfGeographicCloudsEndAtThePolesAndTheMeridian) {
+  const Json earth =
+      Json::parse(regions_of({Aabb({-180, -90, -5}, {180, 90, 5}), Aabb({0, 0, 0}, {0, 0, 0})}));
+  EXPECT_EQ(earth["root"]["boundingVolume"]["region"].get<std::vector<double>>(),
+            (std::vector{-M_PI, -M_PI_2, M_PI, M_PI_2, -5.0, 5.0}));
+  EXPECT_EQ(earth["root"]["children"][1]["boundingVolume"], Json::parse(R"({"region":[0,0,0,0,0,0]})"));
+  const Json pole = Json::parse(regions_of({Aabb({0, 89, 0}, {0, 90, 0})}));
+  EXPECT_GT(pole["geometricError"], 111'690);  // metres of this arc of WGS84: 111 694
+  EXPECT_LT(pole["geometricError"], 111'700);
+  const auto error = [](const Aabb& box) {
+    try {
+      return regions_of({box});
+    } catch (const IoError& wrong) {
+      return std::string(wrong.what());
+    }
+  };
+  EXPECT_THAT(error(Aabb({13, 52, 0}, {180.5, 53, 9})), HasSubstr("longitude 180.5; allowed are -180 to"));
+  EXPECT_THAT(error(Aabb({13, -91, 0}, {14, 53, 9})), HasSubstr("latitude -91; allowed are -90 to 90"));
 }
 
 }  // namespace

@@ -60,6 +60,27 @@ TEST(Dbscan, EqualsItsDefinitionWhereCellsHoldManyPoints) {
   }
 }
 
+// The points around a point are compared all at once up to 1024, and group by group above. Here the own block
+// of a point has fewer, and with other blocks there are more.
+template <typename T>
+void expect_dbscan_across_blocks(T offset) {
+  Cloud<T> cloud;
+  for (const auto& p : uniform_cloud<T>(900, T(0.3), 11, {offset, 0, 0}))
+    cloud.push_back(p);
+  for (const auto& p : uniform_cloud<T>(900, T(0.3), 12, {offset + T(0.7), 0, 0}))
+    cloud.push_back(p);
+  for (const std::size_t min_points : std::vector<std::size_t>{20, 950, 1400, 1801, SIZE_MAX})
+    expect_dbscan(cloud, 1.F, min_points);
+}
+
+TEST(Dbscan, EqualsItsDefinitionWhereOtherBlocksHaveThousandPointsMore) {
+  for (const double offset : {0., 0.4, 0.9, 1.3}) {
+    SCOPED_TRACE(offset);
+    expect_dbscan_across_blocks<float>(static_cast<float>(offset));
+    expect_dbscan_across_blocks<double>(offset);
+  }
+}
+
 TEST(Dbscan, TakesPointsAtExactlyTheToleranceForApart) {
   for (const std::size_t min_points : {2U, 7U, 8U, 19U, 20U, 27U, 28U}) {
     for (const float r : {0.25F, 0.250001F, 0.36F, 0.5F})

@@ -51,6 +51,8 @@ std::vector<TestCloud<T>> nasty_clouds() {
   clouds.push_back(gaussian<T>(3000, 8, 20, 5e6));  // UTM: a float step is half a metre
   clouds.push_back(gaussian<T>(3000, 9, 1e-3, 1));
   clouds.push_back({"one point far away", {T(5e6), T(-4e6), T(123.25)}});
+  if (sizeof(T) == 8)  // a covariance whose squares underflow
+    clouds.push_back({"nearly a line", {0, 0, 0, 1, 3, 0, 2, 6, 0, 3, 9, T(1e-150)}});
   clouds.push_back({"equal points", std::vector<T>(3 * 50, T(0.1))});
   clouds.push_back({"mixed zeros", {T(-0.0), T(0.0), T(-0.0), T(0.0), T(-0.0), T(-0.0)}});
   clouds.push_back(

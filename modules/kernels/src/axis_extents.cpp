@@ -31,19 +31,12 @@ namespace HWY_NAMESPACE {
 
 // If kWholePoints is true for a layout, a register holds whole points (x, y, z and a fourth number). If
 // kTriples is true, registers hold consecutive triples x, y, z. Otherwise a register holds one axis.
-// axis_of() returns the axis of a lane, or 3 for a fourth number.
 template <Layout layout>
-inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide) &&
+inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide ||
+                                      layout == Layout::narrow) &&
                                      !HWY_HAVE_SCALABLE;
 template <Layout layout>
 inline constexpr bool kTriples = layout == Layout::packed12;
-
-template <Layout layout>
-std::size_t axis_of(std::size_t r, std::size_t lane, std::size_t lanes) {
-  if (kWholePoints<layout>) return lane % 4;
-  if (kTriples<layout>) return (r * lanes + lane) % 3;
-  return r;
-}
 
 template <Layout layout, class D>
 HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, V<D>& v0, V<D>& v1, V<D>& v2,
@@ -61,10 +54,10 @@ HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, 
     v2 = hn::LoadU(d, p + 2 * n);
     v3 = hn::LoadU(d, p + 3 * n);
   } else if constexpr (kWholePoints<layout>) {
-    v0 = load_blocks(d, points, first, 4, 0);
-    v1 = load_blocks(d, points, first + 1, 4, 0);
-    v2 = load_blocks(d, points, first + 2, 4, 0);
-    v3 = load_blocks(d, points, first + 3, 4, 0);
+    v0 = load_whole_points<layout>(d, points, first, 4);
+    v1 = load_whole_points<layout>(d, points, first + 1, 4);
+    v2 = load_whole_points<layout>(d, points, first + 2, 4);
+    v3 = load_whole_points<layout>(d, points, first + 3, 4);
   } else {
     load_packet_anywhere<layout>(d, points, first, v0, v1, v2);
   }
@@ -217,6 +210,32 @@ std::size_t grow_over_valid(const PointView& block, T* low, T* high) {
   return block.count - valid_count;
 }
 
+// Updates the extents with the minima and maxima of all lanes.
+template <Layout layout, typename T>
+void grow_over_lanes(Lanes<T>& lanes, T* low, T* high) {
+  const Tag<T> d;
+  const std::size_t n = hn::Lanes(d);
+  std::size_t number_count = 3 * n, step_within_axis = 1, step_between_axes = n;
+  if (kTriples<layout>) step_within_axis = 3, step_between_axes = 1;
+  if constexpr (sizeof(T) == 4 && kWholePoints<layout>) {
+    const auto all_low = hn::Min(hn::Min(hn::Load(d, lanes.low), hn::Load(d, lanes.low + n)),
+                                 hn::Min(hn::Load(d, lanes.low + 2 * n), hn::Load(d, lanes.low + 3 * n)));
+    const auto all_high = hn::Max(hn::Max(hn::Load(d, lanes.high), hn::Load(d, lanes.high + n)),
+                                  hn::Max(hn::Load(d, lanes.high + 2 * n), hn::Load(d, lanes.high + 3 * n)));
+    hn::Store(all_low, d, lanes.low);
+    hn::Store(all_high, d, lanes.high);
+    number_count = n, step_within_axis = 4, step_between_axes = 1;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t first = axis * step_between_axes;
+    const std::size_t end = step_within_axis == 1 ? first + n : number_count;
+    for (std::size_t i = first; i < end; i += step_within_axis) {
+      low[axis] = HWY_MIN(low[axis], lanes.low[i]);
+      high[axis] = HWY_MAX(high[axis], lanes.high[i]);
+    }
+  }
+}
+
 template <Layout layout, typename T>
 AxisExtents extents_of(const PointView& points) {
   const std::size_t n = hn::Lanes(Tag<T>());
@@ -235,15 +254,7 @@ AxisExtents extents_of(const PointView& points) {
     clean = bad == 0;
     dropped += bad;
   }
-  const std::size_t registers = sizeof(T) == 4 && kWholePoints<layout> ? 4 : 3;
-  for (std::size_t r = 0; r < registers; ++r) {
-    for (std::size_t lane = 0; lane < n; ++lane) {
-      const std::size_t axis = axis_of<layout>(r, lane, n);
-      if (axis == 3) continue;
-      low[axis] = HWY_MIN(low[axis], lanes.low[r * n + lane]);
-      high[axis] = HWY_MAX(high[axis], lanes.high[r * n + lane]);
-    }
-  }
+  grow_over_lanes<layout>(lanes, low, high);
   return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}, dropped};
 }
 

@@ -47,7 +47,7 @@ std::size_t copy_to_groups(const PointView& points, const T* pad, T* groups) {
     if (HWY_LIKELY(i + n <= points.count)) {
       load_packet_in_order<layout>(d, points, i, x, y, z);
     } else {
-      load_padded(d, points, i, points.count - HWY_MIN(i, points.count), pad, x, y, z);
+      load_tail_in_order<layout>(d, points, i, points.count - HWY_MIN(i, points.count), pad, x, y, z);
     }
     if constexpr (masked) {
       const auto valid = valid_lanes(d, x, y, z);

@@ -86,8 +86,6 @@ HWY_INLINE void move_packet(D d, const ScrewMotion<T>& motion, V<D> t, V<D>& x, 
 
 template <Layout layout, typename T>
 void deskew_of(const PointView& points, const float* seconds, const SensorMotion& sensor, std::byte* xyz) {
-  // Layout::packed16 loads the points of a packet in another order.
-  constexpr Layout in_order = layout == Layout::packed16 && !HWY_HAVE_SCALABLE ? Layout::wide : layout;
   const Tag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   const ScrewMotion<T> motion(sensor);
@@ -95,7 +93,7 @@ void deskew_of(const PointView& points, const float* seconds, const SensorMotion
   V<decltype(d)> x, y, z;
   std::size_t i = 0;
   for (; i + lanes <= points.count; i += lanes) {
-    load_packet<in_order>(d, points, i, x, y, z);
+    load_packet_in_order<layout>(d, points, i, x, y, z);
     move_packet(d, motion, load_seconds(d, seconds + i), x, y, z);
     hn::StoreInterleaved3(x, y, z, d, out + 3 * i);
   }

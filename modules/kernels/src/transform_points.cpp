@@ -47,15 +47,13 @@ HWY_INLINE void transform_packet(D d, const RigidTransform& m, V<D>& x, V<D>& y,
 
 template <Layout layout, typename T>
 void transform_of(const PointView& points, const RigidTransform& transform, std::byte* xyz) {
-  // Layout::packed16 loads the points of a packet in another order.
-  constexpr Layout in_order = layout == Layout::packed16 && !HWY_HAVE_SCALABLE ? Layout::wide : layout;
   const Tag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   T* const out = reinterpret_cast<T*>(xyz);
   V<decltype(d)> x, y, z;
   std::size_t i = 0;
   for (; i + lanes <= points.count; i += lanes) {
-    load_packet<in_order>(d, points, i, x, y, z);
+    load_packet_in_order<layout>(d, points, i, x, y, z);
     transform_packet(d, transform, x, y, z);
     hn::StoreInterleaved3(x, y, z, d, out + 3 * i);
   }

@@ -117,14 +117,15 @@ GroundFile::GroundFile(const std::filesystem::path& path) : path_(path) {
                  "was written by another version of pcl_bv: this one reads version 1");
   require_ground(preamble.option_bytes <= kMaxGroundText && preamble.cloud_bytes <= kMaxGroundText,
                  "is damaged: its header is too large");
-  std::string text(preamble.option_bytes + preamble.cloud_bytes, '\0');
+  const std::size_t text_bytes = preamble.option_bytes + preamble.cloud_bytes;
   std::uint32_t sum, points_sum;
-  first_point_ = sizeof preamble + text.size() + sizeof sum;
+  first_point_ = sizeof preamble + text_bytes + sizeof sum;
   points_ = preamble.points;
   require_ground(first_point_ + sizeof points_sum <= file.size() &&
                      points_ == (file.size() - first_point_ - sizeof points_sum) / sizeof(LowestPoint) &&
                      (file.size() - first_point_ - sizeof points_sum) % sizeof(LowestPoint) == 0,
                  "is truncated");
+  std::string text(text_bytes, '\0');
   file.read(sizeof preamble, text.data(), text.size());
   file.read(first_point_ - sizeof sum, &sum, sizeof sum);
   file.read(file.size() - sizeof points_sum, &points_sum, sizeof points_sum);

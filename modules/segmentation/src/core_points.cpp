@@ -67,14 +67,36 @@ struct CoreSearch {
 };
 
 // Returns whether a point is a core point. Searches other blocks only if too few linked points are found in
-// the point's own block.
+// the point's own block. Compares all points of the cells around if they are at most 1024, which takes less
+// than 0.5 us in columns. Otherwise compares group by group until enough are found.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
+  constexpr std::size_t few_points = 1024;
   std::size_t found = 0;
-  for (std::size_t i = 0; found < search.min_points; ++i) {
+  for (std::size_t i = 0; found < search.min_points;) {
     if (i == near.size()) near.add_other_blocks();
     if (i == near.size()) return false;
-    found += search.count(near[i], p, search.min_points - found);
+    if (near.points() <= few_points) {
+      found += search.scratch.columns.count_linked(&near[i], near.size() - i, p, search.r2,
+                                                   search.min_points - found);
+      i = near.size();
+    } else {
+      found += search.count(near[i++], p, search.min_points - found);
+    }
+  }
+  return true;
+}
+
+// Returns whether the 27 blocks have fewer than min_points points. Then the middle block has no core point.
+template <typename T>
+bool has_too_few_points(const CoreSearch<T>& search, const BlocksAround& around) {
+  const Cells<T>& cells = search.cells;
+  std::size_t points = 0;
+  for (const std::uint32_t number : around) {
+    if (number == no_block) continue;
+    const Block& block = cells.blocks[number];
+    points += cells.begin[block.first_cell + count_bits(block.occupied)] - cells.begin[block.first_cell];
+    if (points >= search.min_points) return false;
   }
   return true;
 }
@@ -97,7 +119,13 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
       core_cells |= bit;
       continue;
     }
-    if (around == nullptr) around = &find_around();
+    if (around == nullptr) {
+      around = &find_around();
+      if (has_too_few_points(search, *around)) {
+        cells_with_non_core = block.occupied;
+        break;
+      }
+    }
     near.start(*around, static_cast<unsigned>(std::countr_zero(rest)));
     if (near.points() < search.min_points) near.add_other_blocks();
     const bool too_few = near.points() < search.min_points;
@@ -146,13 +174,17 @@ void label_border(const CoreSearch<T>& search, std::size_t number, FindAround fi
   if (scratch.cells_with_non_core[number] == 0) return;
   const Block& block = search.cells.blocks[number];
   const BlocksAround& around = find_around();
+  const auto has_core = [&](std::uint32_t near_block) {
+    return near_block != no_block && scratch.core_cells[near_block] != 0;
+  };
+  if (std::none_of(around.begin(), around.end(), has_core)) return;
   for (std::uint64_t rest = scratch.cells_with_non_core[number]; rest != 0; rest &= rest - 1) {
     const auto bit = static_cast<unsigned>(std::countr_zero(rest));
     const std::uint32_t cell = block.cell(bit);
     const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
-    near.start(around, bit);
+    near.start(around, bit, scratch.core_cells.data());
     near.add_other_blocks();
-    for (std::uint32_t i = own.begin; i < own.end; ++i) {
+    for (std::uint32_t i = own.begin; i < own.end && near.size() > 0; ++i) {
       if (scratch.core[i] == 0) scratch.label[i] = nearest_core(search, search.cells.points[i], near);
     }
   }
@@ -168,6 +200,7 @@ void start_scratch(const Cells<T>& cells, CoreScratch<T>& scratch) {
   scratch.number.resize(points);
   for (std::size_t i = 0; i < points; ++i)
     scratch.number[cells.node[i]] = static_cast<std::uint32_t>(i);
+  scratch.columns.assign(cells.points);
   scratch.groups.resize(points / group_size);
   for (std::size_t g = 0; g < scratch.groups.size(); ++g)
     scratch.groups[g] = box_of(cells.points.data() + g * group_size, group_size);

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "cells.h"
+#include "count_linked.h"
 #include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv::detail {
 
-/// Buffers that calls reuse. They take about 10 bytes per point and 16 bytes per block. A position is a
-/// position in Cells::points.
+/// Buffers that calls reuse. They take about 22 (float) or 35 (double) bytes per point and 16 bytes per
+/// block. A position is a position in Cells::points.
 template <typename T>
 struct CoreScratch {
   std::vector<std::uint8_t> core;         ///< For each position, whether the point is core.
@@ -27,6 +28,7 @@ struct CoreScratch {
   /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last
   /// group with fewer points has no box.
   std::vector<Box<T>> groups;
+  PointColumns<T> columns;  ///< Of Cells::points.
 };
 
 /// Number of consecutive positions in a group with a common box. Cells with very many points are tested group

@@ -83,9 +83,12 @@ class Neighbourhood {
  public:
   explicit Neighbourhood(const Cells<T>& cells) : cells_(cells) {}
 
-  /// Starts at cell `bit` of the block in the middle of `around`. `around` must outlive this object.
-  void start(const BlocksAround& around, unsigned bit) {
+  /// Starts at cell `bit` of the block in the middle of `around`. `around` must outlive this object. If
+  /// `allowed_cells` is not null, element b has a bit for each cell of block b. Cells whose bit is not set
+  /// are skipped.
+  void start(const BlocksAround& around, unsigned bit, const std::uint64_t* allowed_cells = nullptr) {
     around_ = &around;
+    allowed_cells_ = allowed_cells;
     bit_ = bit;
     count_ = 0;
     points_ = 0;
@@ -113,7 +116,8 @@ class Neighbourhood {
     const std::uint32_t number = (*around_)[9 * z + 3 * y + x];
     if (number == no_block) return;
     const Block& block = cells_.blocks[number];
-    const std::uint64_t mask = (*masks_around[3 * z + y])[x][bit_];
+    std::uint64_t mask = (*masks_around[3 * z + y])[x][bit_];
+    if (allowed_cells_ != nullptr) mask &= allowed_cells_[number];
     std::uint64_t rest = mask & block.occupied;
     while (rest != 0) {
       const std::uint64_t others = block.occupied & ~mask & ~((rest & -rest) - 1);
@@ -127,6 +131,7 @@ class Neighbourhood {
   }
   const Cells<T>& cells_;
   const BlocksAround* around_ = nullptr;
+  const std::uint64_t* allowed_cells_ = nullptr;
   unsigned bit_ = 0;
   bool has_other_blocks_ = false;
   std::size_t count_ = 0, points_ = 0;

@@ -12,7 +12,7 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr Names<OutputFormat, 10> kFormats{{{"text", OutputFormat::text},
+constexpr Names<OutputFormat, 11> kFormats{{{"text", OutputFormat::text},
                                             {"json", OutputFormat::json},
                                             {"jsonl", OutputFormat::jsonl},
                                             {"csv", OutputFormat::csv},
@@ -21,7 +21,8 @@ constexpr Names<OutputFormat, 10> kFormats{{{"text", OutputFormat::text},
                                             {"nuscenes", OutputFormat::nuscenes},
                                             {"openlabel", OutputFormat::openlabel},
                                             {"sustech", OutputFormat::sustech},
-                                            {"3dtiles", OutputFormat::tiles}}};
+                                            {"3dtiles", OutputFormat::tiles},
+                                            {"3dtiles-region", OutputFormat::tile_regions}}};
 
 // Formats whose boxes have only a yaw, and types that end at a blank.
 bool is_kitti(OutputFormat format) {
@@ -62,7 +63,8 @@ std::string checked_object_type(const std::string& type, OutputFormat format) {
 
 void check_box_format(const std::string& name, const Options& options) {
   const bool kitti = is_kitti(options.format), tiles = options.format == OutputFormat::tiles;
-  if (!tiles && !box_label_format(options.format)) return;
+  const bool regions = options.format == OutputFormat::tile_regions;
+  if (!tiles && !regions && !box_label_format(options.format)) return;
   const std::string format = "--format " + name;
   if (options.origin.requested) throw UsageError("--origin: cannot be combined with " + format);
   const Eigen::Vector3d& up = options.pipeline.ground.up;
@@ -70,14 +72,15 @@ void check_box_format(const std::string& name, const Options& options) {
     throw UsageError(format + ": boxes rotate only about z, so --up must be z");
   const std::vector<const Method*> methods = options.pipeline.methods();
   const bool any = std::any_of(methods.begin(), methods.end(), [&](const Method* m) {
-    return m->shape == "aabb" || (m->shape == "obb" && (m->upright || !kitti)) ||
+    return m->shape == "aabb" || (!regions && m->shape == "obb" && (m->upright || !kitti)) ||
            (tiles && m->shape == "sphere");
   });
-  if (!any)
-    throw UsageError(format + ": needs boxes: --volume obb-yaw, obb-lshape" +
-                     (kitti   ? " or aabb"
-                      : tiles ? ", obb, aabb or sphere"
-                              : ", obb or aabb"));
+  if (any) return;
+  if (regions) throw UsageError(format + ": needs --volume aabb");
+  throw UsageError(format + ": needs boxes: --volume obb-yaw, obb-lshape" +
+                   (kitti   ? " or aabb"
+                    : tiles ? ", obb, aabb or sphere"
+                            : ", obb or aabb"));
 }
 
 }  // namespace pcl_bv::detail

@@ -210,7 +210,7 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
       one ? std::vector{merged_job(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
   if (jobs.size() > 1 && has_one_input(options.format))
-    throw UsageError("--format: files of kitti, sustech and 3dtiles have one input, not " +
+    throw UsageError("--format: files of kitti, sustech and 3D Tiles have one input, not " +
                      std::to_string(jobs.size()));
   for (Job& job : jobs) {
     if (jobs.size() > 1) job.frame = static_cast<std::size_t>(&job - jobs.data());

@@ -92,7 +92,8 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   }
   line.option("--format", texts.format, "FORMAT",
               "text, json, jsonl or csv (text); boxes for labelling tools\nand benchmarks: kitti, "
-              "kitti-tracking, nuscenes, openlabel\nor sustech; 3dtiles: bounding volumes of 3D Tiles");
+              "kitti-tracking, nuscenes, openlabel\nor sustech; 3dtiles: bounding volumes of 3D "
+              "Tiles;\n3dtiles-region: regions, for clouds in longitude, latitude, height");
   line.option("--object-type", texts.object_type, "NAME", "Type of all objects in the formats of boxes");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",

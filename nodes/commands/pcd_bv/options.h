@@ -26,7 +26,8 @@ enum class OutputFormat {
   nuscenes,
   openlabel,
   sustech,
-  tiles
+  tiles,
+  tile_regions
 };
 
 /// The origin that is subtracted from all coordinates before processing.
@@ -77,7 +78,8 @@ struct Options {
 
 /// Returns whether a file of this format has the results of only one input.
 inline bool has_one_input(OutputFormat format) {
-  return format == OutputFormat::kitti || format == OutputFormat::sustech || format == OutputFormat::tiles;
+  return format == OutputFormat::kitti || format == OutputFormat::sustech || format == OutputFormat::tiles ||
+         format == OutputFormat::tile_regions;
 }
 
 /// Returns whether files other than the report are requested.

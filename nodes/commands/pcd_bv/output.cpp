@@ -10,6 +10,7 @@
 #include "box_format.h"
 #include "commands/shared/standard_streams.h"
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/report/csv.h"
 #include "pcl_bv/report/tileset.h"
 
@@ -50,8 +51,11 @@ void render(const Report& report, const ClusterSource& clusters, const RenderOpt
   const TextSink not_empty = [&](std::string& piece) {
     if (!piece.empty()) take(piece);
   };
-  if (const auto labels = box_label_format(options.format))
-    return write_box_labels(report, clusters, *labels, options.labels, not_empty);
+  const bool tiles = options.format == OutputFormat::tiles || options.format == OutputFormat::tile_regions;
+  const auto labels = box_label_format(options.format);
+  if ((tiles || labels) && report.origin && !report.origin->isZero(0))  // in merged partial results
+    throw IoError("was made with --origin, which this format would lose");
+  if (labels) return write_box_labels(report, clusters, *labels, options.labels, not_empty);
   std::string line_end = "\n";
   switch (options.format) {
     case OutputFormat::json:
@@ -62,7 +66,9 @@ void render(const Report& report, const ClusterSource& clusters, const RenderOpt
     case OutputFormat::csv:
       return write_report_csv(report, clusters, not_empty);
     case OutputFormat::tiles:
-      return write_tileset(report, clusters, not_empty);
+      return write_tileset(report, clusters, TileFrame::cartesian, not_empty);
+    case OutputFormat::tile_regions:
+      return write_tileset(report, clusters, TileFrame::geographic, not_empty);
     default:
       break;
   }

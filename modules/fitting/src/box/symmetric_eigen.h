@@ -13,8 +13,8 @@ struct SymmetricEigen {
   Eigen::Matrix3d vectors;  ///< Eigenvectors as columns, orthonormal to about 1e-15, right-handed.
 };
 
-/// Computes eigenvalues and eigenvectors by Jacobi rotations. Uses only sums, products, quotients and square
-/// roots, so the bits are the same on every IEEE machine.
+/// Computes eigenvalues and eigenvectors by Jacobi rotations. Uses only sums, products, quotients, powers of
+/// two and square roots, so the bits are the same on every IEEE machine.
 SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix);
 
 }  // namespace pcl_bv::detail

@@ -4,6 +4,7 @@
 // 3D Tiles 1.1: clusters as a tileset, and new bounding volumes for the tiles of a tileset.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,10 +15,23 @@
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// Writes a tileset with a tile for each cluster, without content: a `box` or `sphere` for the first box or
-/// sphere of the cluster, in the frame and unit of the points. The root is the box along the axes around all
-/// of them. Clusters without a box or sphere are left out. Writes nothing for a failed report.
-void write_tileset(const Report& report, const ClusterSource& clusters, const TextSink& take);
+/// What the coordinates of a tileset's points are.
+enum class TileFrame : std::uint8_t {
+  cartesian,  ///< Any frame and unit.
+  geographic  ///< x is the longitude and y the latitude in degrees, z the height in metres above WGS84.
+};
+
+/// Writes a tileset with a tile for each cluster, without content. Writes nothing for a failed report.
+/// - cartesian: a `box` or `sphere` for the first box or sphere of the cluster, in the frame and unit of the
+///   points. The root is the box along the axes around all of them.
+/// - geographic: a `region` for the first Aabb of the cluster, in radians. It is rounded outwards, so that it
+///   encloses the box in exact arithmetic. It ends at the doubles nearest to the 180th meridian and the
+///   poles, because validators of tilesets allow no more: points there are up to 2^-52 outside.
+/// Clusters without such a volume are left out.
+///
+/// Throws IoError before the first text if geographic coordinates are beyond 180 or 90 degrees.
+void write_tileset(const Report& report, const ClusterSource& clusters, TileFrame frame,
+                   const TextSink& take);
 
 struct TilesetUpdate {
   std::size_t tiles = 0, updated = 0;

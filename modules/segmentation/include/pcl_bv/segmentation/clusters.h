@@ -120,8 +120,8 @@ class EuclideanClusterer {
   /// points. Steps over blocks of 64 cells use one thread for at most 256 blocks.
   ///
   /// The object retains its memory for later calls: about 50 bytes per point and 150 bytes per block. With
-  /// min_points > 1 it retains 10 bytes per point and 16 bytes per block more. For 2^18 or more blocks, each
-  /// call frees most of the memory for blocks before it returns.
+  /// min_points > 1 it retains about 22 (float) or 35 (double) bytes per point and 16 bytes per block more.
+  /// For 2^18 or more blocks, each call frees most of the memory for blocks before it returns.
   ///
   /// Throws std::invalid_argument if an option is outside its range or min_size > max_size, and
   /// std::length_error if a point index exceeds 2^31 - 1.
