@@ -1,0 +1,53 @@
+# pcl_bv_COMPONENT.pc for pkg-config, of each component with libraries. The folder of such a file says where the package
+# is, so that an installed package can be moved.
+
+# pcl_bv_pkg_config(component LIBRARIES name... ON component... PACKAGES package... USES package... LINK option...): who
+# links static libraries also links what they use, the packages of USES and LINK.
+function(pcl_bv_pkg_config component)
+  cmake_parse_arguments(arg "" "" "LIBRARIES;ON;PACKAGES;USES;LINK" ${ARGN})
+  if(BUILD_SHARED_LIBS)
+    set(arg_USES)
+    set(arg_LINK)
+  endif()
+  list(TRANSFORM arg_ON PREPEND pcl_bv_)
+  list(TRANSFORM arg_LIBRARIES PREPEND -lpcl_bv_)
+  list(JOIN arg_LIBRARIES " " libraries)
+  set(packages ${arg_ON} ${arg_PACKAGES} ${arg_USES})
+  list(JOIN packages ", " packages)
+  list(JOIN arg_LINK " " link)
+  file(RELATIVE_PATH prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  string(REGEX REPLACE "/$" "" prefix "${prefix}")
+  set(file ${PROJECT_BINARY_DIR}/pcl_bv_${component}.pc)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/component.pc.in ${file} @ONLY)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+list(TRANSFORM OpenMP_CXX_LIB_NAMES PREPEND -l OUTPUT_VARIABLE open_mp)
+pcl_bv_pkg_config(core LIBRARIES trees segmentation fitting parallel kernels volumes points numeric
+                  PACKAGES "eigen3 >= 3.4" USES libhwy LINK ${open_mp} ${CMAKE_THREAD_LIBS_INIT})
+if("io" IN_LIST PCL_BV_COMPONENTS)
+  set(laszip)
+  if("laz" IN_LIST PCL_BV_COMPONENTS)
+    set(laszip -llaszip)
+  endif()
+  pcl_bv_pkg_config(io LIBRARIES io ON core USES liblzf libdeflate LINK ${laszip})
+endif()
+if("report" IN_LIST PCL_BV_COMPONENTS)
+  pcl_bv_pkg_config(report LIBRARIES report ON io core USES cairo)
+endif()
+if("messages" IN_LIST PCL_BV_COMPONENTS)
+  pcl_bv_pkg_config(messages LIBRARIES messages ON io core)
+endif()
+set(recording)
+if("recording" IN_LIST PCL_BV_COMPONENTS)
+  set(recording recording)
+  pcl_bv_pkg_config(recording LIBRARIES recording ON io core
+                    USES libdeflate liblz4 libzstd sqlite3 yaml-cpp LINK -lbz2)
+endif()
+if("gpu" IN_LIST PCL_BV_COMPONENTS)
+  pcl_bv_pkg_config(gpu LIBRARIES gpu ON core LINK -ldl)
+endif()
+if("nodes" IN_LIST PCL_BV_COMPONENTS)
+  pcl_bv_pkg_config(nodes LIBRARIES nodes synth ON report messages ${recording} io core
+                    USES yaml-cpp tinyxml2 LINK -ldl)
+endif()
