@@ -25,9 +25,10 @@ LONGEST = 300  # seconds for a block
 
 
 def run_block(commands, folder, programs):
-    """Standard output and error of a block. Any free port is used, so that tests can run side by side."""
+    """Standard output and error of a block. Any free port is used, so that tests can run side by side; sources that
+    are repeated for the reader are played once."""
     environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
-    commands = commands.replace("ws:8765", "ws:0")
+    commands = re.sub(r" --loop \d+", "", commands.replace("ws:8765", "ws:0"))
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, env=environment,
                           text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LONGEST,
                           check=False)
