@@ -31,11 +31,13 @@ def check(folder):
     for path, page in pages.items():
         for link in page.links:
             parts = urllib.parse.urlsplit(link)
-            if parts.scheme or parts.netloc:  # the network is not asked
+            if parts.scheme or parts.netloc:  # external links are not checked
                 continue
             name = urllib.parse.unquote(parts.path)
             target = pathlib.Path(os.path.normpath(path.parent / name)) if name else path
-            if not target.is_file():
+            if not target.is_relative_to(folder):
+                yield path, link, "outside the site"
+            elif not target.is_file():
                 yield path, link, "no such file"
             elif parts.fragment and target in pages:
                 if urllib.parse.unquote(parts.fragment) not in pages[target].anchors:

@@ -35,7 +35,7 @@ GROUPS = {
     "Project": ["docs/architecture.md", "docs/kernels.md", "docs/adding-a-volume.md", "CONTRIBUTING.md",
                 "SECURITY.md", "CHANGELOG.md", "LICENSE"],
 }
-COMMANDS = ["pcd_bv", "bv_stream", "pcd_bv_mpi"]
+COMMANDS = ["pcd_bv", "bv_stream", "pcd_bv_mpi", "synth"]
 
 
 def target_of(source):
@@ -154,14 +154,14 @@ class Site:
                 shutil.copy(ROOT / source, self.out / source)
                 continue
             page = Page(source)
-            waiting += page.links
+            waiting += sorted(page.links)
             if page.target == "index.html":
                 page.body = page.body.replace("</h1>", f"</h1>\n{self.buttons()}", 1)
             self.write(page.target, page.title, page.body, page.sections)
         self.write_manuals()
 
     def buttons(self):
-        """What the first page offers to a reader who has no time."""
+        """Buttons on the first page."""
         targets = [(target_of(GROUPS["Guide"][0]), "Begin in ten minutes"), *self.extra]
         links = [f'<a href="{target}">{title}</a>' for target, title in targets]
         return f'<p class="buttons">{" ".join(links)}</p>'
