@@ -32,8 +32,8 @@ GROUPS = {
                 "docs/glossary.md"],
     "Results": ["docs/benchmarks.md", "docs/comparison.md", "docs/segmentation-results.md",
                 "docs/tracking-results.md", "docs/scores.md"],
-    "Project": ["docs/architecture.md", "docs/kernels.md", "docs/adding-a-volume.md", "CONTRIBUTING.md",
-                "SECURITY.md", "CHANGELOG.md", "LICENSE"],
+    "Project": ["docs/platforms.md", "docs/architecture.md", "docs/kernels.md", "docs/adding-a-volume.md",
+                "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", "LICENSE"],
 }
 COMMANDS = ["pcd_bv", "bv_stream", "pcd_bv_mpi", "synth"]
 
