@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "local_frame.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv::detail {
@@ -54,16 +55,10 @@ void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v) {
     rotate_pair(v(k, p), v(k, q));
 }
 
-// Returns a power of two that brings the largest entry to [1, 2), so that no square overflows.
-double scale_of(const Eigen::Matrix3d& matrix) {
-  const double largest = matrix.cwiseAbs().maxCoeff();
-  return largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1.0;
-}
-
 }  // namespace
 
 SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
-  const double scale = scale_of(matrix);
+  const double scale = unit_scale(matrix.cwiseAbs().maxCoeff());  // no square overflows
   Eigen::Matrix3d a = scale * matrix, v = Eigen::Matrix3d::Identity();
   for (int sweep = 0; sweep < 20; ++sweep) {
     const double off = (std::abs(a(0, 1)) + std::abs(a(0, 2))) + std::abs(a(1, 2));
