@@ -67,8 +67,8 @@ struct CoreSearch {
 };
 
 // Returns whether a point is a core point. Searches other blocks only if too few linked points are found in
-// the point's own block. Compares all points of the cells around if they are at most 1024, which takes less
-// than 0.5 us in columns. Otherwise compares group by group until enough are found.
+// the point's own block. Compares all points of the cells around in columns if they are at most 1024. Otherwise
+// compares group by group until enough are found.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   constexpr std::size_t few_points = 1024;
