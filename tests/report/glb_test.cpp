@@ -139,5 +139,19 @@ TEST(Glb, HasPointsOfTheCloudThinnedAndColouredByCluster) {
   EXPECT_NEAR(turned[5], -1, 1e-15);  // y down becomes y up
 }
 
+TEST(Glb, RotatesEveryUpToY) {
+  const double tiny = 1e-12;
+  for (const Eigen::Vector3d& up : std::vector<Eigen::Vector3d>{
+           {1, 0, 0}, {0, 3, 0}, {0, -1, 0}, {tiny, -1, tiny}, {tiny, 1, 0}, {0.5, -0.1, 2}, {0, tiny, -1}}) {
+    GlbCloud cloud;
+    cloud.up = up;
+    const std::vector<double> columns = Glb(volumes_glb({}, cloud)).root_matrix();
+    const Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Matrix4d>(columns.data()).topLeftCorner<3, 3>();
+    EXPECT_TRUE((rotation * up.normalized()).isApprox(Eigen::Vector3d::UnitY(), 1e-15)) << up.transpose();
+    EXPECT_TRUE((rotation * rotation.transpose()).isIdentity(1e-15)) << up.transpose();
+    EXPECT_NEAR(rotation.determinant(), 1, 1e-15) << up.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -166,12 +166,21 @@ struct GlbShownPoints {
   std::string colours;
 };
 
+// Returns the rotation from a unit vector to y. For a vector with negative y, computes the rotation to -y
+// first, because that is better conditioned. Eigen's FromTwoVectors() would need a singular value
+// decomposition, which took half of this library's compile time.
+Eigen::Matrix3d rotation_to_y(const Eigen::Vector3d& unit) {
+  const Eigen::Vector3d v = unit.y() < 0 ? Eigen::Vector3d(-unit) : unit;
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(1 + v.y(), -v.z(), 0, v.x()).normalized();
+  return (unit.y() < 0 ? Eigen::Quaterniond(0, 1, 0, 0) * rotation : rotation).toRotationMatrix();
+}
+
 // Column by column: moves by the origin, then rotates `up` to y, which is up in glTF.
 Eigen::Matrix4d glb_matrix(const Eigen::Vector3d& up, const Eigen::Vector3d& origin) {
+  const Eigen::Vector3d unit = up.normalized();
   Eigen::Matrix3d rotation;
   rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;  // exact for z up
-  if (up.normalized() != Eigen::Vector3d::UnitZ())
-    rotation = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  if (unit != Eigen::Vector3d::UnitZ()) rotation = rotation_to_y(unit);
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = rotation;
   matrix.topRightCorner<3, 1>() = rotation * origin;
