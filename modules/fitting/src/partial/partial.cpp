@@ -154,6 +154,7 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
                      const Execution& execution) {
   Supports supports;
   supports.set = DirectionSet::dop26;
+  supports.along = SupportList(direction_count(supports.set));
   supports.detail = SupportDetail::points;
   supports.used = state.used;
   supports.dropped = state.dropped;

@@ -27,8 +27,9 @@ bool holds(const Supports& known, DirectionSet set, SupportDetail detail) {
 // Returns the supports of `known` along the directions of `set`. holds() must be true for this set.
 Supports part_of(const Supports& known, DirectionSet set) {
   Supports part = known;
+  if (known.set == set) return part;
   part.set = set;
-  if (known.set != DirectionSet::dop26) return part;
+  part.along = SupportList(direction_count(set));
   for (std::size_t k = 0; k < direction_count(set); ++k)
     part.along[k] = known.along[cube_direction(set, k)];
   return part;
@@ -118,7 +119,8 @@ Supports supports_of_search(const SupportSearch& search, DirectionSet set, const
   supports.points = points;
   supports.dropped = dropped;
   supports.used = points.count - supports.dropped;
-  for (std::size_t k = 0; k < direction_count(set) && supports.used > 0; ++k)
+  supports.along = SupportList(direction_count(set));
+  for (std::size_t k = 0; k < supports.along.size() && supports.used > 0; ++k)
     supports.along[k] = search.along(k);
   return supports;
 }
@@ -142,7 +144,7 @@ void merge_bounds(const AxisExtents& part, Supports& supports) {
 
 void finish_bounds(Supports& supports) {
   supports.used = supports.points.count - supports.dropped;
-  if (supports.used == 0) supports.along = {};
+  if (supports.used == 0) supports.along = SupportList(supports.along.size());
 }
 
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
