@@ -289,11 +289,10 @@ void write_hesai(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name :
-       {"pcd",    "ply",   "lzf",     "bin",        "number",     "text",    "mcap",   "bag",   "packets",
-        "ouster", "hesai", "partial", "cloud",      "compressed", "live",    "nested", "tiles", "labels",
-        "npy",    "npz",   "table",   "transforms", "urdf",       "objects", "las",
-        "ground"})
+  for (const char* name : {"pcd",     "ply",    "lzf",   "bin",     "number", "text",       "mcap", "bag",
+                           "packets", "ouster", "hesai", "partial", "cloud",  "compressed", "live", "nested",
+                           "tiles",   "labels", "npy",   "npz",     "table",  "transforms", "urdf", "objects",
+                           "las",     "ground", "db3",   "meshes",  "poses",  "tileset"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);

@@ -17,6 +17,7 @@ namespace pcl_bv::test {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 void write(const fs::path& path, std::string_view content) {
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
@@ -125,6 +126,59 @@ void write_las(const fs::path& folder) {
 #endif
 }
 
+void write_meshes(const fs::path& folder) {
+  std::string binary(84, '\0');
+  binary[80] = 1;  // triangle
+  write(folder / "meshes" / "stl_binary", '\0' + binary + std::string(50, '\x3e'));
+  write(folder / "meshes" / "stl_text", std::string(1, '\0') +
+                                            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                            "vertex 1 0 -2e1\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+  write(folder / "meshes" / "obj", "\1# a\nv 0 0 0\nv 1 2.5 -3e-1\nv 0 1 0\nf 1 2 3\n");
+}
+
+void write_poses(const fs::path& folder) {
+  write(folder / "poses" / "kitti",
+        "\2"
+        "1 0 0 4 0 1 0 5 0 0 1 6\n0 -1 0 1 1 0 0 2 0 0 1 -3e0\n");
+  write(folder / "poses" / "tum", "\0# time\n1.5 1 2 3 0 0 0 1\n2.5, 1 2 3 0 0 0.6 0.8\n"s);
+}
+
+void write_tileset(const fs::path& folder) {
+  const std::string box = R"("boundingVolume":{"box":[0,0,0,1,0,0,0,1,0,0,0,1]})";
+  write(folder / "tileset" / "tree",
+        R"({"asset":{"version":"1.1"},"geometricError":1,"root":{)" + box +
+            R"(,"transform":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1],"content":{"uri":"a%20b.glb?c"},"children":[{)"
+            R"("boundingVolume":{"sphere":[0,0,0,1]},"contents":[{"uri":"b.pnts"},{"url":"c.json"}]},{)"
+            R"("boundingVolume":{"region":[0.1,0.2,0.3,0.4,0,9]}}]}})");
+}
+
+// A database with one leaf page of 512 bytes, which has a topic and two messages. The second message
+// continues on an overflow page.
+void write_db3(const fs::path& folder) {
+  const auto big = [](std::size_t value, int bytes) {
+    std::string text;
+    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
+      text += static_cast<char>(value >> shift);
+    return text;
+  };
+  const auto row = [](char id, const std::string& types, const std::string& values) {
+    const std::string record = static_cast<char>(types.size() + 1) + types + values;
+    return static_cast<char>(record.size()) + std::string(1, id) + record;
+  };
+  const std::string topic = row(1, {0, 17, 17, 17}, "/ab/cd/Ecd"),
+                    message = row(1, {0, 1, 1, 20}, "\1\5data");
+  // 600 bytes of data: a record of 608 bytes (varint 84 60), of which 608 - 508 are on this page.
+  const std::string head = "\x84\x60\2\6\0\1\1\x89\x3c\1\6"s, on_page(100 - (head.size() - 3), 'x');
+  const std::string cells = topic + message + head + on_page + big(2, 4);
+  std::string page = "SQLite format 3\0"s + big(512, 2) + std::string(82, '\0');
+  const std::size_t first = 512 - cells.size();
+  page += "\x0d"s + big(0, 2) + big(3, 2) + big(first, 2) + '\0';
+  for (const std::size_t at : {first, first + topic.size(), first + topic.size() + message.size()})
+    page += big(at, 2);
+  page.resize(first, '\0');
+  write(folder / "db3" / "three", page + cells + big(0, 4) + std::string(508, 'y'));
+}
+
 }  // namespace
 
 void write_format_seeds(const fs::path& folder) {
@@ -132,6 +186,10 @@ void write_format_seeds(const fs::path& folder) {
   write_tile_contents(folder);
   write_tables(folder);
   write_las(folder);
+  write_meshes(folder);
+  write_poses(folder);
+  write_tileset(folder);
+  write_db3(folder);
 }
 
 }  // namespace pcl_bv::test

@@ -7,7 +7,7 @@
 
 namespace pcl_bv::test {
 
-/// Writes the first inputs for the readers of files of other programs: boxes and contents of tiles.
+/// Writes the first inputs for the readers of files of other programs.
 void write_format_seeds(const std::filesystem::path& folder);
 
 }  // namespace pcl_bv::test

@@ -134,9 +134,9 @@ class Tileset {
     std::map<std::size_t, std::vector<std::size_t>, std::greater<>> by_depth;
     for (std::size_t i = 0; i < tiles_.size(); ++i)
       by_depth[tiles_[i].depth].push_back(i);
-    for (const auto& [depth, level] : by_depth)
-      for_each_chunk(execution.parallel, level.size(),
-                     [&](std::size_t i) { fit_tile(tiles_[level[i]], boxes); });
+    for (const auto& level : by_depth)
+      for_each_chunk(execution.parallel, level.second.size(),
+                     [&](std::size_t i) { fit_tile(tiles_[level.second[i]], boxes); });
   }
 
   std::vector<std::string_view> new_pieces() const {
