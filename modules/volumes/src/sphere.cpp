@@ -14,6 +14,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/ray_through_sphere.h"
 #include "ray_clip.h"
 
 namespace pcl_bv {
@@ -59,19 +60,26 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 // the distance h of P from the centre by another 9 U |q|. Along the line, P is at most 8 U |q|_1 from the
 // exact foot of the perpendicular. A radius that is larger by 52 U |q|_1 covers these errors. A radius that
 // is larger by 64 U |q|_1 also covers the rounding of this radius.
-void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
+void clip_by_sphere(RayClip& ray, const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);
-  const Eigen::Vector3d q = origin - sphere.center();
+  const Eigen::Vector3d q = origin - center;
   const double nearest = -q.dot(u) / u.squaredNorm();
   const double h = (q + nearest * u).stableNorm();
   const double error_bound = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
-  const double held = sphere.contains(origin) ? q.stableNorm() : 0;
-  const double radius = std::max(sphere.radius(), held) + error_bound;
-  ray.keep_within_radius(nearest, h, radius, u.norm(), exponent);
+  const double held = within_rounding(origin, center, radius) ? q.stableNorm() : 0;
+  ray.keep_within_radius(nearest, h, std::max(radius, held) + error_bound, u.norm(), exponent);
 }
 
 }  // namespace
+
+std::optional<RayInterval> detail::intersect_sphere(const Eigen::Vector3d& center, double radius,
+                                                    const Eigen::Vector3d& origin,
+                                                    const Eigen::Vector3d& direction) {
+  RayClip ray;
+  clip_by_sphere(ray, center, radius, origin, direction);
+  return ray.interval();
+}
 
 Sphere::Sphere() : center_(Eigen::Vector3d::Constant(kNan)), radius_(-1) {}
 
@@ -121,7 +129,7 @@ double Sphere::distance(const Eigen::Vector3d& point) const {
 std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
                                              const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction,
-                       [&](RayClip& ray) { clip_by_sphere(ray, *this, origin, direction); });
+                       [&](RayClip& ray) { clip_by_sphere(ray, center_, radius_, origin, direction); });
 }
 
 bool Sphere::overlaps(const Sphere& other) const {
