@@ -43,14 +43,15 @@ struct Ray {
   double radius;
 };
 
-// The distance at which the ball's centre enters a packet's box that is greater by `pad` on all sides, in the
-// boxes' frame; infinity if it never does. In double, whose rounding is far below what the kernel's boxes are
+// The steps after which the ball's centre enters a packet's box that is greater by `pad` on all sides;
+// infinity if it never does. In double, whose rounding is far below what the kernel's boxes are
 // greater by.
-double entry_distance(const BoxLevels& boxes, std::size_t packet, const SweptBall& ball, double pad) {
+double steps_to_box(const BoxLevels& boxes, std::size_t packet, const SweptBall& ball, double pad) {
   const BoxGroup& group = boxes.groups[packet / kTreeWidth];
   double enter = 0, leave = kInfinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double from = (ball.from[axis] - boxes.origin[axis]) * boxes.scale, step = ball.unit[axis];
+    const double from = (ball.from[axis] - boxes.origin[axis]) * boxes.scale,
+                 step = ball.unit[axis] * boxes.scale / ball.steps_per_distance;
     const double low = static_cast<double>(group.low[axis][packet % kTreeWidth]) - pad - from,
                  high = static_cast<double>(group.high[axis][packet % kTreeWidth]) + pad - from;
     if (step == 0 && (low > 0 || high < 0)) return kInfinity;
@@ -78,7 +79,7 @@ void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const Swept
   const double pad = ray.radius * boxes.scale + 0x1p-18 * size, last = static_cast<double>(shown.latest);
   for (std::size_t n = 0; n < shown.packets.size(); ++n) {
     // One is shown before there is a latest distance.
-    const double enter = entry_distance(boxes, shown.packets[n], ball, pad);
+    const double enter = steps_to_box(boxes, shown.packets[n], ball, pad);
     ASSERT_LE(enter, n == 0 ? std::numeric_limits<double>::max() : 1.0001 * last + 0.01 * pad);
   }
 }
@@ -172,14 +173,15 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
       }
       EXPECT_NEAR(ball.reach * boxes.scale, size, 1e-12 * size);
       EXPECT_EQ(ball.length, 40);
-      EXPECT_FLOAT_EQ(ball.inverse[0], 4e8F);
-      EXPECT_FLOAT_EQ(ball.inverse[1], -1);
+      // Of a step from (0, -2, 0) to (0, -1, 0): -40 is -1.25 * 2^5.
+      EXPECT_FLOAT_EQ(ball.inverse[1], -0.8F);
+      EXPECT_FLOAT_EQ(ball.inverse[0], 32e7F);
       EXPECT_FLOAT_EQ(ball.inverse[2], 0x1p40F);
       EXPECT_NEAR(ball.unit.y, -1, 1e-15);
       EXPECT_NEAR(ball.unit.x, 1e-7 / 40, 1e-23);
       const auto latest = static_cast<double>(ball.latest_entry(3));
-      EXPECT_GE(latest, 3 * boxes.scale);
-      EXPECT_LE(latest, 3 * boxes.scale * (1 + 0x1p-19));
+      EXPECT_GE(latest, 3 * boxes.scale / 1.25);
+      EXPECT_LE(latest, 3 * boxes.scale / 1.25 * (1 + 0x1p-19));
     }
   }
 }
@@ -198,7 +200,7 @@ TYPED_TEST(SweptBallOf, BoundsTheTouchesOfAllPoints) {
       const SweptBall ball(packed_tree(tree).boxes, coordinates(origin), coordinates(direction), radius);
       for (const Vector3d& p : points.places()) {
         const auto inside = Sphere(p, radius).intersect(origin, direction);
-        const auto touch = ball.touch(coordinates(p));
+        const auto touch = ball.touch(coordinates(p), kInfinity);
         ASSERT_TRUE(touch || !inside);
         if (!touch) continue;
         ASSERT_TRUE(inside || touch->most == kInfinity);

@@ -73,9 +73,9 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
       });
 }
 
-// Returns the distance at which the ball enters box k of a group. Returns infinity if the ball does not enter
-// the box.
-float entry_distance(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
+// Returns the number of steps after which the ball enters box k of a group. Returns infinity if the ball does
+// not enter the box.
+float steps_to_box(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool up = ball.inverse[axis] > 0;
@@ -114,12 +114,15 @@ void find_nearest_reference(const PackedTree& tree, const Coordinates& center, N
 void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor) {
   float latest = std::numeric_limits<float>::max();
   const auto near = [&](const BoxGroup& group, std::size_t k) {
-    return entry_distance(group, k, ball) <= latest;
+    return steps_to_box(group, k, ball) <= latest;
   };
   visit_packets(tree.boxes, tree.boxes.levels, 0, near, [&](std::size_t packet) {
     std::uint32_t points = 0;
     for (std::size_t lane = 0; lane < kTreeWidth; ++lane)
-      points |= static_cast<std::uint32_t>(ball.touch(point_of(tree, packet, lane)).has_value()) << lane;
+      points |=
+          static_cast<std::uint32_t>(
+              ball.touch(point_of(tree, packet, lane), std::numeric_limits<double>::infinity()).has_value())
+          << lane;
     if (points != 0) latest = visitor.visit(packet, points);
     return false;
   });

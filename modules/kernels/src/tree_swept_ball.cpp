@@ -23,23 +23,25 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Returns, as bits, the boxes of a group that the ball enters at a distance of at most `latest`. Writes the
-// distances.
+// Returns, as bits, the boxes of a group that the ball enters within `latest` steps. Writes the numbers of
+// steps.
 HWY_INLINE std::uint32_t entered_boxes(const BoxGroup& group, const SweptBall& ball, float latest,
-                                       float* distances) {
+                                       float* steps) {
   const Floats d;
   const auto* bytes = reinterpret_cast<const std::byte*>(&group);
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    auto enter = hn::Zero(d), leave = hn::Set(d, latest);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto inverse = hn::Set(d, ball.inverse[axis]);
-      const auto near = hn::Load(d, reinterpret_cast<const float*>(bytes + ball.near_side[axis]) + k);
-      const auto far = hn::Load(d, reinterpret_cast<const float*>(bytes + ball.far_side[axis]) + k);
-      enter = hn::Max(enter, hn::MulSub(near, inverse, hn::Set(d, ball.to_near[axis])));
-      leave = hn::Min(leave, hn::MulSub(far, inverse, hn::Set(d, ball.to_far[axis])));
-    }
-    hn::Store(enter, d, distances + k);
+    const auto at = [&](std::size_t side, std::size_t axis, float offset) HWY_ATTR {
+      const auto sides = hn::Load(d, reinterpret_cast<const float*>(bytes + side) + k);
+      return hn::MulSub(sides, hn::Set(d, ball.inverse[axis]), hn::Set(d, offset));
+    };
+    const auto near = [&](std::size_t axis)
+                          HWY_ATTR { return at(ball.near_side[axis], axis, ball.to_near[axis]); };
+    const auto far = [&](std::size_t axis)
+                         HWY_ATTR { return at(ball.far_side[axis], axis, ball.to_far[axis]); };
+    const auto enter = hn::Max(hn::Max(near(0), near(1)), hn::Max(near(2), hn::Zero(d)));
+    const auto leave = hn::Min(hn::Min(far(0), far(1)), hn::Min(far(2), hn::Set(d, latest)));
+    hn::Store(enter, d, steps + k);
     bits |= bits_of_lanes(d, hn::Le(enter, leave)) << k;
   }
   return bits;
@@ -98,7 +100,7 @@ HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const CentreLin
 
 // A group whose box the ball enters, but whose boxes were not tested yet.
 struct EnteredGroup {
-  float distance;  // at which the ball enters
+  float steps;  // until the ball enters
   std::uint32_t level;
   std::size_t number;
 };
@@ -118,40 +120,39 @@ class WalkAlong {
       test_group(level, group);
     while (count_ > 0) {
       const EnteredGroup next = entered_[--count_];
-      if (next.distance <= latest_) test_group(next.level, next.number);
+      if (next.steps <= latest_) test_group(next.level, next.number);
     }
   }
 
  private:
   HWY_INLINE void test_group(std::size_t level, std::size_t number) {
-    HWY_ALIGN float distances[kTreeWidth];
+    HWY_ALIGN float steps[kTreeWidth];
     const std::uint32_t bits =
-        entered_boxes(boxes_.groups[boxes_.first[level] + number], ball_, latest_, distances);
+        entered_boxes(boxes_.groups[boxes_.first[level] + number], ball_, latest_, steps);
     if (level == 0) {
-      visit_packets(number * kTreeWidth, bits, distances);
+      visit_packets(number * kTreeWidth, bits, steps);
     } else {
-      push_groups(level - 1, number * kTreeWidth, bits, distances);
+      push_groups(level - 1, number * kTreeWidth, bits, steps);
     }
   }
 
-  HWY_INLINE void visit_packets(std::size_t first, std::uint32_t bits, const float* distances) {
+  HWY_INLINE void visit_packets(std::size_t first, std::uint32_t bits, const float* steps) {
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      if (distances[k] > latest_) continue;
+      if (steps[k] > latest_) continue;
       const std::uint32_t points = near_line(packets_[first + k], line_);
       if (points != 0) latest_ = visitor_.visit(first + k, points);
     }
   }
 
-  HWY_INLINE void push_groups(std::size_t level, std::size_t first, std::uint32_t bits,
-                              const float* distances) {
+  HWY_INLINE void push_groups(std::size_t level, std::size_t first, std::uint32_t bits, const float* steps) {
     const std::size_t bottom = count_;
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       std::size_t at = count_++;  // insertion sort, because mostly few boxes are entered
-      for (; at > bottom && entered_[at - 1].distance < distances[k]; --at)
+      for (; at > bottom && entered_[at - 1].steps < steps[k]; --at)
         entered_[at] = entered_[at - 1];
-      entered_[at] = {distances[k], static_cast<std::uint32_t>(level), first + k};
+      entered_[at] = {steps[k], static_cast<std::uint32_t>(level), first + k};
     }
   }
 

@@ -53,8 +53,8 @@ class FirstHit final : public PacketVisitor {
   }
 
   void take(std::size_t at) {
-    const std::optional<TouchBounds> touch = ball_.touch(point(at));
-    if (!touch || touch->least > bounds_.most) return;
+    const std::optional<TouchBounds> touch = ball_.touch(point(at), bounds_.most);
+    if (!touch) return;
     if (touch->most < bounds_.least) {
       bounds_ = *touch;
       unmeasured_ = at;
@@ -81,7 +81,7 @@ class FirstHit final : public PacketVisitor {
   }
 
   const PackedTree& tree_;
-  Eigen::Vector3d origin_, direction_;
+  const Eigen::Vector3d &origin_, &direction_;
   SweptBall ball_;
   TouchBounds bounds_{kInfinity, kInfinity};  // of the first touch so far
   std::size_t unmeasured_ = kNone;            // the point of this touch if it is not `hit_`

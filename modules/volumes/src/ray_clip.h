@@ -70,8 +70,10 @@ class RayClip {
 /// so that |u|^2 is in the range of double.
 struct ScaledDirection {
   explicit ScaledDirection(const Eigen::Vector3d& direction)
-      : exponent(binary_exponent(direction.cwiseAbs().maxCoeff())),
-        u(direction.unaryExpr([this](double x) { return times_power_of_two(x, -exponent); })) {}
+      : exponent(binary_exponent(
+            std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])}))),
+        u(times_power_of_two(direction[0], -exponent), times_power_of_two(direction[1], -exponent),
+          times_power_of_two(direction[2], -exponent)) {}
   int exponent;
   Eigen::Vector3d u;
 };

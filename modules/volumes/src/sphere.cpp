@@ -11,6 +11,7 @@
 
 #include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -55,6 +56,12 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
+// Returns |v|, also if the squares of the components overflow or underflow.
+double safe_norm3(const Coordinates& v) {
+  const double size = taxicab3(v);
+  return size > 0x1p-500 && size < 0x1p500 ? norm3(v) : Eigen::Vector3d(v.x, v.y, v.z).stableNorm();
+}
+
 // Clips the ray to an interval around the point P of the ray's line that is nearest to the centre. P is
 // computed in double. Let q = origin - center and U = 2^-53. The position of P is off by at most 4 U |q|, and
 // the distance h of P from the centre by another 9 U |q|. Along the line, P is at most 8 U |q|_1 from the
@@ -63,12 +70,13 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 void clip_by_sphere(RayClip& ray, const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);
-  const Eigen::Vector3d q = origin - center;
-  const double nearest = -q.dot(u) / u.squaredNorm();
-  const double h = (q + nearest * u).stableNorm();
-  const double error_bound = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
-  const double held = within_rounding(origin, center, radius) ? q.stableNorm() : 0;
-  ray.keep_within_radius(nearest, h, std::max(radius, held) + error_bound, u.norm(), exponent);
+  // Not a vector of Eigen: to load two numbers at once just after they were stored one by one is slow.
+  const Coordinates q = {origin[0] - center[0], origin[1] - center[1], origin[2] - center[2]};
+  const double square = dot3(u, u), nearest = -dot3(q, u) / square;
+  const double h = safe_norm3({q.x + nearest * u[0], q.y + nearest * u[1], q.z + nearest * u[2]});
+  const double error_bound = 0x1p-47 * taxicab3(q) + kSmallestNormal;
+  const double held = dot3(q, q) <= square_within_rounding(radius) ? safe_norm3(q) : 0;
+  ray.keep_within_radius(nearest, h, std::max(radius, held) + error_bound, std::sqrt(square), exponent);
 }
 
 }  // namespace

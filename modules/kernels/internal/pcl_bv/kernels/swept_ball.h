@@ -27,11 +27,13 @@ struct TouchBounds {
 /// 2^-20 S in tests of points in float, and by less than 2^-42 S in tests of points in double. In the
 /// tests, the ball is larger by the four- to sixteenfold of that.
 struct SweptBall {
-  /// Along an axis, the ball may be between the sides of a box while the distance is from near * inverse -
-  /// `to_near` to far * inverse - `to_far`. Distance and sides are in the frame of the boxes (see BoxLevels).
+  /// Along an axis, the ball may be between the sides of a box from near * inverse - `to_near` to far *
+  /// inverse - `to_far`. These numbers are counted in steps: the direction is scaled by a power of two so
+  /// that its largest component is from 1 to 2 in magnitude, and a step is as long in the frame of the boxes
+  /// (see BoxLevels).
   float inverse[3], to_near[3], to_far[3];
-  std::size_t near_side[3], far_side[3];  ///< Offsets of the sides of all axes in a BoxGroup, in bytes.
-  double scale;                           ///< BoxLevels::scale.
+  std::size_t near_side[3], far_side[3];  ///< Offsets of the sides in a BoxGroup, in bytes.
+  double steps_per_distance;
   Coordinates from, unit;                 ///< Start point and unit direction, in the unit of the points.
   double radius;
   double length;  ///< Of the direction. A time t is the distance t * `length`.
@@ -43,14 +45,14 @@ struct SweptBall {
   /// All arguments must be finite, the direction not 0, the radius at least 0.
   SweptBall(const BoxLevels& boxes, const Coordinates& from, const Coordinates& direction, double radius);
 
-  /// Returns a distance in the frame of the boxes. Boxes that the ball enters after this distance contain no
-  /// point that the ball touches before `distance`.
+  /// Returns a number of steps. Boxes that the ball enters after them contain no point that the ball touches
+  /// before `distance`.
   float latest_entry(double distance) const;
 
   /// Returns bounds of enter * length, where `enter` is the result of Sphere(point, radius).intersect(). The
   /// bounds of two points that do not overlap have different times in the same order. Returns nothing only if
-  /// intersect() returns nothing or if a coordinate is NaN.
-  std::optional<TouchBounds> touch(const Coordinates& point) const;
+  /// intersect() returns nothing, if a coordinate is NaN or if the least bound is above `latest`.
+  std::optional<TouchBounds> touch(const Coordinates& point, double latest) const;
 
   /// Returns bounds of t * length that hold for the rounding of t and can be compared with those of touch().
   TouchBounds bounds_of_time(double t) const;
@@ -60,8 +62,8 @@ struct SweptBall {
 class PacketVisitor {
  public:
   /// Called with the index of a packet and with one bit per point of the packet. The bit is set if the ball
-  /// may touch the point; at least one bit is set. Bits of unused points may be set. Returns the latest
-  /// distance, in the frame of the boxes, at which the ball enters boxes that must still be visited. This is
+  /// may touch the point; at least one bit is set. Bits of unused points may be set. Returns the number
+  /// of steps up to which the ball enters boxes that must still be visited. This is
   /// SweptBall::latest_entry() of the earliest touch so far, or the largest float before the first touch.
   virtual float visit(std::size_t packet, std::uint32_t points) = 0;
 
@@ -69,9 +71,9 @@ class PacketVisitor {
   ~PacketVisitor() = default;
 };
 
-/// Calls visitor.visit() for packets until the ball enters all remaining boxes after the distance that
-/// visit() returned last. With every `isa`, visit() receives every point that the ball touches up to that
-/// distance, as decided by Sphere(point, radius).intersect(). The other points that visit() receives, and the
+/// Calls visitor.visit() for packets until the ball enters all remaining boxes after the steps that visit()
+/// returned last. With every `isa`, visit() receives every point that the ball touches up to these steps, as
+/// decided by Sphere(point, radius).intersect(). The other points that visit() receives, and the
 /// order of the calls, depend on `isa`. (Vector kernels mostly visit boxes with early entry first.) For an
 /// empty tree visit() is not called. The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
