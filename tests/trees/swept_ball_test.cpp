@@ -102,7 +102,8 @@ void expect_shown(const PointTree& tree, const Ray& ray, double until) {
   const SweptBall ball(packed_tree(tree).boxes, coordinates(ray.origin), coordinates(ray.direction),
                        ray.radius);
   for (const double end : {kInfinity, until}) {
-    Shown shown(tree, end == until ? ball.latest_entry(until * ray.direction.norm()) : std::numeric_limits<float>::max());
+    Shown shown(tree, end == until ? ball.latest_entry(until * ray.direction.norm())
+                                   : std::numeric_limits<float>::max());
     visit_along(tree.isa(), packed_tree(tree), ball, shown);
     ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
     ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
@@ -138,8 +139,8 @@ TEST(SweptBall, IsShownAPointThatItTouchesOnlyAtTheEdge) {
   }
 }
 
-// Points far from 0 and near the line of a ball that starts near them: the coordinates of the start point have
-// more digits than a float, and the digits beyond are needed.
+// Points far from 0 and near the line of a ball that starts near them: the coordinates of the start point
+// have more digits than a float, and the digits beyond are needed.
 TEST(SweptBall, IsShownPointsFarFromZero) {
   for (const float far : {1e10F, -1e30F, 3e38F}) {
     const float p[3] = {far, far, far};

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <limits>
 
@@ -72,7 +73,8 @@ struct CentreLine {
  private:
   static T rounded(double x) {
     constexpr double kMost = std::numeric_limits<T>::max();
-    return std::abs(x) <= kMost ? static_cast<T>(x) : std::copysign(std::numeric_limits<T>::infinity(), T(x > 0 ? 1 : -1));
+    return std::abs(x) <= kMost ? static_cast<T>(x)
+                                : std::copysign(std::numeric_limits<T>::infinity(), T(x > 0 ? 1 : -1));
   }
 };
 
@@ -98,11 +100,24 @@ HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const CentreLin
   return bits;
 }
 
-// A group whose box the ball enters, but whose boxes were not tested yet.
-struct EnteredGroup {
-  float steps;  // until the ball enters
-  std::uint32_t level;
-  std::size_t number;
+// A group whose box the ball enters, but whose boxes were not tested yet. One number, because it is loaded as a
+// whole just after it was stored: its parts would have to wait for each other. Groups compare by the steps
+// until the ball enters.
+class EnteredGroup {
+ public:
+  EnteredGroup() = default;
+  EnteredGroup(float steps, std::size_t level, std::size_t number)
+      : packed_(std::uint64_t{std::bit_cast<std::uint32_t>(steps)} << 32 | level << kNumberBits | number) {}
+
+  float steps() const { return std::bit_cast<float>(static_cast<std::uint32_t>(packed_ >> 32)); }
+  std::size_t level() const { return packed_ >> kNumberBits & (0xFFFFFFFFU >> kNumberBits); }
+  std::size_t number() const { return packed_ & ((1U << kNumberBits) - 1); }
+  auto operator<=>(const EnteredGroup&) const = default;  // steps are not negative
+
+ private:
+  static constexpr unsigned kNumberBits = 28;  // a tree has fewer than 2^31 points, and 256 to a group
+
+  std::uint64_t packed_;
 };
 
 // Walks through the tree depth first. Of the groups in a group, the first to be entered is visited first.
@@ -120,7 +135,7 @@ class WalkAlong {
       test_group(level, group);
     while (count_ > 0) {
       const EnteredGroup next = entered_[--count_];
-      if (next.steps <= latest_) test_group(next.level, next.number);
+      if (next.steps() <= latest_) test_group(next.level(), next.number());
     }
   }
 
@@ -149,10 +164,11 @@ class WalkAlong {
     const std::size_t bottom = count_;
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+      const EnteredGroup group(steps[k], level, first + k);
       std::size_t at = count_++;  // insertion sort, because mostly few boxes are entered
-      for (; at > bottom && entered_[at - 1].steps < steps[k]; --at)
+      for (; at > bottom && entered_[at - 1] < group; --at)
         entered_[at] = entered_[at - 1];
-      entered_[at] = {steps[k], static_cast<std::uint32_t>(level), first + k};
+      entered_[at] = group;
     }
   }
 

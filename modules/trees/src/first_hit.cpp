@@ -17,8 +17,8 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Finds the first touch. Bounds of the touches decide between nearly all points, so that mostly only one point
-// is measured as Sphere::intersect() measures.
+// Finds the first touch. Bounds of the touches decide between nearly all points, so that mostly only one
+// point is measured as Sphere::intersect() measures.
 class FirstHit final : public PacketVisitor {
  public:
   FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,

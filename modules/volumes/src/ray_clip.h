@@ -46,7 +46,8 @@ class RayClip {
     if (min_distance > radius) return keep(0, -1);
     const double half =
         std::sqrt(radius - min_distance) * std::sqrt(radius + min_distance) / speed * (1 + 0x1p-49);
-    keep_between(times_power_of_two(nearest - half, -exponent), times_power_of_two(nearest + half, -exponent));
+    keep_between(times_power_of_two(nearest - half, -exponent),
+                 times_power_of_two(nearest + half, -exponent));
   }
 
   /// Returns the remaining interval, or nothing if it contains no t >= 0. Both ends are moved outward by

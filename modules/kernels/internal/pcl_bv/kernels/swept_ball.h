@@ -34,7 +34,7 @@ struct SweptBall {
   float inverse[3], to_near[3], to_far[3];
   std::size_t near_side[3], far_side[3];  ///< Offsets of the sides in a BoxGroup, in bytes.
   double steps_per_distance;
-  Coordinates from, unit;                 ///< Start point and unit direction, in the unit of the points.
+  Coordinates from, unit;  ///< Start point and unit direction, in the unit of the points.
   double radius;
   double length;  ///< Of the direction. A time t is the distance t * `length`.
   double reach;   ///< S.
