@@ -201,19 +201,18 @@ TYPED_TEST(SweptBallOf, BoundsTheTouchesOfAllPoints) {
       const SweptBall ball(packed_tree(tree).boxes, coordinates(origin), coordinates(direction), radius);
       for (const Vector3d& p : points.places()) {
         const auto inside = Sphere(p, radius).intersect(origin, direction);
-        const auto touch = ball.touch(coordinates(p), kInfinity);
-        ASSERT_TRUE(touch || !inside);
-        if (!touch) continue;
-        ASSERT_TRUE(inside || touch->most == kInfinity);
-        certain += static_cast<std::size_t>(touch->most < kInfinity);
+        const TouchBounds touch = ball.touch(coordinates(p), kInfinity);
+        ASSERT_TRUE(touch.is_possible() || !inside);
+        ASSERT_TRUE(inside || touch.most == kInfinity);
+        certain += static_cast<std::size_t>(touch.most < kInfinity);
         if (!inside) continue;
         ++touched;
         const TouchBounds measured = ball.bounds_of_time(inside->enter);
-        ASSERT_LE(touch->least, measured.most);
-        ASSERT_GE(touch->most, measured.least);
+        ASSERT_LE(touch.least, measured.most);
+        ASSERT_GE(touch.most, measured.least);
         if (!std::isfinite(ball.error)) continue;
-        ASSERT_LE(touch->least, inside->enter * ball.length);
-        ASSERT_GE(touch->most, inside->enter * ball.length);
+        ASSERT_LE(touch.least, inside->enter * ball.length);
+        ASSERT_GE(touch.most, inside->enter * ball.length);
       }
     }
   });

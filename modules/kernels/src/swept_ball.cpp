@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/power_of_two.h"
@@ -26,7 +25,7 @@ constexpr int kMaxExponent = 500;
 }  // namespace
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
-    : from(start), radius(r) {
+    : from{start.x, start.y, start.z}, radius(r) {
   const int exponent =
       binary_exponent(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
   const double step[3] = {times_power_of_two(direction.x, -exponent),
@@ -59,37 +58,6 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
     near_side[axis] = factor < 0 ? high : low;
     far_side[axis] = factor < 0 ? low : high;
   }
-}
-
-float SweptBall::latest_entry(double distance) const {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  const double steps = distance * steps_per_distance * (1 + 0x1p-20);
-  return steps < double{kMost} ? static_cast<float>(steps) : kMost;
-}
-
-// The factor 2^-38 in `error` is 2^15 U, U = 2^-53, and |p - from|_1 is at most 3 S. The errors of the foot
-// of the perpendicular are below 30 U |p - from|_1, here and in intersect(), those of its distance from the
-// point below 60 U |p - from|_1, and the radius of intersect() is larger by at most 128 U |p - from|_1 +
-// 8 U r. So `error` covers them thrice over. What is left of it covers the rounding of the difference of
-// squares, which is at most 3 U (r + error)^2.
-std::optional<TouchBounds> SweptBall::touch(const Coordinates& point, double latest) const {
-  const Coordinates q = {point.x - from.x, point.y - from.y, point.z - from.z};
-  const Coordinates across = cross3(q, unit);
-  const double square = dot3(across, across), outer = radius + error, inner = radius - error;
-  if (!(square <= outer * outer)) return std::nullopt;
-  if (!(error < kInfinity)) return TouchBounds{0, kInfinity};
-  const double foot = dot3(q, unit), half = std::sqrt(outer * outer - square);
-  const double least = std::max(0.0, foot - half - error);
-  if (foot + half < -error || least > latest) return std::nullopt;
-  if (!(inner > 0 && square <= inner * inner)) return TouchBounds{least, kInfinity};
-  const double least_half = std::sqrt(inner * inner - square);
-  if (foot + least_half < error) return TouchBounds{least, kInfinity};
-  return TouchBounds{least, std::max(0.0, foot - least_half) + error};
-}
-
-TouchBounds SweptBall::bounds_of_time(double t) const {
-  if (!(error < kInfinity)) return {0, kInfinity};
-  return {std::max(0.0, t * length - error), t * length + error};
 }
 
 }  // namespace pcl_bv::detail

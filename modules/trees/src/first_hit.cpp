@@ -31,7 +31,7 @@ class FirstHit final : public PacketVisitor {
   std::optional<PointHit> among(UsableIsa isa) {
     visit_along(isa, tree_, ball_, *this);
     measure_first();
-    return hit_;
+    return hit_.index < 0 ? std::nullopt : std::optional(PointHit{hit_.index, hit_.t});
   }
 
   float visit(std::size_t packet, std::uint32_t points) override {
@@ -53,10 +53,10 @@ class FirstHit final : public PacketVisitor {
   }
 
   void take(std::size_t at) {
-    const std::optional<TouchBounds> touch = ball_.touch(point(at), bounds_.most);
-    if (!touch) return;
-    if (touch->most < bounds_.least) {
-      bounds_ = *touch;
+    const TouchBounds touch = ball_.touch(point(at), bounds_.most);
+    if (!touch.is_possible()) return;
+    if (touch.most < bounds_.least) {
+      bounds_ = touch;
       unmeasured_ = at;
     } else {
       measure_first();
@@ -66,7 +66,7 @@ class FirstHit final : public PacketVisitor {
 
   void measure_first() {
     if (unmeasured_ == kNone) return;
-    hit_.reset();
+    hit_.index = -1;
     measure(unmeasured_);
     unmeasured_ = kNone;
   }
@@ -75,7 +75,7 @@ class FirstHit final : public PacketVisitor {
     const auto inside = intersect_sphere(vector(point(at)), ball_.radius, origin_, direction_);
     if (!inside) return;
     const PointHit hit{tree_.indices[at], inside->enter};
-    if (hit_ && !(hit.t < hit_->t || (hit.t == hit_->t && hit.index < hit_->index))) return;
+    if (hit_.index >= 0 && !(hit.t < hit_.t || (hit.t == hit_.t && hit.index < hit_.index))) return;
     hit_ = hit;
     bounds_ = ball_.bounds_of_time(hit.t);
   }
@@ -85,7 +85,7 @@ class FirstHit final : public PacketVisitor {
   SweptBall ball_;
   TouchBounds bounds_{kInfinity, kInfinity};  // of the first touch so far
   std::size_t unmeasured_ = kNone;            // the point of this touch if it is not `hit_`
-  std::optional<PointHit> hit_;
+  PointHit hit_{-1, 0};                       // the first point that was measured
 };
 
 // Returns the point with the smallest index inside a sphere that does not move.

@@ -4,11 +4,15 @@
 // Finds the points of a tree that a moving ball may touch.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <limits>
 
 #include "pcl_bv/kernels/packed_tree.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -17,6 +21,9 @@ namespace [[gnu::visibility("default")]] detail {
 struct TouchBounds {
   double least;  ///< 0 or more.
   double most;   ///< Infinity if the ball may not touch the point.
+
+  /// Returns whether the ball may touch the point. If not, both bounds are infinite.
+  bool is_possible() const { return least < std::numeric_limits<double>::infinity(); }
 };
 
 /// A moving ball, prepared for tests against the boxes and points of a tree. Its centre starts at `from` and
@@ -50,13 +57,45 @@ struct SweptBall {
   float latest_entry(double distance) const;
 
   /// Returns bounds of enter * length, where `enter` is the result of Sphere(point, radius).intersect(). The
-  /// bounds of two points that do not overlap have different times in the same order. Returns nothing only if
+  /// bounds of two points that do not overlap have different times in the same order. A touch is not possible only if
   /// intersect() returns nothing, if a coordinate is NaN or if the least bound is above `latest`.
-  std::optional<TouchBounds> touch(const Coordinates& point, double latest) const;
+  TouchBounds touch(const Coordinates& point, double latest) const;
 
   /// Returns bounds of t * length that hold for the rounding of t and can be compared with those of touch().
   TouchBounds bounds_of_time(double t) const;
 };
+
+inline float SweptBall::latest_entry(double distance) const {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const double steps = distance * steps_per_distance * (1 + 0x1p-20);
+  return steps < double{kMost} ? static_cast<float>(steps) : kMost;
+}
+
+// The factor 2^-38 in `error` is 2^15 U, U = 2^-53, and |p - from|_1 is at most 3 S. The errors of the foot
+// of the perpendicular are below 30 U |p - from|_1, here and in intersect(), those of its distance from the
+// point below 60 U |p - from|_1, and the radius of intersect() is larger by at most 128 U |p - from|_1 +
+// 8 U r. So `error` covers them thrice over. What is left of it covers the rounding of the difference of
+// squares, which is at most 3 U (r + error)^2.
+inline TouchBounds SweptBall::touch(const Coordinates& point, double latest) const {
+  const Coordinates q = {point.x - from.x, point.y - from.y, point.z - from.z};
+  const Coordinates across = cross3(q, unit);
+  const double square = dot3(across, across), outer = radius + error, inner = radius - error;
+  constexpr TouchBounds kNever{kInfinity, kInfinity};
+  if (!(square <= outer * outer)) return kNever;
+  if (!(error < kInfinity)) return {0, kInfinity};
+  const double foot = dot3(q, unit), half = std::sqrt(outer * outer - square);
+  const double least = std::max(0.0, foot - half - error);
+  if (foot + half < -error || least > latest) return kNever;
+  if (!(inner > 0 && square <= inner * inner)) return {least, kInfinity};
+  const double least_half = std::sqrt(inner * inner - square);
+  if (foot + least_half < error) return {least, kInfinity};
+  return {least, std::max(0.0, foot - least_half) + error};
+}
+
+inline TouchBounds SweptBall::bounds_of_time(double t) const {
+  if (!(error < kInfinity)) return {0, kInfinity};
+  return {std::max(0.0, t * length - error), t * length + error};
+}
 
 /// The interface through which visit_along() passes the points that it finds.
 class PacketVisitor {
