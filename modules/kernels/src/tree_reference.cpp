@@ -119,7 +119,8 @@ void visit_along_reference(const PackedTree& tree, const SweptBall& ball, Packet
   visit_packets(tree.boxes, tree.boxes.levels, 0, near, [&](std::size_t packet) {
     std::uint32_t points = 0;
     for (std::size_t lane = 0; lane < kTreeWidth; ++lane) {
-      const TouchBounds touch = ball.touch(point_of(tree, packet, lane), std::numeric_limits<double>::infinity());
+      const TouchBounds touch =
+          ball.touch(point_of(tree, packet, lane), std::numeric_limits<double>::infinity());
       points |= static_cast<std::uint32_t>(touch.is_possible()) << lane;
     }
     if (points != 0) latest = visitor.visit(packet, points);

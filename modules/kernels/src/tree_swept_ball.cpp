@@ -100,8 +100,8 @@ HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const CentreLin
   return bits;
 }
 
-// A group whose box the ball enters, but whose boxes were not tested yet. One number, because it is loaded as a
-// whole just after it was stored: its parts would have to wait for each other. Groups compare by the steps
+// A group whose box the ball enters, but whose boxes were not tested yet. One number, because it is loaded as
+// a whole just after it was stored: its parts would have to wait for each other. Groups compare by the steps
 // until the ball enters.
 class EnteredGroup {
  public:

@@ -57,8 +57,8 @@ struct SweptBall {
   float latest_entry(double distance) const;
 
   /// Returns bounds of enter * length, where `enter` is the result of Sphere(point, radius).intersect(). The
-  /// bounds of two points that do not overlap have different times in the same order. A touch is not possible only if
-  /// intersect() returns nothing, if a coordinate is NaN or if the least bound is above `latest`.
+  /// bounds of two points that do not overlap have different times in the same order. A touch is not possible
+  /// only if intersect() returns nothing, if a coordinate is NaN or if the least bound is above `latest`.
   TouchBounds touch(const Coordinates& point, double latest) const;
 
   /// Returns bounds of t * length that hold for the rounding of t and can be compared with those of touch().
