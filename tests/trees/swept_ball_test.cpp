@@ -146,10 +146,9 @@ TEST(SweptBall, IsShownPointsFarFromZero) {
     const float p[3] = {far, far, far};
     for (const Isa isa : usable_isas()) {
       const PointTree tree(PointView::of(p, sizeof p, 1), {Serial{}, isa});
-      const double step = 0x1p-30 * static_cast<double>(far);
-      const Vector3d origin = vector(load_point(packed_tree(tree).view(), 0)) + Vector3d(step, -step, step);
-      expect_shown(tree, {origin, {-2, 2, -2}, 0}, 2 * std::abs(step));
-      expect_shown(tree, {origin, {-2, 2, 0}, 1.001 * std::abs(step)}, 2 * std::abs(step));
+      const Vector3d away = 0x1p-23 * static_cast<double>(far) * Vector3d(1.2, -0.6, 0.4);
+      const Vector3d origin = vector(load_point(packed_tree(tree).view(), 0)) + away;
+      expect_shown(tree, {origin, -away, 1e-3 * away.norm()}, 2);
     }
   }
 }
