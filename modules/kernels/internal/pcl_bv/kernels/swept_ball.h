@@ -23,7 +23,7 @@ struct TouchBounds {
   double most;   ///< Infinity if the ball may not touch the point.
 
   /// Returns whether the ball may touch the point. If not, both bounds are infinite.
-  bool is_possible() const { return least < std::numeric_limits<double>::infinity(); }
+  bool is_possible() const { return least < kInfinity; }
 };
 
 /// A moving ball, prepared for tests against the boxes and points of a tree. Its centre starts at `from` and
