@@ -56,10 +56,12 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
-// Returns |v|, also if the squares of the components overflow or underflow.
+// Returns Eigen's v.stableNorm(), which neither overflows nor underflows, without a call for usual numbers.
 double safe_norm3(const Coordinates& v) {
-  const double size = taxicab3(v);
-  return size > 0x1p-500 && size < 0x1p500 ? norm3(v) : Eigen::Vector3d(v.x, v.y, v.z).stableNorm();
+  const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(size > 0x1p-1000 && size < 0x1p1000)) return Eigen::Vector3d(v.x, v.y, v.z).stableNorm();
+  const double inverse = 1 / size;
+  return size * norm3(Coordinates{v.x * inverse, v.y * inverse, v.z * inverse});
 }
 
 // Clips the ray to an interval around the point P of the ray's line that is nearest to the centre. P is
