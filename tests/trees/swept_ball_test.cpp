@@ -20,7 +20,7 @@ namespace {
 
 using namespace testing;
 
-// Keeps what it is shown, and always says the same time.
+// Keeps what it is shown, and always says the same distance.
 struct Shown final : PacketVisitor {
   explicit Shown(const PointTree& tree, float until)
       : latest(until), points(packed_tree(tree).boxes.child_counts[0] * kTreeWidth) {}
@@ -43,17 +43,15 @@ struct Ray {
   double radius;
 };
 
-// When the ball's centre enters a packet's box that is greater by `pad` on all sides, in times of the boxes'
-// frame; infinity if it never does. In double, whose rounding is far below what the kernel's boxes are
+// The steps after which the ball's centre enters a packet's box that is greater by `pad` on all sides;
+// infinity if it never does. In double, whose rounding is far below what the kernel's boxes are
 // greater by.
-double enter_time(const BoxLevels& boxes, std::size_t packet, const Ray& ray, const SweptBall& ball,
-                  double pad) {
+double steps_to_box(const BoxLevels& boxes, std::size_t packet, const SweptBall& ball, double pad) {
   const BoxGroup& group = boxes.groups[packet / kTreeWidth];
   double enter = 0, leave = kInfinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    const double from = (ray.origin[k] - boxes.origin[axis]) * boxes.scale,
-                 step = ray.direction[k] / ball.time * boxes.scale;
+    const double from = (ball.from[axis] - boxes.origin[axis]) * boxes.scale,
+                 step = ball.unit[axis] * boxes.scale / ball.steps_per_distance;
     const double low = static_cast<double>(group.low[axis][packet % kTreeWidth]) - pad - from,
                  high = static_cast<double>(group.high[axis][packet % kTreeWidth]) + pad - from;
     if (step == 0 && (low > 0 || high < 0)) return kInfinity;
@@ -66,19 +64,22 @@ double enter_time(const BoxLevels& boxes, std::size_t packet, const Ray& ray, co
 
 void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const SweptBall& ball,
                               const Shown& shown) {
+  const BoxLevels& boxes = packed_tree(tree).boxes;
   const PointView places = packed_tree(tree).view();
-  for (std::size_t i = 0; i < shown.points.size(); ++i) {
-    if (!shown.points[i]) continue;
-    ASSERT_LT(i, places.count);
+  // Squares of longer lengths may be infinite as floats.
+  const bool in_range = places.scalar == ScalarType::float64 || ray.radius + ball.reach < 0x1p62;
+  for (std::size_t i = 0; i < places.count; ++i) {
+    if (!shown.points[i] || !in_range) continue;
     const Vector3d from_origin = vector(load_point(places, i)) - ray.origin;
     ASSERT_LE(from_origin.cross(ray.direction.normalized()).norm(),
-              ray.radius * (1 + 1e-9) + 1e-11 * from_origin.lpNorm<1>() + 1e-100);
+              ray.radius * (1 + 1e-9) + 0x1p-17 * ball.reach + 1e-12 * ray.origin.lpNorm<1>() + 2e-19);
   }
-  if (!std::isfinite(ball.margin)) return;
-  const auto pad = static_cast<double>(ball.margin), last = static_cast<double>(shown.latest);
+  const double size = ball.reach * boxes.scale;
+  if (!(size < 0x1p59)) return;
+  const double pad = ray.radius * boxes.scale + 0x1p-18 * size, last = static_cast<double>(shown.latest);
   for (std::size_t n = 0; n < shown.packets.size(); ++n) {
-    // One is shown before there is a latest time.
-    const double enter = enter_time(packed_tree(tree).boxes, shown.packets[n], ray, ball, 1.01 * pad);
+    // One is shown before there is a latest distance.
+    const double enter = steps_to_box(boxes, shown.packets[n], ball, pad);
     ASSERT_LE(enter, n == 0 ? std::numeric_limits<double>::max() : 1.0001 * last + 0.01 * pad);
   }
 }
@@ -101,7 +102,8 @@ void expect_shown(const PointTree& tree, const Ray& ray, double until) {
   const SweptBall ball(packed_tree(tree).boxes, coordinates(ray.origin), coordinates(ray.direction),
                        ray.radius);
   for (const double end : {kInfinity, until}) {
-    Shown shown(tree, end == until ? ball.latest_entry(until) : std::numeric_limits<float>::max());
+    Shown shown(tree, end == until ? ball.latest_entry(until * ray.direction.norm())
+                                   : std::numeric_limits<float>::max());
     visit_along(tree.isa(), packed_tree(tree), ball, shown);
     ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
     ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
@@ -137,6 +139,20 @@ TEST(SweptBall, IsShownAPointThatItTouchesOnlyAtTheEdge) {
   }
 }
 
+// Points far from 0 and near the line of a ball that starts near them: the coordinates of the start point
+// have more digits than a float, and the digits beyond are needed.
+TEST(SweptBall, IsShownPointsFarFromZero) {
+  for (const float far : {1e10F, -1e30F, 3e38F}) {
+    const float p[3] = {far, far, far};
+    for (const Isa isa : usable_isas()) {
+      const PointTree tree(PointView::of(p, sizeof p, 1), {Serial{}, isa});
+      const Vector3d away = 0x1p-23 * static_cast<double>(far) * Vector3d(1.2, -0.6, 0.4);
+      const Vector3d origin = vector(load_point(packed_tree(tree).view(), 0)) + away;
+      expect_shown(tree, {origin, -away, 1e-3 * away.norm()}, 2);
+    }
+  }
+}
+
 // Else a greater pad would let through what expect_only_what_is_near() measures by it.
 TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
   const auto cloud = test::gaussian<double>(1000, 2, 3, 50);
@@ -147,22 +163,60 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
       const Vector3d origin = vector(boxes.origin) + Vector3d(-away, 1, 2), direction(1e-7, -40, 3e-20);
       const SweptBall ball(boxes, coordinates(origin), coordinates(direction), radius);
       const double size = (away + 3 + radius) * boxes.scale + 1, r = radius * boxes.scale;
-      EXPECT_GE(static_cast<double>(ball.margin), r + size * 0x1p-17);
-      EXPECT_LE(static_cast<double>(ball.margin), r + size * 0x1p-15);
-      EXPECT_NEAR(static_cast<double>(ball.origin[0]), -away * boxes.scale, 0x1p-23 * size);
-      EXPECT_NEAR(static_cast<double>(ball.origin[2]), 2 * boxes.scale, 0x1p-23 * size);
-      // Of a direction from (0, -2, 0) to (0, -1, 0): -40 is -1.25 * 2^5.
+      const double position[3] = {-away * boxes.scale, boxes.scale, 2 * boxes.scale};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double near = static_cast<double>(ball.to_near[axis]) / static_cast<double>(ball.inverse[axis]),
+                     far = static_cast<double>(ball.to_far[axis]) / static_cast<double>(ball.inverse[axis]);
+        EXPECT_NEAR((near + far) / 2, position[axis], 0x1p-22 * size);
+        EXPECT_GE(std::abs(near - far) / 2, r + size * 0x1p-20);
+        EXPECT_LE(std::abs(near - far) / 2, r * 1.001 + size * 0x1p-18);
+      }
+      EXPECT_NEAR(ball.reach * boxes.scale, size, 1e-12 * size);
+      EXPECT_EQ(ball.length, 40);
+      // Of a step from (0, -2, 0) to (0, -1, 0): -40 is -1.25 * 2^5.
       EXPECT_FLOAT_EQ(ball.inverse[1], -0.8F);
       EXPECT_FLOAT_EQ(ball.inverse[0], 32e7F);
       EXPECT_FLOAT_EQ(ball.inverse[2], 0x1p40F);
-      EXPECT_EQ(ball.time, 32 * boxes.scale);
       EXPECT_NEAR(ball.unit.y, -1, 1e-15);
       EXPECT_NEAR(ball.unit.x, 1e-7 / 40, 1e-23);
-      const double latest = static_cast<double>(ball.latest_entry(3)), pad = static_cast<double>(ball.margin);
-      EXPECT_GE(latest, 3 * ball.time + pad);
-      EXPECT_LE(latest, 3 * ball.time * (1 + 0x1p-15) + 1.001 * pad);
+      const auto latest = static_cast<double>(ball.latest_entry(3));
+      EXPECT_GE(latest, 3 * boxes.scale / 1.25);
+      EXPECT_LE(latest, 3 * boxes.scale / 1.25 * (1 + 0x1p-19));
     }
   }
+}
+
+// Directions of all lengths, balls that start inside, and points at the edge of the ball's path.
+TYPED_TEST(SweptBallOf, BoundsTheTouchesOfAllPoints) {
+  std::size_t certain = 0, touched = 0;
+  for_each_tree<TypeParam>([&](const PointTree& tree, const EachPoint& points, const auto&) {
+    if (tree.empty()) return;
+    Questions questions(points, 2);
+    for (int i = 0; i < (test::kFewCases ? 3 : 20); ++i) {
+      const Vector3d origin = questions.place();
+      const Vector3d direction = questions.direction() * std::ldexp(1, i % 4 == 0 ? 50 * i - 500 : 0);
+      if (direction.isZero(0) || !direction.allFinite()) continue;
+      const double radius = i % 5 == 0 ? 0 : 0.1 * questions.distance(origin);
+      const SweptBall ball(packed_tree(tree).boxes, coordinates(origin), coordinates(direction), radius);
+      for (const Vector3d& p : points.places()) {
+        const auto inside = Sphere(p, radius).intersect(origin, direction);
+        const TouchBounds touch = ball.touch(coordinates(p), kInfinity);
+        ASSERT_TRUE(touch.is_possible() || !inside);
+        ASSERT_TRUE(inside || touch.most == kInfinity);
+        certain += static_cast<std::size_t>(touch.most < kInfinity);
+        if (!inside) continue;
+        ++touched;
+        const TouchBounds measured = ball.bounds_of_time(inside->enter);
+        ASSERT_LE(touch.least, measured.most);
+        ASSERT_GE(touch.most, measured.least);
+        if (!std::isfinite(ball.error)) continue;
+        ASSERT_LE(touch.least, inside->enter * ball.length);
+        ASSERT_GE(touch.most, inside->enter * ball.length);
+      }
+    }
+  });
+  EXPECT_GT(certain, touched / 4);
+  EXPECT_GT(touched, 100U);
 }
 
 }  // namespace

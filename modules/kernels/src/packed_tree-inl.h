@@ -166,13 +166,21 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
 
 constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 
+/// Returns the lowest level with at most 64 boxes. Walks start there, because testing all these boxes takes
+/// less time than testing the boxes of the levels above.
+HWY_INLINE std::size_t start_level(const BoxLevels& boxes) {
+  std::size_t level = boxes.levels - 1;
+  while (level > 0 && boxes.child_counts[level - 1] <= kMaxStartBoxes)
+    --level;
+  return level;
+}
+
 /// Walks down a tree. Calls visit.visit_packet(packet) for each packet whose box may have a point within the
 /// limit. When the walk enters a group and any of its boxes may have such a point, first calls
 /// visit.test_group(index of the group). The groups at the start are not tested. Returns true as soon as
 /// visit_packet() or test_group() returns true, else false.
 ///
-/// The walk starts at the lowest level with at most 64 boxes, because testing all these boxes takes less time
-/// than testing the boxes of the levels above.
+/// The walk starts at start_level().
 ///
 /// visit.preferred_box(group) returns bits. The box of the lowest set bit is visited before the other boxes
 /// of the group, even if near_boxes() excludes this box. The other boxes follow in ascending order.
@@ -183,10 +191,8 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
     std::uint64_t bits;  // items still to be visited
   };
   Open open[BoxLevels::kMaxLevels];
-  std::size_t level = boxes.levels - 1;
-  while (level > 0 && boxes.child_counts[level - 1] <= kMaxStartBoxes)
-    --level;
-  const std::size_t start = level;
+  const std::size_t start = start_level(boxes);
+  std::size_t level = start;
   std::uint64_t next = 0;
   open[level] = {0, 0};
   for (std::size_t first = 0; first < boxes.child_counts[level]; first += kTreeWidth) {

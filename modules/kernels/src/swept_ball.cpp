@@ -5,36 +5,59 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/power_of_two.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv::detail {
+namespace {
+
+// The largest reach, in the frame of the boxes, for which floats are precise enough. Beyond it, the ball
+// enters all boxes at distance 0.
+constexpr double kFar = 0x1p60;
+
+// Up to this binary exponent of the direction, and from its negative on, times have no other errors than
+// relative ones.
+constexpr int kMaxExponent = 500;
+
+}  // namespace
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
-    : from(start), radius(r) {
-  // Floats are not precise enough if the distance of the start point or the radius exceeds 2^60 times the
-  // size of the cloud.
-  constexpr double kFar = 0x1p60;
+    : from{start.x, start.y, start.z}, radius(r) {
   const int exponent =
-      std::ilogb(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
-  const double slope[3] = {std::ldexp(direction.x, -exponent), std::ldexp(direction.y, -exponent),
-                           std::ldexp(direction.z, -exponent)};
-  const double length = std::sqrt((slope[0] * slope[0] + slope[1] * slope[1]) + slope[2] * slope[2]);
-  unit = {slope[0] / length, slope[1] / length, slope[2] / length};
-  double size = 1 + radius * boxes.scale;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double position = (from[k] - boxes.origin[k]) * boxes.scale;
-    size += std::abs(position);
-    origin[k] = static_cast<float>(std::clamp(position, -kFar, kFar));
-    // A slope below 2^-40 in magnitude is replaced by 2^-40 or -2^-40. The replacement moves the path of the
-    // ball, where it is inside the boxes, by less than the margin.
-    inverse[k] =
-        static_cast<float>(1 / (slope[k] < 0 ? std::min(slope[k], -0x1p-40) : std::max(slope[k], 0x1p-40)));
+      binary_exponent(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
+  const double step[3] = {times_power_of_two(direction.x, -exponent),
+                          times_power_of_two(direction.y, -exponent),
+                          times_power_of_two(direction.z, -exponent)};
+  const double scale = boxes.scale, step_length = norm3(step);
+  unit = {step[0] / step_length, step[1] / step_length, step[2] / step_length};
+  length = times_power_of_two(step_length, exponent);
+  steps_per_distance = scale / step_length;
+  double position[3], size = 1 + radius * scale;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    position[axis] = (start[axis] - boxes.origin[axis]) * scale;
+    size += std::abs(position[axis]);
   }
-  time = std::ldexp(boxes.scale, exponent);
-  margin = static_cast<float>(radius * boxes.scale + 0x1p-16 * size);
-  if (size < kFar && std::isfinite(time) && time > 0x1p-960) return;
-  margin = std::numeric_limits<float>::infinity();
-  time = 1;
+  reach = size / scale;
+  error = std::abs(exponent) <= kMaxExponent ? 0x1p-38 * reach : kInfinity;
+  const bool is_far = !(size < kFar);
+  const double pad = is_far ? 2 * kFar : radius * scale + 0x1p-19 * size;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // A step below 2^-40 in magnitude is replaced by 2^-40 or -2^-40. The replacement moves the path of the
+    // ball, where it is inside the boxes, by less than the pad.
+    const double ratio = std::clamp(1 / step[axis], -0x1p40, 0x1p40);
+    inverse[axis] = static_cast<float>(is_far ? std::copysign(1, ratio) : ratio);
+    const double factor = double{inverse[axis]}, at = is_far ? 0 : position[axis] * factor,
+                 pad_along = pad * std::abs(factor);
+    to_near[axis] = static_cast<float>(at + pad_along);
+    to_far[axis] = static_cast<float>(at - pad_along);
+    const std::size_t low = offsetof(BoxGroup, low) + axis * sizeof(BoxGroup::low[0]),
+                      high = offsetof(BoxGroup, high) + axis * sizeof(BoxGroup::high[0]);
+    near_side[axis] = factor < 0 ? high : low;
+    far_side[axis] = factor < 0 ? low : high;
+  }
 }
 
 }  // namespace pcl_bv::detail

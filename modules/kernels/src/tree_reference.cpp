@@ -73,26 +73,17 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
       });
 }
 
-// Returns the time at which the ball enters box k of a group. Returns infinity if the ball does not enter the
-// box.
-float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
+// Returns the number of steps after which the ball enters box k of a group. Returns infinity if the ball does
+// not enter the box.
+float steps_to_box(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float to_low = (group.low[axis][k] - ball.margin - ball.origin[axis]) * ball.inverse[axis];
-    const float to_high = (group.high[axis][k] + ball.margin - ball.origin[axis]) * ball.inverse[axis];
-    enter = std::max(enter, std::min(to_low, to_high));
-    leave = std::min(leave, std::max(to_low, to_high));
+    const bool up = ball.inverse[axis] > 0;
+    const float near = (up ? group.low : group.high)[axis][k], far = (up ? group.high : group.low)[axis][k];
+    enter = std::max(enter, near * ball.inverse[axis] - ball.to_near[axis]);
+    leave = std::min(leave, far * ball.inverse[axis] - ball.to_far[axis]);
   }
   return enter <= leave ? enter : std::numeric_limits<float>::infinity();
-}
-
-bool is_near_line(const Coordinates& p, const SweptBall& ball) {
-  const double x = p.x - ball.from.x, y = p.y - ball.from.y, z = p.z - ball.from.z;
-  const double u = y * ball.unit.z - z * ball.unit.y, v = z * ball.unit.x - x * ball.unit.z,
-               w = x * ball.unit.y - y * ball.unit.x;
-  const double far = SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) +
-                     (ball.radius + SweptBall::kAbsoluteMargin);
-  return (u * u + v * v) + w * w <= far * far;
 }
 
 }  // namespace
@@ -123,12 +114,15 @@ void find_nearest_reference(const PackedTree& tree, const Coordinates& center, N
 void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor) {
   float latest = std::numeric_limits<float>::max();
   const auto near = [&](const BoxGroup& group, std::size_t k) {
-    return enter_time(group, k, ball) <= latest;
+    return steps_to_box(group, k, ball) <= latest;
   };
   visit_packets(tree.boxes, tree.boxes.levels, 0, near, [&](std::size_t packet) {
     std::uint32_t points = 0;
-    for (std::size_t lane = 0; lane < kTreeWidth; ++lane)
-      points |= static_cast<std::uint32_t>(is_near_line(point_of(tree, packet, lane), ball)) << lane;
+    for (std::size_t lane = 0; lane < kTreeWidth; ++lane) {
+      const TouchBounds touch =
+          ball.touch(point_of(tree, packet, lane), std::numeric_limits<double>::infinity());
+      points |= static_cast<std::uint32_t>(touch.is_possible()) << lane;
+    }
     if (points != 0) latest = visitor.visit(packet, points);
     return false;
   });

@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "pcl_bv/kernels/swept_ball.h"
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/argument_checks.h"
+#include "pcl_bv/volumes/ray_through_sphere.h"
 #include "point_tree_state.h"
 #include "vectors.h"
 
@@ -15,6 +17,8 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
+// Finds the first touch. Bounds of the touches decide between nearly all points, so that mostly only one
+// point is measured as Sphere::intersect() measures.
 class FirstHit final : public PacketVisitor {
  public:
   FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -26,27 +30,62 @@ class FirstHit final : public PacketVisitor {
 
   std::optional<PointHit> among(UsableIsa isa) {
     visit_along(isa, tree_, ball_, *this);
-    return best_.index < 0 ? std::nullopt : std::optional(best_);
+    measure_first();
+    return hit_.index < 0 ? std::nullopt : std::optional(PointHit{hit_.index, hit_.t});
   }
 
   float visit(std::size_t packet, std::uint32_t points) override {
-    for (; points != 0; points &= points - 1) {
-      const std::size_t at = packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(points));
-      const auto inside =
-          Sphere(vector(load_point(points_, at)), ball_.radius).intersect(origin_, direction_);
-      if (!inside) continue;
-      const PointHit hit{tree_.indices[at], inside->enter};
-      if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
-    }
-    return best_.index < 0 ? std::numeric_limits<float>::max() : ball_.latest_entry(best_.t);
+    for (; points != 0; points &= points - 1)
+      take(packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(points)));
+    return ball_.latest_entry(bounds_.most);
   }
 
  private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  Coordinates point(std::size_t at) const {
+    const auto of = [&](const auto& packets) -> Coordinates {
+      const auto& packet = packets[at / kTreeWidth];
+      const std::size_t k = at % kTreeWidth;
+      return {*packet.at(0, k), *packet.at(1, k), *packet.at(2, k)};
+    };
+    return tree_.scalar == ScalarType::float32 ? of(tree_.floats) : of(tree_.doubles);
+  }
+
+  void take(std::size_t at) {
+    const TouchBounds touch = ball_.touch(point(at), bounds_.most);
+    if (!touch.is_possible()) return;
+    if (touch.most < bounds_.least) {
+      bounds_ = touch;
+      unmeasured_ = at;
+    } else {
+      measure_first();
+      measure(at);
+    }
+  }
+
+  void measure_first() {
+    if (unmeasured_ == kNone) return;
+    hit_.index = -1;
+    measure(unmeasured_);
+    unmeasured_ = kNone;
+  }
+
+  void measure(std::size_t at) {
+    const auto inside = intersect_sphere(vector(point(at)), ball_.radius, origin_, direction_);
+    if (!inside) return;
+    const PointHit hit{tree_.indices[at], inside->enter};
+    if (hit_.index >= 0 && !(hit.t < hit_.t || (hit.t == hit_.t && hit.index < hit_.index))) return;
+    hit_ = hit;
+    bounds_ = ball_.bounds_of_time(hit.t);
+  }
+
   const PackedTree& tree_;
-  PointView points_ = tree_.view();
-  Eigen::Vector3d origin_, direction_;
+  const Eigen::Vector3d &origin_, &direction_;
   SweptBall ball_;
-  PointHit best_{-1, 0};
+  TouchBounds bounds_{kInfinity, kInfinity};  // of the first touch so far
+  std::size_t unmeasured_ = kNone;            // the point of this touch if it is not `hit_`
+  PointHit hit_{-1, 0};                       // the first point that was measured
 };
 
 // Returns the point with the smallest index inside a sphere that does not move.

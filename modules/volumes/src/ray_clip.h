@@ -12,6 +12,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/power_of_two.h"
 #include "pcl_bv/volumes/geometry.h"
 
 namespace pcl_bv::detail {
@@ -45,7 +46,8 @@ class RayClip {
     if (min_distance > radius) return keep(0, -1);
     const double half =
         std::sqrt(radius - min_distance) * std::sqrt(radius + min_distance) / speed * (1 + 0x1p-49);
-    keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
+    keep_between(times_power_of_two(nearest - half, -exponent),
+                 times_power_of_two(nearest + half, -exponent));
   }
 
   /// Returns the remaining interval, or nothing if it contains no t >= 0. Both ends are moved outward by
@@ -69,8 +71,10 @@ class RayClip {
 /// so that |u|^2 is in the range of double.
 struct ScaledDirection {
   explicit ScaledDirection(const Eigen::Vector3d& direction)
-      : exponent(std::ilogb(direction.cwiseAbs().maxCoeff())),
-        u(direction.unaryExpr([this](double x) { return std::ldexp(x, -exponent); })) {}
+      : exponent(binary_exponent(
+            std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])}))),
+        u(times_power_of_two(direction[0], -exponent), times_power_of_two(direction[1], -exponent),
+          times_power_of_two(direction[2], -exponent)) {}
   int exponent;
   Eigen::Vector3d u;
 };

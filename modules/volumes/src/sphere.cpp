@@ -11,9 +11,11 @@
 
 #include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/ray_through_sphere.h"
 #include "ray_clip.h"
 
 namespace pcl_bv {
@@ -54,24 +56,40 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
+// Returns Eigen's v.stableNorm(), which neither overflows nor underflows, without a call for usual numbers.
+double safe_norm3(const Coordinates& v) {
+  const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(size > 0x1p-1000 && size < 0x1p1000)) return Eigen::Vector3d(v.x, v.y, v.z).stableNorm();
+  const double inverse = 1 / size;
+  return size * norm3(Coordinates{v.x * inverse, v.y * inverse, v.z * inverse});
+}
+
 // Clips the ray to an interval around the point P of the ray's line that is nearest to the centre. P is
 // computed in double. Let q = origin - center and U = 2^-53. The position of P is off by at most 4 U |q|, and
 // the distance h of P from the centre by another 9 U |q|. Along the line, P is at most 8 U |q|_1 from the
 // exact foot of the perpendicular. A radius that is larger by 52 U |q|_1 covers these errors. A radius that
 // is larger by 64 U |q|_1 also covers the rounding of this radius.
-void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
+void clip_by_sphere(RayClip& ray, const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);
-  const Eigen::Vector3d q = origin - sphere.center();
-  const double nearest = -q.dot(u) / u.squaredNorm();
-  const double h = (q + nearest * u).stableNorm();
-  const double error_bound = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
-  const double held = sphere.contains(origin) ? q.stableNorm() : 0;
-  const double radius = std::max(sphere.radius(), held) + error_bound;
-  ray.keep_within_radius(nearest, h, radius, u.norm(), exponent);
+  // Not a vector of Eigen: to load two numbers at once just after they were stored one by one is slow.
+  const Coordinates q = {origin[0] - center[0], origin[1] - center[1], origin[2] - center[2]};
+  const double square = dot3(u, u), nearest = -dot3(q, u) / square;
+  const double h = safe_norm3({q.x + nearest * u[0], q.y + nearest * u[1], q.z + nearest * u[2]});
+  const double error_bound = 0x1p-47 * taxicab3(q) + kSmallestNormal;
+  const double held = dot3(q, q) <= square_within_rounding(radius) ? safe_norm3(q) : 0;
+  ray.keep_within_radius(nearest, h, std::max(radius, held) + error_bound, std::sqrt(square), exponent);
 }
 
 }  // namespace
+
+std::optional<RayInterval> detail::intersect_sphere(const Eigen::Vector3d& center, double radius,
+                                                    const Eigen::Vector3d& origin,
+                                                    const Eigen::Vector3d& direction) {
+  RayClip ray;
+  clip_by_sphere(ray, center, radius, origin, direction);
+  return ray.interval();
+}
 
 Sphere::Sphere() : center_(Eigen::Vector3d::Constant(kNan)), radius_(-1) {}
 
@@ -121,7 +139,7 @@ double Sphere::distance(const Eigen::Vector3d& point) const {
 std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
                                              const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction,
-                       [&](RayClip& ray) { clip_by_sphere(ray, *this, origin, direction); });
+                       [&](RayClip& ray) { clip_by_sphere(ray, center_, radius_, origin, direction); });
 }
 
 bool Sphere::overlaps(const Sphere& other) const {

@@ -4,57 +4,117 @@
 // Finds the points of a tree that a moving ball may touch.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "pcl_bv/kernels/packed_tree.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
-/// A moving ball, prepared for tests against the boxes and points of a tree. At the time t >= 0, its centre
-/// is at `from` + t * `direction`. In the frame of the boxes (see BoxLevels), the direction is scaled by a
-/// power of two so that its largest component is from 1 to 2 in magnitude. Times in this frame refer to the
-/// scaled direction.
+/// Bounds of the distance that a moving ball has covered when it touches a point, in the unit of the points.
+struct TouchBounds {
+  double least;  ///< 0 or more.
+  double most;   ///< Infinity if the ball may not touch the point.
+
+  /// Returns whether the ball may touch the point. If not, both bounds are infinite.
+  bool is_possible() const { return least < kInfinity; }
+};
+
+/// A moving ball, prepared for tests against the boxes and points of a tree. Its centre starts at `from` and
+/// moves along `unit`. Distances are lengths of the centre's path from `from`.
+///
+/// Let S, the reach, be a number that is at least the radius and at least each coordinate of p - from for
+/// every point p of the tree. Rounding moves a ball by less than 2^-21 S in the tests of boxes, by less than
+/// 2^-20 S in tests of points in float, and by less than 2^-42 S in tests of points in double. In the
+/// tests, the ball is larger by the four- to sixteenfold of that.
 struct SweptBall {
-  float origin[3], inverse[3];  ///< Start point, and 1 / direction per axis, in the frame of the boxes.
-  float margin;  ///< The radius plus a bound of the rounding to float. It is added to each side of every box.
-                 ///< Infinite if floats are not precise enough; then every box is entered at time 0.
-  double time;   ///< Factor that converts a time t to a time in the frame of the boxes.
+  /// Along an axis, the ball may be between the sides of a box from near * inverse - `to_near` to far *
+  /// inverse - `to_far`. These numbers are counted in steps: the direction is scaled by a power of two so
+  /// that its largest component is from 1 to 2 in magnitude, and a step is as long in the frame of the boxes
+  /// (see BoxLevels).
+  float inverse[3], to_near[3], to_far[3];
+  std::size_t near_side[3], far_side[3];  ///< Offsets of the sides in a BoxGroup, in bytes.
+  double steps_per_distance;
   Coordinates from, unit;  ///< Start point and unit direction, in the unit of the points.
   double radius;
-
-  /// visit_along() passes a point of a visited packet to PacketVisitor::visit() if the distance of the point
-  /// from the line is at most radius + kRelativeMargin |q|_1 + kAbsoluteMargin, where q is the vector from
-  /// `from` to the point.
-  static constexpr double kRelativeMargin = 0x1p-40, kAbsoluteMargin = 0x1p-400;
+  double length;  ///< Of the direction. A time t is the distance t * `length`.
+  double reach;   ///< S.
+  /// 2^-38 S. Infinite if the bounds of TouchBounds could not order the times, because times of different
+  /// distances could be rounded to the same number.
+  double error;
 
   /// All arguments must be finite, the direction not 0, the radius at least 0.
   SweptBall(const BoxLevels& boxes, const Coordinates& from, const Coordinates& direction, double radius);
 
-  /// Returns a time in the frame of the boxes. Boxes that the ball enters after this time contain no point
-  /// that the ball touches before t.
-  float latest_entry(double t) const { return static_cast<float>(t * time * (1 + 0x1p-16)) + margin; }
+  /// Returns a number of steps. Boxes that the ball enters after them contain no point that the ball touches
+  /// before `distance`.
+  float latest_entry(double distance) const;
+
+  /// Returns bounds of enter * length, where `enter` is the result of Sphere(point, radius).intersect(). The
+  /// bounds of two points that do not overlap have different times in the same order. A touch is not possible
+  /// only if intersect() returns nothing, if a coordinate is NaN or if the least bound is above `latest`.
+  TouchBounds touch(const Coordinates& point, double latest) const;
+
+  /// Returns bounds of t * length that hold for the rounding of t and can be compared with those of touch().
+  TouchBounds bounds_of_time(double t) const;
 };
+
+inline float SweptBall::latest_entry(double distance) const {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const double steps = distance * steps_per_distance * (1 + 0x1p-20);
+  return steps < double{kMost} ? static_cast<float>(steps) : kMost;
+}
+
+// The factor 2^-38 in `error` is 2^15 U, U = 2^-53, and |p - from|_1 is at most 3 S. The errors of the foot
+// of the perpendicular are below 30 U |p - from|_1, here and in intersect(), those of its distance from the
+// point below 60 U |p - from|_1, and the radius of intersect() is larger by at most 128 U |p - from|_1 +
+// 8 U r. So `error` covers them thrice over. What is left of it covers the rounding of the difference of
+// squares, which is at most 3 U (r + error)^2.
+inline TouchBounds SweptBall::touch(const Coordinates& point, double latest) const {
+  const Coordinates q = {point.x - from.x, point.y - from.y, point.z - from.z};
+  const Coordinates across = cross3(q, unit);
+  const double square = dot3(across, across), outer = radius + error, inner = radius - error;
+  constexpr TouchBounds kNever{kInfinity, kInfinity};
+  if (!(square <= outer * outer)) return kNever;
+  if (!(error < kInfinity)) return {0, kInfinity};
+  const double foot = dot3(q, unit), half = std::sqrt(outer * outer - square);
+  const double least = std::max(0.0, foot - half - error);
+  if (foot + half < -error || least > latest) return kNever;
+  if (!(inner > 0 && square <= inner * inner)) return {least, kInfinity};
+  const double least_half = std::sqrt(inner * inner - square);
+  if (foot + least_half < error) return {least, kInfinity};
+  return {least, std::max(0.0, foot - least_half) + error};
+}
+
+inline TouchBounds SweptBall::bounds_of_time(double t) const {
+  if (!(error < kInfinity)) return {0, kInfinity};
+  return {std::max(0.0, t * length - error), t * length + error};
+}
 
 /// The interface through which visit_along() passes the points that it finds.
 class PacketVisitor {
  public:
   /// Called with the index of a packet and with one bit per point of the packet. The bit is set if the ball
-  /// may touch the point; at least one bit is set. Returns the latest entry time, in the frame of the boxes,
-  /// of boxes that must still be visited. This is SweptBall::latest_entry() of the earliest touch so far, or
-  /// the largest float before the first touch.
+  /// may touch the point; at least one bit is set. Bits of unused points may be set. Returns the number
+  /// of steps up to which the ball enters boxes that must still be visited. This is
+  /// SweptBall::latest_entry() of the earliest touch so far, or the largest float before the first touch.
   virtual float visit(std::size_t packet, std::uint32_t points) = 0;
 
  protected:
   ~PacketVisitor() = default;
 };
 
-/// Calls visitor.visit() for packets until the ball enters all remaining boxes after the time that visit()
-/// returned last. With every `isa`, visit() receives every point that the ball touches up to that time, as
-/// decided by Sphere(point, radius).intersect(). The other points that visit() receives, and the order of the
-/// calls, depend on `isa`. (Vector kernels visit boxes with early entry times first.) For an empty tree
-/// visit() is not called. The caller must hold a FloatEnvironment.
+/// Calls visitor.visit() for packets until the ball enters all remaining boxes after the steps that visit()
+/// returned last. With every `isa`, visit() receives every point that the ball touches up to these steps, as
+/// decided by Sphere(point, radius).intersect(). The other points that visit() receives, and the
+/// order of the calls, depend on `isa`. (Vector kernels mostly visit boxes with early entry first.) For an
+/// empty tree visit() is not called. The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 }  // namespace detail
