@@ -54,7 +54,7 @@ function(pcl_bv_library name)
     # What public headers declare is visible (an attribute of their namespace); the rest is nobody's interface.
     set_target_properties(${target} PROPERTIES
       POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-      DEFINE_SYMBOL "" VERSION ${pcl_bv_VERSION} SOVERSION ${pcl_bv_VERSION_MAJOR}.${pcl_bv_VERSION_MINOR}
+      DEFINE_SYMBOL "" VERSION ${pcl_bv_VERSION} SOVERSION ${pcl_bv_VERSION_MAJOR}
       INSTALL_RPATH $ORIGIN) # shared ones find one another wherever the package is
     if(arg_PRECOMPILED)
       pcl_bv_precompile(${target} cmake/precompiled.h library)
