@@ -32,6 +32,13 @@ function(pcl_bv_precompile target header kind)
                                                                          -Wno-array-bounds>)
 endfunction()
 
+# For what asks for C's compiler too. That may be g++'s though C++'s is clang: it would rename the precompiled headers.
+macro(pcl_bv_enable_c)
+  set(precompiled_extension ${CMAKE_PCH_EXTENSION})
+  enable_language(C)
+  set(CMAKE_PCH_EXTENSION ${precompiled_extension})
+endmacro()
+
 # pcl_bv_unity(target): with PCL_BV_UNITY, twelve of its sources at a time are one: most of what each would cost is the
 # parsing of Eigen. All at once would leave the other processors idle.
 function(pcl_bv_unity target)
