@@ -5,9 +5,11 @@
 function(pcl_bv_compile_options target)
   set_target_properties(${target} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
   # -Wrestrict: false alarms in std::string of g++ 12 (GCC PR 105651). The SLP vectoriser of g++ 12 loses the
-  # rounding of double(float(x)) where two neighbours are converted.
+  # rounding of double(float(x)) where two neighbours are converted. std::stable_sort of libstdc++ 12 uses what it
+  # calls deprecated itself, and clang 19 says so.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
                                            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -fno-tree-slp-vectorize>
+                                           $<$<CXX_COMPILER_ID:Clang>:-Wno-error=deprecated-declarations>
                                            -ffp-contract=off $<$<BOOL:${PCL_BV_WERROR}>:-Werror>)
   if(PCL_BV_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PCL_BV_SANITIZE} -fno-sanitize-recover=all
