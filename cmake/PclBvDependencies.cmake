@@ -41,6 +41,11 @@ endif()
 if("nodes" IN_LIST PCL_BV_COMPONENTS)
   find_package(yaml-cpp REQUIRED)
   find_package(tinyxml2 REQUIRED)
+  # Debian 13's wants this of its users. All targets share precompiled headers, so all get it.
+  get_target_property(definitions tinyxml2::tinyxml2 INTERFACE_COMPILE_DEFINITIONS)
+  if("_FILE_OFFSET_BITS=64" IN_LIST definitions)
+    add_compile_definitions(_FILE_OFFSET_BITS=64)
+  endif()
 endif()
 if("gpu" IN_LIST PCL_BV_COMPONENTS)
   # Only to build: programs open the Vulkan loader when they need it.

@@ -5,7 +5,7 @@ list(REMOVE_ITEM libraries segmentation laz)          # parts of core and io
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_bv)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/pcl_bvConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/pcl_bvConfig.cmake INSTALL_DESTINATION ${package_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/pcl_bvConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/pcl_bvConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/pcl_bvConfig.cmake ${PROJECT_BINARY_DIR}/pcl_bvConfigVersion.cmake
         DESTINATION ${package_dir})
 foreach(component ${libraries})

@@ -5,9 +5,11 @@
 function(pcl_bv_compile_options target)
   set_target_properties(${target} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
   # -Wrestrict: false alarms in std::string of g++ 12 (GCC PR 105651). The SLP vectoriser of g++ 12 loses the
-  # rounding of double(float(x)) where two neighbours are converted.
+  # rounding of double(float(x)) where two neighbours are converted. std::stable_sort of libstdc++ 12 uses what it
+  # calls deprecated itself, and clang 19 says so.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
                                            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -fno-tree-slp-vectorize>
+                                           $<$<CXX_COMPILER_ID:Clang>:-Wno-error=deprecated-declarations>
                                            -ffp-contract=off $<$<BOOL:${PCL_BV_WERROR}>:-Werror>)
   if(PCL_BV_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PCL_BV_SANITIZE} -fno-sanitize-recover=all
@@ -32,6 +34,13 @@ function(pcl_bv_precompile target header kind)
                                                                          -Wno-array-bounds>)
 endfunction()
 
+# For what asks for C's compiler too. That may be g++'s though C++'s is clang: it would rename the precompiled headers.
+macro(pcl_bv_enable_c)
+  set(precompiled_extension ${CMAKE_PCH_EXTENSION})
+  enable_language(C)
+  set(CMAKE_PCH_EXTENSION ${precompiled_extension})
+endmacro()
+
 # pcl_bv_unity(target): with PCL_BV_UNITY, twelve of its sources at a time are one: most of what each would cost is the
 # parsing of Eigen. All at once would leave the other processors idle.
 function(pcl_bv_unity target)
@@ -54,7 +63,7 @@ function(pcl_bv_library name)
     # What public headers declare is visible (an attribute of their namespace); the rest is nobody's interface.
     set_target_properties(${target} PROPERTIES
       POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-      DEFINE_SYMBOL "" VERSION ${pcl_bv_VERSION} SOVERSION ${pcl_bv_VERSION_MAJOR}.${pcl_bv_VERSION_MINOR}
+      DEFINE_SYMBOL "" VERSION ${pcl_bv_VERSION} SOVERSION ${pcl_bv_VERSION_MAJOR}
       INSTALL_RPATH $ORIGIN) # shared ones find one another wherever the package is
     if(arg_PRECOMPILED)
       pcl_bv_precompile(${target} cmake/precompiled.h library)

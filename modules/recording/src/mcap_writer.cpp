@@ -68,14 +68,10 @@ class McapWriter::State {
     open.channel = {id, schema_id, topic.name, "cdr", topic.metadata};
     open.channel.metadata.try_emplace("offered_qos_profiles");
     Buffer records;  // written outside of chunks, because a damaged chunk would lose them
-    Writer writer(records);
+    Writer writer(has_begun() ? records : start_);
     put(writer, open.schema);
     put(writer, open.channel);
-    if (has_begun()) {
-      append(records);
-    } else {
-      start_.insert(start_.end(), records.begin(), records.end());
-    }
+    if (has_begun()) append(records);
     return id;
   }
 

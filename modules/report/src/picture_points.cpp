@@ -136,18 +136,18 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
   const double area = static_cast<double>(raster.width) * raster.height;
   const double spacing =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(picture.points.count, 1)));
-  const Offsets plain = disc(std::clamp(0.17 * spacing, 0.5, 6.0));
-  const Offsets clustered = disc(std::clamp(0.26 * spacing, 1.0, 6.0));
+  const Offsets small = disc(std::clamp(0.17 * spacing, 0.5, 6.0));
+  const Offsets large = disc(std::clamp(0.26 * spacing, 1.0, 6.0));
   const auto draw = [&](const Coordinates& p, std::size_t index) {
     const Eigen::Vector3d point(p.x, p.y, p.z), at = view.project(point);
     const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);
     const auto& [low, high] = view.heights;
     const double height = (point.dot(view.world_up) - low) / (high - low);
-    if (!picture.labels) return splat(raster, sample, clustered, height_colour(static_cast<float>(height)));
+    if (!picture.labels) return splat(raster, sample, large, height_colour(static_cast<float>(height)));
     const std::uint32_t label = picture.labels[index];
-    if (label < kLabelGround) return splat(raster, sample, clustered, palette(label));
+    if (label < kLabelGround) return splat(raster, sample, large, palette(label));
     const double near = 0.5 - at.z() / picture.height;
-    splat(raster, sample, plain, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
+    splat(raster, sample, small, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
   };
   for (std::size_t chunk = 0; chunk < chunk_count(picture.points.count); ++chunk) {
     const LoadedPoints part = load_chunk(picture.points, chunk);

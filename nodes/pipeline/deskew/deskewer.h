@@ -28,7 +28,10 @@ class Deskewer {
   void remember(const Pose& pose, std::int64_t stamp_ns, bool from_source);
 
   /// Forgets all poses.
-  void reset() { last_ = before_last_ = std::nullopt; }
+  void reset() {
+    last_.reset();
+    before_last_.reset();
+  }
 
  private:
   struct Known {

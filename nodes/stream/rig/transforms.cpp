@@ -114,7 +114,8 @@ void Transforms::add_fixed(const std::string& parent, const std::string& child, 
 
 // Drops what is known of the pose of `child`, unless it is fixed or already from a preferred source.
 void Transforms::prefer(const std::string& parent, const std::string& child) {
-  const auto made = without_slash(child).empty() ? std::nullopt : make_node(child);
+  if (without_slash(child).empty()) return;
+  const auto made = make_node(child);
   if (!made || nodes_[*made].fixed || nodes_[*made].preferred) return;
   const auto old_parent = std::exchange(nodes_[*made].parent, std::nullopt);
   if (Node* const node = edge(parent, child)) {

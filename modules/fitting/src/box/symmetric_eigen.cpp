@@ -42,10 +42,10 @@ void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v) {
   }
   constexpr int r = 3 - p - q;
   const auto [t, s, c] = rotation_of(a(p, p), a(q, q), a(p, q));
-  const auto rotate_pair = [s = s, c = c](double& x, double& y) {
+  const auto rotate_pair = [sine = s, cosine = c](double& x, double& y) {
     const double old = x;
-    x = c * old - s * y;
-    y = s * old + c * y;
+    x = cosine * old - sine * y;
+    y = sine * old + cosine * y;
   };
   a(p, p) -= t * a(p, q);
   a(q, q) += t * a(p, q);

@@ -66,8 +66,8 @@ bool Quickhull::sees(std::int32_t point, const Facet& facet) const {
 }
 
 bool Quickhull::in_plane(const Facet& facet, const Facet& other) const {
-  const auto& [a, b, c] = facet.corners;
-  return std::all_of(other.corners.begin(), other.corners.end(), [&, a = a, b = b, c = c](std::int32_t i) {
+  const std::int32_t a = facet.corners[0], b = facet.corners[1], c = facet.corners[2];
+  return std::all_of(other.corners.begin(), other.corners.end(), [&](std::int32_t i) {
     return i == a || i == b || i == c || side_of_plane(at(a), at(b), at(c), at(i)) == 0;
   });
 }

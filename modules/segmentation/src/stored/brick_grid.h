@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "pcl_bv/numeric/coordinates.h"
@@ -18,8 +19,12 @@ struct GridCell {
   std::array<double, 3> margin{};               ///< The halo in units of cells, with the error of rounding.
 
   bool contains(const std::array<double, 3>& at) const {
-    return (at[0] >= begin[0]) & (at[0] < end[0]) & (at[1] >= begin[1]) & (at[1] < end[1]) &
-           (at[2] >= begin[2]) & (at[2] < end[2]);
+    bool inside = true;  // without branches
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      inside &= at[axis] >= begin[axis];
+      inside &= at[axis] < end[axis];
+    }
+    return inside;
   }
 };
 
