@@ -172,12 +172,12 @@ TYPED_TEST(Partials, FindTheSmallestSphereOfTheWholeByAskingTheParts) {
     for (const PointView& part : parts)
       merged.merge(Partial(part));
     int questions = 0;
-    const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& found) {
+    const auto ask = [&](const FarQuery& query, OctantPoints& found) {
       found = {};
       ++questions;
       for (const PointView& part : parts) {
         OctantPoints own;
-        answer_farthest(part, center, limit, own);
+        answer_farthest(part, query, own);
         update_farthest(own, found);
       }
       return std::any_of(found.begin(), found.end(),
@@ -198,7 +198,7 @@ TEST(FarthestQuery, RefusesAnIndexList) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 15);
   const std::int32_t indices[] = {1, 2};
   OctantPoints found;
-  EXPECT_THROW(answer_farthest(PointView::of(cloud.xyz.data(), 12, 2, indices), {}, 0, found),
+  EXPECT_THROW(answer_farthest(PointView::of(cloud.xyz.data(), 12, 2, indices), {}, found),
                std::invalid_argument);
 }
 

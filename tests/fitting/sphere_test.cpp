@@ -137,10 +137,12 @@ TEST(SmallestSphere, OfOnePointIsCertifiedByItWithoutAPass) {
 }
 
 // The definition of FarthestQuery, for a part of a cloud.
-OctantPoints farthest_by_definition(const PointView& part, const DistanceCenter& center, double limit) {
+OctantPoints farthest_by_definition(const PointView& part, const FarQuery& query) {
+  const auto& [center, limit, one_of] = query;
   OctantPoints found;
   for (std::size_t i = 0; i < part.count; ++i) {
     const Coordinates p = load_point(part, i);
+    if (!in_sample(part.index(i) / kBlockPoints, one_of)) continue;
     if (!is_valid(p) || !(squared_distance(p, center) >= limit)) continue;
     FarPoint& best = found[octant(p, center)];
     const FarPoint candidate{squared_distance(p, center), part.index(i), p};
@@ -155,11 +157,11 @@ void expect_same_from_two_halves(const TestCloud<T>& cloud) {
   const PointView points = cloud.view();
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, {});
   int questions = 0;
-  const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& found) {
+  const auto ask = [&](const FarQuery& query, OctantPoints& found) {
     ++questions;
     const std::size_t half = points.count / 2;
-    found = farthest_by_definition(points.slice(half, points.count - half), center, limit);
-    update_farthest(farthest_by_definition(points.slice(0, half), center, limit), found);
+    found = farthest_by_definition(points.slice(half, points.count - half), query);
+    update_farthest(farthest_by_definition(points.slice(0, half), query), found);
     return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
   };
   Sphere expected;
@@ -182,7 +184,7 @@ TEST(SmallestSphere, HasTheSameBitsWhoeverAnswersForThePoints) {
 
 TEST(SmallestSphere, RefusesSupportsThatSayTooLittle) {
   const TestCloud<float> cloud = test::gaussian<float>(100, 1);
-  const auto ask = [](const DistanceCenter&, double, OctantPoints&) { return false; };
+  const auto ask = [](const FarQuery&, OctantPoints&) { return false; };
   SphereCertificate certificate;
   for (const DirectionSet set : {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18}) {
     const Supports supports = find_supports(cloud.view(), set, SupportDetail::points, {});

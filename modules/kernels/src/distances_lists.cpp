@@ -4,6 +4,8 @@
 // Lists the points outside a sphere, for step UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson
 // 2010, Figure 3).
 
+#include <cmath>
+
 #include "distance_squared.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
@@ -50,30 +52,57 @@ std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, co
   return count;
 }
 
-template <Layout layout, typename T>
-std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& center, double limit,
-                        std::uint32_t* positions) {
+// The limits of a list, for the exact comparison and for the two that only reject.
+struct ListLimits {
+  ListLimits(const DistanceCenter& c, double limit)
+      : center(c), least(limit), fused(limit - std::abs(limit) * 0x1p-48 - 0x1p-1000), in_float(c, limit) {}
+  DistanceCenter center;
+  double least;
+  // A squared distance with fused operations differs from squared_distance() by at most 6 * 2^-53 of it, and by
+  // less than 2^-1000 if squares underflow.
+  double fused;
+  FloatRejection in_float;
+};
+
+// Returns whether no point of a packet can have a squared_distance() of at least the limit. Three of four
+// instructions of the loop over a surface are here, so it does not ask which points are valid.
+template <typename T, bool filtered, class D>
+HWY_INLINE bool all_near(D d, const ListLimits& limits, V<D> x, V<D> y, V<D> z) {
+  if constexpr (filtered) {
+    const auto squared = distances_in_float(d, limits.in_float.center, x, y, z);
+    if (hn::AllFalse(d, hn::Gt(squared, hn::Set(d, limits.in_float.limit)))) return true;
+  }
+  const Tag<double> dd;
+  const auto least = hn::Set(dd, limits.fused);
+  auto far = hn::Gt(least, least);  // none
+#define PCL_BV_STEP(x, y, z)                                \
+  subtract<sizeof(T) == 8>(dd, limits.center, x, y, z);     \
+  far = hn::Or(far, hn::Ge(fused_squares(x, y, z), least));
+  PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
+#undef PCL_BV_STEP
+  return hn::AllFalse(dd, far);
+}
+
+template <Layout layout, typename T, bool filtered>
+std::size_t list_of_run(const PointView& points, Run run, const ListLimits& limits, std::uint32_t* positions) {
   const Tag<T> d;
   const Tag<double> dd;
-  const auto least = hn::Set(dd, limit);
+  const auto least = hn::Set(dd, limits.least);
   std::size_t count = 0;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
     load_packet_or_tail<layout>(d, points, i, x, y, z);
-    bool any = false, far[kGroupBytes / sizeof(T)] = {};
+    if (HWY_LIKELY((all_near<T, filtered>(d, limits, x, y, z)))) continue;
+    bool far[kGroupBytes / sizeof(T)] = {};
     bool* next = far;
-#define PCL_BV_STEP(x, y, z)                                                   \
-  const auto counts = valid_lanes(dd, x, y, z);                                \
-  subtract<sizeof(T) == 8>(dd, center, x, y, z);                               \
-  const auto is_far = hn::And(counts, hn::Ge(sum_of_squares(x, y, z), least)); \
-  if (!hn::AllFalse(dd, is_far)) {                                             \
-    store_mask(dd, is_far, next);                                              \
-    any = true;                                                                \
-  }                                                                            \
+#define PCL_BV_STEP(x, y, z)                                                            \
+  const auto counts = valid_lanes(dd, x, y, z);                                         \
+  subtract<sizeof(T) == 8>(dd, limits.center, x, y, z);                                 \
+  store_mask(dd, hn::And(counts, hn::Ge(sum_of_squares(x, y, z), least)), next);        \
   next += hn::Lanes(dd);
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
-    if (any) count = append_marked<layout>(d, far, points, i, positions, count);
+    count = append_marked<layout>(d, far, points, i, positions, count);
   }
   return count;
 }
@@ -82,18 +111,19 @@ template <Layout layout, typename T>
 std::size_t list_of(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
                     std::uint32_t* positions) {
   const Tag<T> d;
-  const FloatRejection in_float(center, limit);
+  const ListLimits limits(center, limit);
   std::size_t count = 0;
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
        run = run_at(d, run.end, points.count)) {
     if constexpr (sizeof(T) == 4) {
-      if (filter == FloatFilter::reject &&
-          hn::AllFalse(d, hn::Gt(greatest_in_float<layout>(d, points, run, in_float.center),
-                                 hn::Set(d, in_float.limit)))) {
+      if (filter == FloatFilter::reject) {
+        const auto greatest = greatest_in_float<layout>(d, points, run, limits.in_float.center);
+        if (!hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, limits.in_float.limit))))
+          count += list_of_run<layout, T, true>(points, run, limits, positions + count);
         continue;
       }
     }
-    count += list_of_run<layout, T>(points, run, center, limit, positions + count);
+    count += list_of_run<layout, T, false>(points, run, limits, positions + count);
   }
   return count;
 }

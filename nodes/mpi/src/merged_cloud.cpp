@@ -26,12 +26,6 @@ namespace {
 
 using Failure = std::optional<TileFailure>;
 
-// A query of the smallest-sphere solver (FarthestQuery), sent as bytes.
-struct QueryMessage {
-  DistanceCenter center;
-  double limit;
-};
-
 // Thrown to end the solver when a rank cannot read its points.
 struct QueryFailed {};
 
@@ -74,7 +68,7 @@ class Attempt {
   Failure fit();
   Failure fit_in_rounds(Fitted<AnyVolume>& fitted);
   Failure check();
-  bool run_query(const QueryMessage& query, Failure& failure, OctantPoints& found);
+  bool run_query(const FarQuery& query, Failure& failure, OctantPoints& found);
 
   /// Returns the rank that fits the method to all points, or nothing if the method does not need all points.
   std::optional<std::size_t> owner(std::size_t method) const {
@@ -169,22 +163,21 @@ Failure Attempt::fit() {
 }
 
 // Returns whether all ranks have answered the query.
-bool Attempt::run_query(const QueryMessage& query, Failure& failure, OctantPoints& found) {
+bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& found) {
   OctantPoints own;
   const Failure now =
-      run_and_catch([&] { answer_farthest(points_->view(), query.center, query.limit, own, execution_); });
+      run_and_catch([&] { answer_farthest(points_->view(), query, own, execution_); });
   if (now) failure = now;
   return !ranks_.merge_farthest(own, now.has_value(), found);
 }
 
-// The first rank runs the solver and broadcasts the solver's queries. Each rank answers a query for its own
+// The first rank runs the solver and broadcasts the bytes of the solver's queries. Each rank answers a query for its own
 // points. An empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
   Failure failure;
   OctantPoints found;
   if (ranks_.first()) {
-    const auto query_all_ranks = [&](const DistanceCenter& center, double limit, OctantPoints& farthest) {
-      const QueryMessage query{center, limit};
+    const auto query_all_ranks = [&](const FarQuery& query, OctantPoints& farthest) {
       ranks_.broadcast(std::string(reinterpret_cast<const char*>(&query), sizeof query));
       if (!run_query(query, failure, farthest)) throw QueryFailed();
       return std::any_of(farthest.begin(), farthest.end(),
@@ -201,7 +194,7 @@ Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
     ranks_.broadcast("");
   } else {
     for (std::string bytes = ranks_.broadcast(""); !bytes.empty(); bytes = ranks_.broadcast("")) {
-      QueryMessage query;
+      FarQuery query;
       std::memcpy(&query, bytes.data(), sizeof query);
       run_query(query, failure, found);
     }

@@ -241,33 +241,39 @@ bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
     scan_bounds.bounds = &bounds_[block * kBlockBounds];
     const std::size_t count =
         list_distant_by_bounds(isa_, blocks(block, 1).view(), scan_bounds, center, limit, positions.data());
-    for (std::size_t i = 0; i < count; ++i)
-      shell_.push_back(block * kBlockPoints + positions[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = block * kBlockPoints + positions[i];
+      const Coordinates p = load_point(points_, at);
+      if (is_valid(p)) shell_.push_back({0, points_.index(at), p});
+    }
     if (shell_.size() > 64 + points_.count / 16) return false;
   }
   return true;
 }
 
 void DistanceScan::scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const {
-  for (const std::size_t i : shell_) {
-    const Coordinates p = load_point(points_, i);
-    const double squared = squared_distance(p, center);
-    if (!(squared >= limit) || !is_valid(p)) continue;
-    update_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
+  for (const FarPoint& p : shell_) {
+    const double squared = squared_distance(p.point, center);
+    if (squared >= limit) update_farthest({squared, p.index, p.point}, found[octant(p.point, center)]);
   }
 }
 
-bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
+bool DistanceScan::farthest(const FarQuery& query, OctantPoints& found) {
+  const auto& [center, limit, one_of] = query;
   const double distance = std::sqrt(limit) * kRoundDown;
   found = {};
-  // A point that is not in shell_ is nearer than shell_distance_ plus the movement of the centre since
-  // list_shell(). The list remains complete while this sum is below `distance`.
-  listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
-  listed_ = listed_ || (scanned_ && list_shell(center, distance));
-  if (listed_) {
-    scan_shell(center, limit, found);
+  if (one_of > 1) {
+    scan_sample(query, found);
   } else {
-    scan_all(center, limit, found);
+    // A point that is not in shell_ is nearer than shell_distance_ plus the movement of the centre since
+    // shell_ was listed. The list remains complete while this sum is below `distance`.
+    listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
+    listed_ = listed_ || (scanned_ && list_shell(center, distance));
+    if (listed_) {
+      scan_shell(center, limit, found);
+    } else if (!scan_and_list(center, limit, found)) {
+      scan_all(center, limit, found);
+    }
   }
   return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
 }

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Passes over a sample of the points, and passes over all points after them. If a ball encloses a sample, few
+// points are outside, and those that can be outside the final ball are a list that needs no further pass.
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "pcl_bv/numeric/constants.h"
+#include "sphere/distance_scan.h"
+
+namespace pcl_bv::detail {
+namespace {
+
+// Number of points of a sample whose distances are compared to find how many points are near the surface.
+constexpr std::size_t kCompared = 2048;
+
+// Of n points, about 4 k are outside the ball of the sample of n / k points. About this number of times as many
+// can be outside the final ball (measured: surface and golf ball 10 to 20).
+constexpr double kListedPerOutside = 4;
+
+struct RunOfPositions {
+  std::size_t begin, count;
+};
+
+// Returns the positions of the points of the sample, as runs inside blocks.
+std::vector<RunOfPositions> sampled_positions(const PointView& points, std::size_t one_of) {
+  std::vector<RunOfPositions> runs;
+  const auto block_at = [&](std::size_t i) { return points.index(i) / kBlockPoints; };
+  for (std::size_t begin = 0, end; begin < points.count; begin = end) {
+    const std::size_t block = block_at(begin);
+    end = begin + 1;
+    if (points.indices == nullptr) {
+      end = std::min(points.count, (block + 1) * kBlockPoints - points.first);
+    } else {
+      while (end < points.count && block_at(end) == block)
+        ++end;
+    }
+    for (std::size_t at = begin; in_sample(block, one_of) && at < end; at += kBlockPoints)
+      runs.push_back({at, std::min(kBlockPoints, end - at)});
+  }
+  return runs;
+}
+
+double least_of(const OctantPoints& found) {
+  double least = kInfinity;
+  for (const FarPoint& p : found)
+    least = std::min(least, p.squared_distance);
+  return least;
+}
+
+}  // namespace
+
+void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
+  if (sample_one_of_ != query.one_of) {
+    sample_.clear();
+    for (const auto& [begin, count] : sampled_positions(points_, query.one_of))
+      sample_.emplace_back(points_, begin, count);
+    sample_one_of_ = query.one_of;
+  }
+  std::array<std::uint32_t, kBlockPoints> positions;
+  for (const LoadedPoints& part : sample_) {
+    const double limit = std::max(query.limit, least_of(found));
+    const std::size_t count =
+        list_distant(isa_, part.view(), query.center, limit, filter_, positions.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Coordinates p = load_point(part.view(), positions[i]);
+      update_farthest({squared_distance(p, query.center), part.view().index(positions[i]), p},
+                      found[octant(p, query.center)]);
+    }
+  }
+}
+
+// Returns a squared distance, at most `limit`, that is exceeded by those points which can be outside the final
+// ball, as far as the sample can tell. Sets `filter` to the faster one.
+double DistanceScan::near_surface(const DistanceCenter& center, double limit, FloatFilter& filter) const {
+  std::vector<double> distances;
+  distances.reserve(2 * kCompared);
+  const std::size_t step = std::max<std::size_t>(1, sample_.size() * kBlockPoints / kCompared);
+  for (const LoadedPoints& part : sample_) {
+    for (std::size_t i = 0; i < part.view().count; i += step) {
+      const double squared = squared_distance(load_point(part.view(), i), center);
+      if (squared <= limit) distances.push_back(squared);  // not NaN, and not outside
+    }
+  }
+  if (distances.empty()) return limit;
+  const double share = 4 * kListedPerOutside * static_cast<double>(sample_one_of_) /
+                       static_cast<double>(points_.count);
+  const auto listed = static_cast<std::size_t>(share * static_cast<double>(distances.size())) + 1;
+  const auto at = distances.begin() + std::min(listed, distances.size() - 1);
+  std::nth_element(distances.begin(), at, distances.end(), std::greater<>());
+  const double least = *at;
+  const auto unrejected = static_cast<std::size_t>(std::count_if(
+      distances.begin(), distances.end(), [&](double d) { return d >= least * (1 - 0x1p-17); }));
+  filter = unrejected > distances.size() / 16 ? FloatFilter::off : filter_;
+  return least;
+}
+
+// Scans all points and lists those near the surface. Returns false, and leaves `found` empty, without a sample.
+bool DistanceScan::scan_and_list(const DistanceCenter& center, double limit, OctantPoints& found) {
+  if (sample_one_of_ == 1) return false;
+  FloatFilter filter = filter_;
+  const double least = near_surface(center, limit, filter);
+  const std::size_t most = 64 + std::min(points_.count / 16, std::size_t{1} << 20);
+  shell_.clear();
+  std::mutex mutex;
+  std::atomic<bool> too_many = false;
+  visit_far_blocks(center, least, [&](std::size_t first, std::size_t count) {
+    const LoadedPoints part = blocks(first, count);
+    std::vector<FarPoint> listed;
+    OctantPoints best;
+    std::array<std::uint32_t, kBlockPoints> positions;
+    for (std::size_t b = 0; b < count; ++b) {
+      const PointView block = block_of(part.view(), b);
+      const double from = too_many ? std::max(limit, least_of(best)) : least;
+      const std::size_t far = list_distant(isa_, block, center, from, filter, positions.data());
+      for (std::size_t i = 0; i < far; ++i) {
+        const Coordinates p = load_point(block, positions[i]);
+        const FarPoint point{squared_distance(p, center), block.index(positions[i]), p};
+        if (!too_many) listed.push_back(point);
+        if (point.squared_distance >= limit) update_farthest(point, best[octant(p, center)]);
+      }
+    }
+    const std::lock_guard lock(mutex);
+    update_farthest(best, found);
+    shell_.insert(shell_.end(), listed.begin(), listed.end());
+    if (shell_.size() > most) too_many = true;
+  });
+  listed_ = !too_many;
+  shell_center_ = center;
+  shell_distance_ = std::sqrt(least);
+  return true;
+}
+
+}  // namespace pcl_bv::detail
