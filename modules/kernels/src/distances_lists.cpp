@@ -52,57 +52,60 @@ std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, co
   return count;
 }
 
-// The limits of a list, for the exact comparison and for the two that only reject.
-struct ListLimits {
-  ListLimits(const DistanceCenter& c, double limit)
-      : center(c), least(limit), fused(limit - std::abs(limit) * 0x1p-48 - 0x1p-1000), in_float(c, limit) {}
-  DistanceCenter center;
-  double least;
-  // A squared distance with fused operations differs from squared_distance() by at most 6 * 2^-53 of it, and by
-  // less than 2^-1000 if squares underflow.
-  double fused;
-  FloatRejection in_float;
-};
-
-// Returns whether no point of a packet can have a squared_distance() of at least the limit. Three of four
-// instructions of the loop over a surface are here, so it does not ask which points are valid.
-template <typename T, bool filtered, class D>
-HWY_INLINE bool all_near(D d, const ListLimits& limits, V<D> x, V<D> y, V<D> z) {
-  if constexpr (filtered) {
-    const auto squared = distances_in_float(d, limits.in_float.center, x, y, z);
-    if (hn::AllFalse(d, hn::Gt(squared, hn::Set(d, limits.in_float.limit)))) return true;
-  }
+// Returns whether no point of a run can have a squared_distance() of at least `limit`, decided in double with
+// fused operations. Returns false for a run that is not full. A fused distance differs from squared_distance()
+// by at most 6 * 2^-53 of it, and by less than 2^-1000 if squares underflow. NaN is ignored.
+template <Layout layout, typename T>
+HWY_INLINE bool all_near_in_double(const PointView& points, Run run, const DistanceCenter& center,
+                                   double limit) {
+  const Tag<T> d;
   const Tag<double> dd;
-  const auto least = hn::Set(dd, limits.fused);
-  auto far = hn::Gt(least, least);  // none
-#define PCL_BV_STEP(x, y, z)                                \
-  subtract<sizeof(T) == 8>(dd, limits.center, x, y, z);     \
-  far = hn::Or(far, hn::Ge(fused_squares(x, y, z), least));
-  PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
+  const std::size_t n = hn::Lanes(d);
+  if (run.end - run.begin != kBoundPoints * n) return false;
+  auto greatest = hn::Set(dd, -1.0), other = greatest;
+  for (std::size_t i = run.begin; i < run.end; i += n) {
+    V<decltype(d)> x, y, z;
+    load_packet<layout>(d, points, i, x, y, z);
+#define PCL_BV_STEP(x, y, z)                                          \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                      \
+  const auto next = max_or_keep(dd, fused_squares(x, y, z), other);   \
+  other = greatest;                                                   \
+  greatest = next;
+    PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
-  return hn::AllFalse(dd, far);
+  }
+  const auto least = hn::Set(dd, limit - std::abs(limit) * 0x1p-48 - 0x1p-1000);
+  return hn::AllFalse(dd, hn::Ge(hn::Max(greatest, other), least));
 }
 
 template <Layout layout, typename T, bool filtered>
-std::size_t list_of_run(const PointView& points, Run run, const ListLimits& limits, std::uint32_t* positions) {
+std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& center, double limit,
+                        const FloatRejection& in_float, std::uint32_t* positions) {
   const Tag<T> d;
   const Tag<double> dd;
-  const auto least = hn::Set(dd, limits.least);
+  const auto least = hn::Set(dd, limit);
   std::size_t count = 0;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
     load_packet_or_tail<layout>(d, points, i, x, y, z);
-    if (HWY_LIKELY((all_near<T, filtered>(d, limits, x, y, z)))) continue;
-    bool far[kGroupBytes / sizeof(T)] = {};
+    if constexpr (filtered) {
+      const auto squared = distances_in_float(d, in_float.center, x, y, z);
+      if (hn::AllFalse(d, hn::Gt(squared, hn::Set(d, in_float.limit)))) continue;
+    }
+    bool any = false, far[kGroupBytes / sizeof(T)] = {};
     bool* next = far;
-#define PCL_BV_STEP(x, y, z)                                                            \
-  const auto counts = valid_lanes(dd, x, y, z);                                         \
-  subtract<sizeof(T) == 8>(dd, limits.center, x, y, z);                                 \
-  store_mask(dd, hn::And(counts, hn::Ge(sum_of_squares(x, y, z), least)), next);        \
+#define PCL_BV_STEP(x, y, z)                                                    \
+  const auto px = x, py = y, pz = z;                                            \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                                \
+  auto is_far = hn::Ge(sum_of_squares(x, y, z), least);                         \
+  if (!hn::AllFalse(dd, is_far)) {                                              \
+    store_mask(dd, hn::And(is_far, valid_lanes(dd, px, py, pz)), next);         \
+    any = true;                                                                 \
+  }                                                                             \
   next += hn::Lanes(dd);
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
-    count = append_marked<layout>(d, far, points, i, positions, count);
+    if (any) count = append_marked<layout>(d, far, points, i, positions, count);
   }
   return count;
 }
@@ -111,19 +114,20 @@ template <Layout layout, typename T>
 std::size_t list_of(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
                     std::uint32_t* positions) {
   const Tag<T> d;
-  const ListLimits limits(center, limit);
+  const FloatRejection in_float(center, limit);
   std::size_t count = 0;
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
        run = run_at(d, run.end, points.count)) {
     if constexpr (sizeof(T) == 4) {
       if (filter == FloatFilter::reject) {
-        const auto greatest = greatest_in_float<layout>(d, points, run, limits.in_float.center);
-        if (!hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, limits.in_float.limit))))
-          count += list_of_run<layout, T, true>(points, run, limits, positions + count);
+        const auto greatest = greatest_in_float<layout>(d, points, run, in_float.center);
+        if (!hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, in_float.limit))))
+          count += list_of_run<layout, T, true>(points, run, center, limit, in_float, positions + count);
         continue;
       }
     }
-    count += list_of_run<layout, T, false>(points, run, limits, positions + count);
+    if (!all_near_in_double<layout, T>(points, run, center, limit))
+      count += list_of_run<layout, T, false>(points, run, center, limit, in_float, positions + count);
   }
   return count;
 }

@@ -13,13 +13,14 @@
 #include <vector>
 
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "sphere/distance_scan.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 // Number of points of a sample whose distances are compared to find how many points are near the surface.
-constexpr std::size_t kCompared = 2048;
+constexpr std::size_t kCompared = 4096;
 
 // Of n points, about 4 k are outside the ball of the sample of n / k points. About this number of times as many
 // can be outside the final ball (measured: surface and golf ball 10 to 20).
@@ -78,35 +79,40 @@ void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
 }
 
 // Returns a squared distance, at most `limit`, that is exceeded by those points which can be outside the final
-// ball, as far as the sample can tell. Sets `filter` to the faster one.
-double DistanceScan::near_surface(const DistanceCenter& center, double limit, FloatFilter& filter) const {
-  std::vector<double> distances;
-  distances.reserve(2 * kCompared);
-  const std::size_t step = std::max<std::size_t>(1, sample_.size() * kBlockPoints / kCompared);
-  for (const LoadedPoints& part : sample_) {
-    for (std::size_t i = 0; i < part.view().count; i += step) {
-      const double squared = squared_distance(load_point(part.view(), i), center);
-      if (squared <= limit) distances.push_back(squared);  // not NaN, and not outside
-    }
-  }
-  if (distances.empty()) return limit;
+// ball, as far as the sample can tell. Sets `crowded` to whether too many points are so near the surface that
+// float arithmetic cannot reject them.
+double DistanceScan::near_surface(const DistanceCenter& center, double limit, bool& crowded) const {
   const double share = 4 * kListedPerOutside * static_cast<double>(sample_one_of_) /
                        static_cast<double>(points_.count);
-  const auto listed = static_cast<std::size_t>(share * static_cast<double>(distances.size())) + 1;
-  const auto at = distances.begin() + std::min(listed, distances.size() - 1);
-  std::nth_element(distances.begin(), at, distances.end(), std::greater<>());
-  const double least = *at;
-  const auto unrejected = static_cast<std::size_t>(std::count_if(
-      distances.begin(), distances.end(), [&](double d) { return d >= least * (1 - 0x1p-17); }));
-  filter = unrejected > distances.size() / 16 ? FloatFilter::off : filter_;
-  return least;
+  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared), 0.0);  // a heap, the least first
+  std::size_t compared = 0, unrejected = 0;
+  const std::size_t step = std::max<std::size_t>(1, sample_.size() * kBlockPoints / kCompared);
+  for (const LoadedPoints& part : sample_) {
+    for (std::size_t i = 0; i < part.view().count; i += step, ++compared) {
+      const Coordinates p = load_point(part.view(), i);
+      const Coordinates q = {(p.x - center.x) * center.scale, (p.y - center.y) * center.scale,
+                             (p.z - center.z) * center.scale};
+      const double squared = dot3(q, q);
+      unrejected += squared >= limit * (1 - 0x1p-17);
+      if (!(squared > largest.front() && squared < limit)) continue;  // not NaN
+      std::pop_heap(largest.begin(), largest.end(), std::greater<>());
+      largest.back() = squared;
+      std::push_heap(largest.begin(), largest.end(), std::greater<>());
+    }
+    crowded = unrejected > compared / 16;
+    if (!crowded && has_bounds()) return limit;  // which scan_and_list() does not need
+  }
+  return largest.front() > 0 ? largest.front() : limit;
 }
 
-// Scans all points and lists those near the surface. Returns false, and leaves `found` empty, without a sample.
+// Scans all points and lists those near the surface. Returns false, and does nothing, without a sample, or if
+// scan_all() is faster because it can store bounds.
 bool DistanceScan::scan_and_list(const DistanceCenter& center, double limit, OctantPoints& found) {
   if (sample_one_of_ == 1) return false;
-  FloatFilter filter = filter_;
-  const double least = near_surface(center, limit, filter);
+  bool crowded = false;
+  const double least = near_surface(center, limit, crowded);
+  if (!crowded && has_bounds()) return false;
+  const FloatFilter filter = crowded ? FloatFilter::off : filter_;
   const std::size_t most = 64 + std::min(points_.count / 16, std::size_t{1} << 20);
   shell_.clear();
   std::mutex mutex;

@@ -203,10 +203,8 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 }
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
-  // The array is not initialised, because the kernel writes every bound. Points of a source get no bounds,
-  // because every scan has to load all points of a source. A device does without bounds.
-  if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr && !has_device())
-    bounds_.reset(new float[blocks_ * kBlockBounds]);
+  // The array is not initialised, because the kernel writes every bound.
+  if (!scanned_ && has_bounds()) bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
   scan_center_ = center;
   SharedOctants best;

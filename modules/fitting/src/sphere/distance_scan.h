@@ -7,7 +7,7 @@
 
 #include <array>
 #include <cstddef>
-#include <deque>
+#include <list>
 #include <memory>
 #include <vector>
 
@@ -70,8 +70,13 @@ class DistanceScan {
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
                   SharedOctants& best);
+  // Whether scan_all() stores bounds. It has none for points of a source, because every scan has to load all
+  // points of a source, and none with a device.
+  bool has_bounds() const {
+    return filter_ == FloatFilter::reject && points_.source == nullptr && !has_device();
+  }
   void scan_sample(const FarQuery& query, OctantPoints& found);
-  double near_surface(const DistanceCenter& center, double limit, FloatFilter& filter) const;
+  double near_surface(const DistanceCenter& center, double limit, bool& crowded) const;
   bool scan_and_list(const DistanceCenter& center, double limit, OctantPoints& found);
   bool list_shell(const DistanceCenter& center, double distance);
   void scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const;
@@ -87,7 +92,7 @@ class DistanceScan {
   DistanceCenter scan_center_;
   bool scanned_ = false;
 
-  std::deque<LoadedPoints> sample_;  // the runs of positions in the sample sample_one_of_, which is 1 if unset
+  std::list<LoadedPoints> sample_;  // the runs of positions in the sample sample_one_of_, which is 1 if unset
   std::size_t sample_one_of_ = 1;
 
   // If listed_: all points whose distance from shell_center_ is at least shell_distance_.
