@@ -53,8 +53,9 @@ std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, co
 }
 
 // Returns whether no point of a run can have a squared_distance() of at least `limit`, decided in double with
-// fused operations. Returns false for a run that is not full. A fused distance differs from squared_distance()
-// by at most 6 * 2^-53 of it, and by less than 2^-1000 if squares underflow. NaN is ignored.
+// fused operations. Returns false for a run that is not full. A fused distance differs from
+// squared_distance() by at most 6 * 2^-53 of it, and by less than 2^-1000 if squares underflow. NaN is
+// ignored.
 template <Layout layout, typename T>
 HWY_INLINE bool all_near_in_double(const PointView& points, Run run, const DistanceCenter& center,
                                    double limit) {
@@ -64,12 +65,13 @@ HWY_INLINE bool all_near_in_double(const PointView& points, Run run, const Dista
   if (run.end - run.begin != kBoundPoints * n) return false;
   auto greatest = hn::Set(dd, -1.0), other = greatest;
   for (std::size_t i = run.begin; i < run.end; i += n) {
+    prefetch_ahead<layout>(d, points, i);
     V<decltype(d)> x, y, z;
     load_packet<layout>(d, points, i, x, y, z);
-#define PCL_BV_STEP(x, y, z)                                          \
-  subtract<sizeof(T) == 8>(dd, center, x, y, z);                      \
-  const auto next = max_or_keep(dd, fused_squares(x, y, z), other);   \
-  other = greatest;                                                   \
+#define PCL_BV_STEP(x, y, z)                                        \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                    \
+  const auto next = max_or_keep(dd, fused_squares(x, y, z), other); \
+  other = greatest;                                                 \
   greatest = next;
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
@@ -92,20 +94,18 @@ std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& 
       const auto squared = distances_in_float(d, in_float.center, x, y, z);
       if (hn::AllFalse(d, hn::Gt(squared, hn::Set(d, in_float.limit)))) continue;
     }
-    bool any = false, far[kGroupBytes / sizeof(T)] = {};
-    bool* next = far;
-#define PCL_BV_STEP(x, y, z)                                                    \
-  const auto px = x, py = y, pz = z;                                            \
-  subtract<sizeof(T) == 8>(dd, center, x, y, z);                                \
-  auto is_far = hn::Ge(sum_of_squares(x, y, z), least);                         \
-  if (!hn::AllFalse(dd, is_far)) {                                              \
-    store_mask(dd, hn::And(is_far, valid_lanes(dd, px, py, pz)), next);         \
-    any = true;                                                                 \
-  }                                                                             \
-  next += hn::Lanes(dd);
+    std::uint64_t far = 0;
+    std::size_t lane = 0;
+#define PCL_BV_STEP(x, y, z)                                                       \
+  const auto px = x, py = y, pz = z;                                               \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                                   \
+  const auto is_far = hn::Ge(sum_of_squares(x, y, z), least);                      \
+  if (!hn::AllFalse(dd, is_far))                                                   \
+    far |= bits_of_mask(dd, hn::And(is_far, valid_lanes(dd, px, py, pz))) << lane; \
+  lane += hn::Lanes(dd);
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
-    if (any) count = append_marked<layout>(d, far, points, i, positions, count);
+    if (far != 0) count = append_marked<layout>(d, far, points, i, positions, count);
   }
   return count;
 }

@@ -165,14 +165,13 @@ Failure Attempt::fit() {
 // Returns whether all ranks have answered the query.
 bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& found) {
   OctantPoints own;
-  const Failure now =
-      run_and_catch([&] { answer_farthest(points_->view(), query, own, execution_); });
+  const Failure now = run_and_catch([&] { answer_farthest(points_->view(), query, own, execution_); });
   if (now) failure = now;
   return !ranks_.merge_farthest(own, now.has_value(), found);
 }
 
-// The first rank runs the solver and broadcasts the bytes of the solver's queries. Each rank answers a query for its own
-// points. An empty message ends the rounds.
+// The first rank runs the solver and broadcasts the bytes of the solver's queries. Each rank answers a query
+// for its own points. An empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
   Failure failure;
   OctantPoints found;

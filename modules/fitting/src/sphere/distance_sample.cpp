@@ -22,8 +22,8 @@ namespace {
 // Number of points of a sample whose distances are compared to find how many points are near the surface.
 constexpr std::size_t kCompared = 4096;
 
-// Of n points, about 4 k are outside the ball of the sample of n / k points. About this number of times as many
-// can be outside the final ball (measured: surface and golf ball 10 to 20).
+// Of n points, about 4 k are outside the ball of the sample of n / k points. About this number of times as
+// many can be outside the final ball (measured: surface and golf ball 10 to 20).
 constexpr double kListedPerOutside = 4;
 
 struct RunOfPositions {
@@ -68,8 +68,7 @@ void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
   std::array<std::uint32_t, kBlockPoints> positions;
   for (const LoadedPoints& part : sample_) {
     const double limit = std::max(query.limit, least_of(found));
-    const std::size_t count =
-        list_distant(isa_, part.view(), query.center, limit, filter_, positions.data());
+    const std::size_t count = list_distant(isa_, part.view(), query.center, limit, filter_, positions.data());
     for (std::size_t i = 0; i < count; ++i) {
       const Coordinates p = load_point(part.view(), positions[i]);
       update_farthest({squared_distance(p, query.center), part.view().index(positions[i]), p},
@@ -78,13 +77,14 @@ void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
   }
 }
 
-// Returns a squared distance, at most `limit`, that is exceeded by those points which can be outside the final
-// ball, as far as the sample can tell. Sets `crowded` to whether too many points are so near the surface that
-// float arithmetic cannot reject them.
+// Returns a squared distance, at most `limit`, that is exceeded by those points which can be outside the
+// final ball, as far as the sample can tell. Sets `crowded` to whether too many points are so near the
+// surface that float arithmetic cannot reject them.
 double DistanceScan::near_surface(const DistanceCenter& center, double limit, bool& crowded) const {
-  const double share = 4 * kListedPerOutside * static_cast<double>(sample_one_of_) /
-                       static_cast<double>(points_.count);
-  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared), 0.0);  // a heap, the least first
+  const double share =
+      4 * kListedPerOutside * static_cast<double>(sample_one_of_) / static_cast<double>(points_.count);
+  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared),
+                              0.0);  // a heap, the least first
   std::size_t compared = 0, unrejected = 0;
   const std::size_t step = std::max<std::size_t>(1, sample_.size() * kBlockPoints / kCompared);
   for (const LoadedPoints& part : sample_) {

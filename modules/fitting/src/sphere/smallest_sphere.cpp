@@ -3,8 +3,8 @@
 
 // The orthant scan (Larsson, Capannini, Källberg 2016) computes the exact ball of a few points, scans all
 // points, and adds the farthest outside point in each octant to the few points. It repeats this until no
-// point is outside. First it does so with a sample of the points: of a ball around s of n points, about 4 n / s
-// points are outside (Clarkson 1995), so one pass over all points is usually enough.
+// point is outside. First it does so with a sample of the points: of a ball around s of n points, about 4 n /
+// s points are outside (Clarkson 1995), so one pass over all points is usually enough.
 
 #include "pcl_bv/fitting/smallest_sphere.h"
 

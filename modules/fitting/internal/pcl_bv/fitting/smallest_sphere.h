@@ -38,8 +38,8 @@ void update_farthest(const OctantPoints& other, OctantPoints& best);
 /// too small for a sample. `points` is the number of valid points of the whole cloud.
 std::size_t blocks_per_sampled(std::size_t points);
 
-/// Returns whether the sample has the points with these indices: kBlockPoints * block and the indices after it,
-/// kBlockPoints in all. If `one_of` is 1, the sample has all points.
+/// Returns whether the sample has the points with these indices: kBlockPoints * block and the indices after
+/// it, kBlockPoints in all. If `one_of` is 1, the sample has all points.
 bool in_sample(std::size_t block, std::size_t one_of);
 
 /// A question about the points of a sample.
@@ -73,5 +73,5 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
                                                          const FarthestQuery& farthest,
                                                          const Execution& execution = {});
 
-}  // namespace detail
+}  // namespacedetail
 }  // namespace pcl_bv
