@@ -84,6 +84,7 @@ class Attempt {
   std::vector<const Method*> methods_;
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
+  std::optional<FarthestFinder> farthest_;  // of points_
   // Before merge(), the partial result of this rank's points. After merge(), the first rank has the partial
   // result of all points. With --check, all ranks have it.
   PartialFile merged_;
@@ -165,7 +166,7 @@ Failure Attempt::fit() {
 // Returns whether all ranks have answered the query.
 bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& found) {
   OctantPoints own;
-  const Failure now = run_and_catch([&] { answer_farthest(points_->view(), query, own, execution_); });
+  const Failure now = run_and_catch([&] { (*farthest_)(query, own); });
   if (now) failure = now;
   return !ranks_.merge_farthest(own, now.has_value(), found);
 }
@@ -173,6 +174,7 @@ bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& f
 // The first rank runs the solver and broadcasts the bytes of the solver's queries. Each rank answers a query
 // for its own points. An empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
+  if (!farthest_) farthest_.emplace(points_->view(), execution_);
   Failure failure;
   OctantPoints found;
   if (ranks_.first()) {

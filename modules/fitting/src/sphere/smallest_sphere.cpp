@@ -107,11 +107,17 @@ bool in_sample(std::size_t block, std::size_t one_of) {
   return (block * 0x9E3779B97F4A7C15U >> 32) % one_of == 0;
 }
 
-bool answer_farthest(const PointView& points, const FarQuery& query, OctantPoints& found,
-                     const Execution& execution) {
+FarthestFinder::FarthestFinder(const PointView& points, const Execution& execution) {
+  if (points.indices != nullptr) throw std::invalid_argument("FarthestFinder: the view has an index list");
+  scan_ = std::make_unique<DistanceScan>(points, execution);
+}
+
+FarthestFinder::~FarthestFinder() = default;
+FarthestFinder::FarthestFinder(FarthestFinder&&) noexcept = default;
+
+bool FarthestFinder::operator()(const FarQuery& query, OctantPoints& found) {
   const FloatEnvironment environment;
-  if (points.indices != nullptr) throw std::invalid_argument("answer_farthest: the view has an index list");
-  return DistanceScan(points, execution).farthest(query, found);
+  return scan_->farthest(query, found);
 }
 
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,

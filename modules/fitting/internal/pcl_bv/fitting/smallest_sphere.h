@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/partial.h"
@@ -17,6 +18,8 @@
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
+
+class DistanceScan;
 
 /// A point outside a sphere. If squared_distance < 0, there is no such point.
 struct FarPoint {
@@ -53,10 +56,23 @@ struct FarQuery {
 /// sample with a squared distance of at least FarQuery::limit. Returns whether there is any such point.
 using FarthestQuery = std::function<bool(const FarQuery& query, OctantPoints& found)>;
 
-/// Answers a FarthestQuery for the points of a view. The indices are those of PointView::index(). Takes one
-/// pass over the points of the sample. Throws std::invalid_argument for a view with an index list.
-bool answer_farthest(const PointView& points, const FarQuery& query, OctantPoints& found,
-                     const Execution& execution = {});
+/// Answers queries for the points of a view. The indices are those of PointView::index(). Keeps the points of the
+/// sample and those near the surface. So usually one query takes a pass over the sample, and one takes a pass
+/// over all points.
+class FarthestFinder {
+ public:
+  /// Copies the view and the execution, not the points. Throws std::invalid_argument for a view with an index
+  /// list.
+  explicit FarthestFinder(const PointView& points, const Execution& execution = {});
+  ~FarthestFinder();
+  FarthestFinder(FarthestFinder&&) noexcept;
+
+  /// Answers as FarthestQuery does. Exceptions of the points' source are passed on.
+  bool operator()(const FarQuery& query, OctantPoints& found);
+
+ private:
+  std::unique_ptr<DistanceScan> scan_;
+};
 
 /// Computes the smallest sphere of a cloud from the cloud's supports and a query for its points. Throws
 /// std::invalid_argument unless `supports` has the set dop26 and SupportDetail::points. The result has the
