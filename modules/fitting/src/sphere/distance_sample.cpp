@@ -22,9 +22,9 @@ namespace {
 // Number of points of a sample whose distances are compared to find how many points are near the surface.
 constexpr std::size_t kCompared = 4096;
 
-// Of n points, about 4 k are outside the ball of the sample of n / k points. About this number of times as
-// many can be outside the final ball (measured: surface and golf ball 10 to 20).
-constexpr double kListedPerOutside = 4;
+// Of n points, about 4 k are outside the ball of a sample of n / k points, and fewer than these can be
+// outside a later ball. So a list of about 16 k points usually has all of them.
+constexpr double kListed = 16;
 
 struct RunOfPositions {
   std::size_t begin, count;
@@ -81,10 +81,8 @@ void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
 // final ball, as far as the sample can tell. Sets `crowded` to whether too many points are so near the
 // surface that float arithmetic cannot reject them.
 double DistanceScan::near_surface(const DistanceCenter& center, double limit, bool& crowded) const {
-  const double share =
-      4 * kListedPerOutside * static_cast<double>(sample_one_of_) / static_cast<double>(points_.count);
-  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared),
-                              0.0);  // a heap, the least first
+  const double share = kListed * static_cast<double>(sample_one_of_) / static_cast<double>(points_.count);
+  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared), 0.0);  // heap, the least first
   std::size_t compared = 0, unrejected = 0;
   const std::size_t step = std::max<std::size_t>(1, sample_.size() * kBlockPoints / kCompared);
   for (const LoadedPoints& part : sample_) {

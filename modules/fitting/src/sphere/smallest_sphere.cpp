@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "pcl_bv/numeric/directed.h"
@@ -102,9 +103,9 @@ std::size_t blocks_per_sampled(std::size_t points) {
 }
 
 bool in_sample(std::size_t block, std::size_t one_of) {
-  // The fractional parts of the multiples of the golden ratio are spread evenly, and not in the period of the
-  // rows of an organised cloud.
-  return (block * 0x9E3779B97F4A7C15U >> 32) % one_of == 0;
+  // The fractional parts of the multiples of the golden ratio are spread evenly, also those of every second
+  // or every hundredth block, for example at the same place in each row of an organised cloud.
+  return std::uint64_t{block} * 0x9E3779B97F4A7C15U <= ~std::uint64_t{0} / one_of;
 }
 
 FarthestFinder::FarthestFinder(const PointView& points, const Execution& execution) {
