@@ -50,6 +50,10 @@ bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   return added;
 }
 
+bool outside_everywhere(const OctantPoints& found) {
+  return std::all_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
+}
+
 Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints candidates,
              std::size_t one_of, SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
@@ -66,7 +70,8 @@ Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints 
     // Each pass adds a point or is the last one of the sample or of all points, so the loop ends.
     const bool added = outside && add_candidates(found, candidates);
     if (one_of > 1) {
-      if (!added) one_of = 1;
+      // If points are outside in every octant, another pass over the sample is worth its time.
+      if (!added || !outside_everywhere(found)) one_of = 1;
       continue;
     }
     double distance = limit;
