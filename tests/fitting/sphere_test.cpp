@@ -205,6 +205,29 @@ TEST(SmallestSphere, StartsWithASampleOfLargeClouds) {
   }
 }
 
+TEST(FarthestFinder, AnswersAnySequenceOfQueries) {
+  const FloatEnvironment environment;
+  const TestCloud<float> cloud = points_of("surface", 40'000);
+  FarthestFinder find(cloud.view());
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(trial);
+    const double step = trial % 10 == 9 ? 1e-2 : 2e-8;
+    const double radius = 1 + step * uniform(random) + 3e-8;
+    const FarQuery query{{step * uniform(random), step * uniform(random), step * uniform(random), 1},
+                         radius * radius,
+                         trial % 10 == 0 ? 16U : 1U};
+    OctantPoints found;
+    find(query, found);
+    const OctantPoints expected = farthest_by_definition(cloud.view(), query);
+    for (std::size_t o = 0; o < 8; ++o) {
+      EXPECT_EQ(found[o].squared_distance, expected[o].squared_distance);
+      EXPECT_EQ(found[o].index, expected[o].index);
+    }
+  }
+}
+
 TEST(SmallestSphere, HasTheSameBitsForPointsOfASource) {
   for (const char* shape : {"gauss", "surface", "corners"}) {
     SCOPED_TRACE(shape);

@@ -56,9 +56,9 @@ struct FarQuery {
 /// sample with a squared distance of at least FarQuery::limit. Returns whether there is any such point.
 using FarthestQuery = std::function<bool(const FarQuery& query, OctantPoints& found)>;
 
-/// Answers queries for the points of a view. The indices are those of PointView::index(). Keeps the points of the
-/// sample and those near the surface. So usually one query takes a pass over the sample, and one takes a pass
-/// over all points.
+/// Answers queries for the points of a view. The indices are those of PointView::index(). Keeps the points of
+/// the sample and those near the surface. So usually one query takes a pass over the sample, and one takes a
+/// pass over all points.
 class FarthestFinder {
  public:
   /// Copies the view and the execution, not the points. Throws std::invalid_argument for a view with an index
