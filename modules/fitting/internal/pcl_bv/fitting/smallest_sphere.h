@@ -89,5 +89,5 @@ Certified<Sphere, SphereCertificate> fit_smallest_sphere(const Partial& partial,
                                                          const FarthestQuery& farthest,
                                                          const Execution& execution = {});
 
-}  // namespacedetail
+}  // namespace detail
 }  // namespace pcl_bv
