@@ -172,12 +172,13 @@ TYPED_TEST(Partials, FindTheSmallestSphereOfTheWholeByAskingTheParts) {
     for (const PointView& part : parts)
       merged.merge(Partial(part));
     int questions = 0;
-    const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& found) {
+    std::vector<FarthestFinder> answers(std::begin(parts), std::end(parts));
+    const auto ask = [&](const FarQuery& query, OctantPoints& found) {
       found = {};
       ++questions;
-      for (const PointView& part : parts) {
+      for (FarthestFinder& part : answers) {
         OctantPoints own;
-        answer_farthest(part, center, limit, own);
+        part(query, own);
         update_farthest(own, found);
       }
       return std::any_of(found.begin(), found.end(),
@@ -194,12 +195,10 @@ TYPED_TEST(Partials, FindTheSmallestSphereOfTheWholeByAskingTheParts) {
   }
 }
 
-TEST(FarthestQuery, RefusesAnIndexList) {
+TEST(FarthestFinder, RefusesAnIndexList) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 15);
   const std::int32_t indices[] = {1, 2};
-  OctantPoints found;
-  EXPECT_THROW(answer_farthest(PointView::of(cloud.xyz.data(), 12, 2, indices), {}, 0, found),
-               std::invalid_argument);
+  EXPECT_THROW(FarthestFinder(PointView::of(cloud.xyz.data(), 12, 2, indices)), std::invalid_argument);
 }
 
 TYPED_TEST(Partials, HaveTheSameBytesWhateverTheOrderOfMerging) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -20,6 +21,7 @@
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "sources.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -57,6 +59,7 @@ TestCloud<float> points_of(const char* shape, std::size_t n, double offset = 0) 
     if (name == "surface") p.normalize();
     if (name == "hemisphere") p = p.normalized().cwiseProduct(Eigen::Vector3d(1, 1, p.z() < 0 ? -1 : 1));
     if (name == "circle") p = Eigen::Vector3d(p.x(), p.y(), 0).normalized();
+    if (name == "corners") p = p.unaryExpr([](double v) { return v < 0 ? -1.0 : 1.0; });
     if (name == "line") p = Eigen::Vector3d(1, 2, -3) * p.x();
     if (name == "two clusters") p = p.normalized() * 1e-3 + Eigen::Vector3d(i % 2 == 0 ? 1 : -1, 0, 0);
     for (int axis = 0; axis < 3; ++axis)
@@ -137,10 +140,12 @@ TEST(SmallestSphere, OfOnePointIsCertifiedByItWithoutAPass) {
 }
 
 // The definition of FarthestQuery, for a part of a cloud.
-OctantPoints farthest_by_definition(const PointView& part, const DistanceCenter& center, double limit) {
+OctantPoints farthest_by_definition(const PointView& part, const FarQuery& query) {
+  const auto& [center, limit, one_of] = query;
   OctantPoints found;
   for (std::size_t i = 0; i < part.count; ++i) {
     const Coordinates p = load_point(part, i);
+    if (!in_sample(part.index(i) / kBlockPoints, one_of)) continue;
     if (!is_valid(p) || !(squared_distance(p, center) >= limit)) continue;
     FarPoint& best = found[octant(p, center)];
     const FarPoint candidate{squared_distance(p, center), part.index(i), p};
@@ -155,11 +160,11 @@ void expect_same_from_two_halves(const TestCloud<T>& cloud) {
   const PointView points = cloud.view();
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, {});
   int questions = 0;
-  const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& found) {
+  const auto ask = [&](const FarQuery& query, OctantPoints& found) {
     ++questions;
     const std::size_t half = points.count / 2;
-    found = farthest_by_definition(points.slice(half, points.count - half), center, limit);
-    update_farthest(farthest_by_definition(points.slice(0, half), center, limit), found);
+    found = farthest_by_definition(points.slice(half, points.count - half), query);
+    update_farthest(farthest_by_definition(points.slice(0, half), query), found);
     return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
   };
   Sphere expected;
@@ -176,13 +181,74 @@ TEST(SmallestSphere, HasTheSameBitsWhoeverAnswersForThePoints) {
     expect_same_from_two_halves(cloud);
   for (const TestCloud<double>& cloud : test::nasty_clouds<double>())
     expect_same_from_two_halves(cloud);
-  for (const char* shape : {"ball", "surface", "hemisphere"})
-    expect_same_from_two_halves(points_of(shape, 5000));
+  for (const char* shape : {"ball", "surface", "hemisphere", "corners"}) {
+    for (const std::size_t n : {5000, 40000})  // without and with a sample
+      expect_same_from_two_halves(points_of(shape, n));
+  }
+}
+
+TEST(SmallestSphere, StartsWithASampleOfLargeClouds) {
+  EXPECT_EQ(blocks_per_sampled(32 * kBlockPoints - 1), 1U);
+  EXPECT_EQ(blocks_per_sampled(32 * kBlockPoints), 16U);
+  EXPECT_EQ(blocks_per_sampled(1'000'000), 64U);
+  for (const std::size_t one_of : {1, 16, 64, 1024}) {
+    SCOPED_TRACE(one_of);
+    // In any 16 rows of blocks, whatever their length.
+    for (const std::size_t period : {1, 2, 16, 64, 100}) {
+      std::size_t sampled = 0;
+      for (std::size_t row = 0; row < 16 * one_of; ++row)
+        sampled += in_sample(row * period, one_of);
+      EXPECT_NEAR(static_cast<double>(sampled), 16, 8) << "period " << period;
+    }
+    for (std::size_t block = 0; block < 10'000; ++block)
+      EXPECT_TRUE(!in_sample(block, 2 * one_of) || in_sample(block, one_of));
+  }
+}
+
+TEST(FarthestFinder, AnswersAnySequenceOfQueries) {
+  const FloatEnvironment environment;
+  const TestCloud<float> cloud = points_of("surface", 40'000);
+  FarthestFinder find(cloud.view());
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(trial);
+    const double step = trial % 10 == 9 ? 1e-2 : 2e-8;
+    const double radius = 1 + step * uniform(random) + 3e-8;
+    const FarQuery query{{step * uniform(random), step * uniform(random), step * uniform(random), 1},
+                         radius * radius,
+                         trial % 10 == 0 ? 16U : 1U};
+    OctantPoints found;
+    find(query, found);
+    const OctantPoints expected = farthest_by_definition(cloud.view(), query);
+    for (std::size_t o = 0; o < 8; ++o) {
+      EXPECT_EQ(found[o].squared_distance, expected[o].squared_distance);
+      EXPECT_EQ(found[o].index, expected[o].index);
+    }
+  }
+}
+
+TEST(SmallestSphere, HasTheSameBitsForPointsOfASource) {
+  for (const char* shape : {"gauss", "surface", "corners"}) {
+    SCOPED_TRACE(shape);
+    TestCloud<float> cloud = points_of(shape, 150'000);
+    for (const std::size_t i : {0, 1024, 70'000})
+      cloud.xyz[3 * i] = std::numeric_limits<float>::quiet_NaN();
+    cloud.xyz[3 * 99'999 + 1] = std::numeric_limits<float>::infinity();
+    const test::CopyingSource<float> source(cloud);
+    const auto expected = pcl_bv::fit_smallest_sphere(cloud.view());
+    const auto sphere = pcl_bv::fit_smallest_sphere(source.view());
+    expect_equal(*sphere, *expected);
+    EXPECT_EQ(sphere.dropped, 4U);
+    EXPECT_EQ(sphere.certificate.passes, expected.certificate.passes);
+    // The pass for the supports, the one for the sample, and one or two over all points.
+    EXPECT_LE(source.loads, 3 * chunk_count(cloud.size()) + 10);
+  }
 }
 
 TEST(SmallestSphere, RefusesSupportsThatSayTooLittle) {
   const TestCloud<float> cloud = test::gaussian<float>(100, 1);
-  const auto ask = [](const DistanceCenter&, double, OctantPoints&) { return false; };
+  const auto ask = [](const FarQuery&, OctantPoints&) { return false; };
   SphereCertificate certificate;
   for (const DirectionSet set : {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18}) {
     const Supports supports = find_supports(cloud.view(), set, SupportDetail::points, {});
@@ -223,7 +289,7 @@ TEST(SmallestSphere, HasTheSameBitsForEveryExecutionOnLargeClouds) {
 }
 
 TEST(SmallestSphere, DoesNotDependOnTheOrderOfAnIndexList) {
-  const TestCloud<float> cloud = points_of("ball", 20'000);
+  const TestCloud<float> cloud = points_of("ball", 40'000);
   std::vector<std::int32_t> indices(cloud.size());
   std::iota(indices.begin(), indices.end(), 0);
   PointView view = cloud.view();

@@ -55,6 +55,12 @@ HWY_INLINE V_ sum_of_squares(V_ x, V_ y, V_ z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
+// Same as sum_of_squares(), but with other roundings on instruction sets that fuse. It may only reject.
+template <class V_>
+HWY_INLINE V_ fused_squares(V_ x, V_ y, V_ z) {
+  return hn::MulAdd(z, z, hn::MulAdd(y, y, hn::Mul(x, x)));
+}
+
 // Applies STEP(x, y, z) to a packet's coordinates in double. A packet of doubles takes one step; a packet of
 // floats takes one step for each half.
 #define PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, STEP)                 \

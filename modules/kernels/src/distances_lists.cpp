@@ -4,6 +4,8 @@
 // Lists the points outside a sphere, for step UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson
 // 2010, Figure 3).
 
+#include <cmath>
+
 #include "distance_squared.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
@@ -50,9 +52,37 @@ std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, co
   return count;
 }
 
+// Returns whether no point of a run can have a squared_distance() of at least `limit`, decided in double with
+// fused operations. Returns false for a run that is not full. A fused distance differs from
+// squared_distance() by at most 6 * 2^-53 of it, and by less than 2^-1000 if squares underflow. NaN is
+// ignored.
 template <Layout layout, typename T>
+HWY_INLINE bool all_near_in_double(const PointView& points, Run run, const DistanceCenter& center,
+                                   double limit) {
+  const Tag<T> d;
+  const Tag<double> dd;
+  const std::size_t n = hn::Lanes(d);
+  if (run.end - run.begin != kBoundPoints * n) return false;
+  auto greatest = hn::Set(dd, -1.0), other = greatest;
+  for (std::size_t i = run.begin; i < run.end; i += n) {
+    prefetch_ahead<layout>(d, points, i);
+    V<decltype(d)> x, y, z;
+    load_packet<layout>(d, points, i, x, y, z);
+#define PCL_BV_STEP(x, y, z)                                        \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                    \
+  const auto next = max_or_keep(dd, fused_squares(x, y, z), other); \
+  other = greatest;                                                 \
+  greatest = next;
+    PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
+#undef PCL_BV_STEP
+  }
+  const auto least = hn::Set(dd, limit - std::abs(limit) * 0x1p-48 - 0x1p-1000);
+  return hn::AllFalse(dd, hn::Ge(hn::Max(greatest, other), least));
+}
+
+template <Layout layout, typename T, bool filtered>
 std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& center, double limit,
-                        std::uint32_t* positions) {
+                        const FloatRejection& in_float, std::uint32_t* positions) {
   const Tag<T> d;
   const Tag<double> dd;
   const auto least = hn::Set(dd, limit);
@@ -60,20 +90,22 @@ std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& 
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
     load_packet_or_tail<layout>(d, points, i, x, y, z);
-    bool any = false, far[kGroupBytes / sizeof(T)] = {};
-    bool* next = far;
-#define PCL_BV_STEP(x, y, z)                                                   \
-  const auto counts = valid_lanes(dd, x, y, z);                                \
-  subtract<sizeof(T) == 8>(dd, center, x, y, z);                               \
-  const auto is_far = hn::And(counts, hn::Ge(sum_of_squares(x, y, z), least)); \
-  if (!hn::AllFalse(dd, is_far)) {                                             \
-    store_mask(dd, is_far, next);                                              \
-    any = true;                                                                \
-  }                                                                            \
-  next += hn::Lanes(dd);
+    if constexpr (filtered) {
+      const auto squared = distances_in_float(d, in_float.center, x, y, z);
+      if (hn::AllFalse(d, hn::Gt(squared, hn::Set(d, in_float.limit)))) continue;
+    }
+    std::uint64_t far = 0;
+    std::size_t lane = 0;
+#define PCL_BV_STEP(x, y, z)                                                       \
+  const auto px = x, py = y, pz = z;                                               \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                                   \
+  const auto is_far = hn::Ge(sum_of_squares(x, y, z), least);                      \
+  if (!hn::AllFalse(dd, is_far))                                                   \
+    far |= bits_of_mask(dd, hn::And(is_far, valid_lanes(dd, px, py, pz))) << lane; \
+  lane += hn::Lanes(dd);
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
-    if (any) count = append_marked<layout>(d, far, points, i, positions, count);
+    if (far != 0) count = append_marked<layout>(d, far, points, i, positions, count);
   }
   return count;
 }
@@ -87,13 +119,15 @@ std::size_t list_of(const PointView& points, const DistanceCenter& center, doubl
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
        run = run_at(d, run.end, points.count)) {
     if constexpr (sizeof(T) == 4) {
-      if (filter == FloatFilter::reject &&
-          hn::AllFalse(d, hn::Gt(greatest_in_float<layout>(d, points, run, in_float.center),
-                                 hn::Set(d, in_float.limit)))) {
+      if (filter == FloatFilter::reject) {
+        const auto greatest = greatest_in_float<layout>(d, points, run, in_float.center);
+        if (!hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, in_float.limit))))
+          count += list_of_run<layout, T, true>(points, run, center, limit, in_float, positions + count);
         continue;
       }
     }
-    count += list_of_run<layout, T>(points, run, center, limit, positions + count);
+    if (!all_near_in_double<layout, T>(points, run, center, limit))
+      count += list_of_run<layout, T, false>(points, run, center, limit, in_float, positions + count);
   }
   return count;
 }

@@ -63,9 +63,7 @@ std::size_t list_of(const PointView& points, const HalfSpaces& inside, std::uint
     load_packet_or_tail<layout>(d, points, i, x, y, z);
     const auto in = inside_lanes<T>(d, inside, planes, hn::Sub(x, cx), hn::Sub(y, cy), hn::Sub(z, cz));
     if (HWY_LIKELY(hn::AllTrue(d, in))) continue;
-    bool out[kGroupBytes / sizeof(T)];
-    store_mask(d, hn::Not(in), out);
-    count = append_marked<layout>(d, out, points, i, positions, count);
+    count = append_marked<layout>(d, bits_of_mask(d, hn::Not(in)), points, i, positions, count);
   }
   return count;
 }

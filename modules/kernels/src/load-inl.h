@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <limits>
 
 #include "pcl_bv/points/point_view.h"
@@ -291,22 +292,6 @@ HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t fi
   load_padded(d, points, first, points.count - first, pad, x, y, z);
 }
 
-/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail().
-/// `positions` has `count` entries before the call. Returns the number of entries after the call.
-template <Layout layout, class D>
-std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
-                          std::uint32_t* positions, std::size_t count) {
-  const std::size_t lanes = hn::Lanes(d), left = points.count - first;
-  bool by_point[kGroupBytes / sizeof(hn::TFromD<D>)];
-  for (std::size_t lane = 0; lane < lanes; ++lane)
-    by_point[lanes <= left ? point_of_lane<layout>(lane, lanes) : lane] = marked[lane];
-  for (std::size_t k = 0; k < HWY_MIN(lanes, left); ++k) {
-    positions[count] = static_cast<std::uint32_t>(first + k);
-    count += by_point[k];
-  }
-  return count;
-}
-
 /// Returns a mask as bits; lane 0 is the lowest bit.
 template <class D>
 HWY_INLINE std::uint64_t bits_of_mask(D d, hn::Mask<D> mask) {
@@ -318,12 +303,23 @@ HWY_INLINE std::uint64_t bits_of_mask(D d, hn::Mask<D> mask) {
   return bits;
 }
 
-/// Stores a mask as booleans.
-template <class D>
-HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
-  const std::uint64_t bits = bits_of_mask(d, mask);
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
-    marked[lane] = (bits >> lane & 1) != 0;
+/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail(). The
+/// lowest bit of `marked` is lane 0. `positions` has `count` entries before the call. Returns the number of
+/// entries after the call.
+template <Layout layout, class D>
+std::size_t append_marked(D d, std::uint64_t marked, const PointView& points, std::size_t first,
+                          std::uint32_t* positions, std::size_t count) {
+  const std::size_t lanes = hn::Lanes(d), left = points.count - first;
+  std::uint64_t by_point = 0;
+  for (std::uint64_t bits = marked; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    by_point |= std::uint64_t{1} << (lanes <= left ? point_of_lane<layout>(lane, lanes) : lane);
+  }
+  if (left < lanes) by_point &= (std::uint64_t{1} << left) - 1;
+  for (; by_point != 0; by_point &= by_point - 1)
+    positions[count++] =
+        static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(by_point));
+  return count;
 }
 
 /// Loads the packet from `first` on and subtracts the centre. If `masked`, the centre replaces invalid points

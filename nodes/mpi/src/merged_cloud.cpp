@@ -26,12 +26,6 @@ namespace {
 
 using Failure = std::optional<TileFailure>;
 
-// A query of the smallest-sphere solver (FarthestQuery), sent as bytes.
-struct QueryMessage {
-  DistanceCenter center;
-  double limit;
-};
-
 // Thrown to end the solver when a rank cannot read its points.
 struct QueryFailed {};
 
@@ -74,7 +68,7 @@ class Attempt {
   Failure fit();
   Failure fit_in_rounds(Fitted<AnyVolume>& fitted);
   Failure check();
-  bool run_query(const QueryMessage& query, Failure& failure, OctantPoints& found);
+  bool run_query(const FarQuery& query, Failure& failure, OctantPoints& found);
 
   /// Returns the rank that fits the method to all points, or nothing if the method does not need all points.
   std::optional<std::size_t> owner(std::size_t method) const {
@@ -90,6 +84,7 @@ class Attempt {
   std::vector<const Method*> methods_;
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
+  std::optional<FarthestFinder> farthest_;  // of points_
   // Before merge(), the partial result of this rank's points. After merge(), the first rank has the partial
   // result of all points. With --check, all ranks have it.
   PartialFile merged_;
@@ -169,22 +164,21 @@ Failure Attempt::fit() {
 }
 
 // Returns whether all ranks have answered the query.
-bool Attempt::run_query(const QueryMessage& query, Failure& failure, OctantPoints& found) {
+bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& found) {
   OctantPoints own;
-  const Failure now =
-      run_and_catch([&] { answer_farthest(points_->view(), query.center, query.limit, own, execution_); });
+  const Failure now = run_and_catch([&] { (*farthest_)(query, own); });
   if (now) failure = now;
   return !ranks_.merge_farthest(own, now.has_value(), found);
 }
 
-// The first rank runs the solver and broadcasts the solver's queries. Each rank answers a query for its own
-// points. An empty message ends the rounds.
+// The first rank runs the solver and broadcasts the bytes of the solver's queries. Each rank answers a query
+// for its own points. An empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
+  if (!farthest_) farthest_.emplace(points_->view(), execution_);
   Failure failure;
   OctantPoints found;
   if (ranks_.first()) {
-    const auto query_all_ranks = [&](const DistanceCenter& center, double limit, OctantPoints& farthest) {
-      const QueryMessage query{center, limit};
+    const auto query_all_ranks = [&](const FarQuery& query, OctantPoints& farthest) {
       ranks_.broadcast(std::string(reinterpret_cast<const char*>(&query), sizeof query));
       if (!run_query(query, failure, farthest)) throw QueryFailed();
       return std::any_of(farthest.begin(), farthest.end(),
@@ -201,7 +195,7 @@ Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
     ranks_.broadcast("");
   } else {
     for (std::string bytes = ranks_.broadcast(""); !bytes.empty(); bytes = ranks_.broadcast("")) {
-      QueryMessage query;
+      FarQuery query;
       std::memcpy(&query, bytes.data(), sizeof query);
       run_query(query, failure, found);
     }

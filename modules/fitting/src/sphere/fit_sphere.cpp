@@ -113,8 +113,8 @@ EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, Sp
                                      const FitExecution& execution) {
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   DistanceScan scan(points, execution);
-  const auto farthest = [&scan](const DistanceCenter& center, double limit, OctantPoints& found) {
-    return scan.farthest(center, limit, found);
+  const auto farthest = [&scan](const FarQuery& query, OctantPoints& found) {
+    return scan.farthest(query, found);
   };
   sphere = smallest_sphere(supports, std::cref(farthest), certificate);
   return result_of(supports);

@@ -3,12 +3,14 @@
 
 // The orthant scan (Larsson, Capannini, Källberg 2016) computes the exact ball of a few points, scans all
 // points, and adds the farthest outside point in each octant to the few points. It repeats this until no
-// point is outside.
+// point is outside. First it does so with a sample of the points: of a ball around s of n points, about 4 n /
+// s points are outside (Clarkson 1995), so one pass over all points is usually enough.
 
 #include "pcl_bv/fitting/smallest_sphere.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "pcl_bv/numeric/directed.h"
@@ -23,6 +25,9 @@ namespace {
 // this factor. Half of the margin is for the rounding of distances, the other half for the rounding of the
 // ball.
 constexpr double kNotOutside = 1 + 0x1p-48;
+
+// Passes over fewer points take less time than a sample saves.
+constexpr std::size_t kLeastSampled = 32 * kBlockPoints;
 
 // Fills in the certificate. The lower bound has a margin for the rounding of the weights, of the bound itself
 // and of the local coordinates.
@@ -45,19 +50,30 @@ bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   return added;
 }
 
+bool outside_everywhere(const OctantPoints& found) {
+  return std::all_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
+}
+
 Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints candidates,
-             SphereCertificate& certificate) {
+             std::size_t one_of, SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
   double best_distance = -1;  // squared distance of the farthest point
   SmallBall ball;
   for (;;) {
-    ball = candidates.smallest_ball(frame, &ball);
+    ball = candidates.ball_of_support(frame, candidates.smallest_ball(frame, &ball));
     certify(ball, candidates, frame, certificate);
     const Eigen::Vector3d center = frame.global(ball.center);
     const double limit = candidates.greatest_distance(frame.center(center)) * kNotOutside;
     OctantPoints found;
-    const bool outside = farthest(frame.center(center), next_up(limit), found);
+    const bool outside = farthest({frame.center(center), next_up(limit), one_of}, found);
     ++certificate.passes;
+    // Each pass adds a point or is the last one of the sample or of all points, so the loop ends.
+    const bool added = outside && add_candidates(found, candidates);
+    if (one_of > 1) {
+      // If points are outside in every octant, another pass over the sample is worth its time.
+      if (!added || !outside_everywhere(found)) one_of = 1;
+      continue;
+    }
     double distance = limit;
     for (const FarPoint& far : found)
       distance = std::max(distance, far.squared_distance);
@@ -65,8 +81,7 @@ Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints 
       best_distance = distance;
       best_center = center;
     }
-    // Each pass adds a point or is the last one, so the loop ends.
-    if (!outside || !add_candidates(found, candidates)) break;
+    if (!added) break;
   }
   return {best_center, frame.radius(std::sqrt(best_distance) * kOutward)};
 }
@@ -83,11 +98,32 @@ void update_farthest(const OctantPoints& other, OctantPoints& best) {
     update_farthest(other[o], best[o]);
 }
 
-bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
-                     const Execution& execution) {
+std::size_t blocks_per_sampled(std::size_t points) {
+  // The time for the sample and for the points outside its ball is least if the sample grows as the root of
+  // the number of points.
+  std::size_t one_of = 1;
+  while (points >= kLeastSampled && 4 * one_of * one_of <= points / 128)
+    one_of *= 2;
+  return one_of;
+}
+
+bool in_sample(std::size_t block, std::size_t one_of) {
+  // The fractional parts of the multiples of the golden ratio are spread evenly, also those of every second
+  // or every hundredth block, for example at the same place in each row of an organised cloud.
+  return std::uint64_t{block} * 0x9E3779B97F4A7C15U <= ~std::uint64_t{0} / one_of;
+}
+
+FarthestFinder::FarthestFinder(const PointView& points, const Execution& execution) {
+  if (points.indices != nullptr) throw std::invalid_argument("FarthestFinder: the view has an index list");
+  scan_ = std::make_unique<DistanceScan>(points, execution);
+}
+
+FarthestFinder::~FarthestFinder() = default;
+FarthestFinder::FarthestFinder(FarthestFinder&&) noexcept = default;
+
+bool FarthestFinder::operator()(const FarQuery& query, OctantPoints& found) {
   const FloatEnvironment environment;
-  if (points.indices != nullptr) throw std::invalid_argument("answer_farthest: the view has an index list");
-  return DistanceScan(points, execution).farthest(center, limit, found);
+  return scan_->farthest(query, found);
 }
 
 Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
@@ -97,7 +133,8 @@ Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
   if (supports.set != DirectionSet::dop26 || supports.detail != SupportDetail::points)
     throw std::invalid_argument("smallest_sphere: supports must be along dop26, with points");
   const LocalFrame frame(supports);
-  if (frame.extent() > 0) return solve(farthest, frame, SeedPoints(supports), certificate);
+  if (frame.extent() > 0)
+    return solve(farthest, frame, SeedPoints(supports), blocks_per_sampled(supports.used), certificate);
   certificate.support_size = 1;
   certificate.support[0] = supports.along[0].low_point.index;
   certificate.weights[0] = 1;

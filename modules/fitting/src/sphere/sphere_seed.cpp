@@ -4,6 +4,7 @@
 #include "sphere/sphere_seed.h"
 
 #include <algorithm>
+#include <array>
 
 #include "same_points.h"
 
@@ -42,6 +43,20 @@ SmallBall SeedPoints::smallest_ball(const LocalFrame& frame, const SmallBall* st
   for (std::size_t i = 0; i < seeds_.size(); ++i)
     local[i] = frame.local(seeds_[i].point);
   return detail::smallest_ball(local.data(), local.size(), start);
+}
+
+SmallBall SeedPoints::ball_of_support(const LocalFrame& frame, const SmallBall& ball) const {
+  std::array<std::size_t, 4> support = ball.support;
+  const auto size = static_cast<std::size_t>(ball.support_size);
+  std::sort(support.begin(), support.begin() + size,
+            [&](std::size_t a, std::size_t b) { return seeds_[a].index < seeds_[b].index; });
+  std::array<Eigen::Vector3d, 4> points;
+  for (std::size_t i = 0; i < size; ++i)
+    points[i] = frame.local(seeds_[support[i]].point);
+  SmallBall same = detail::smallest_ball(points.data(), size);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(same.support_size); ++i)
+    same.support[i] = support[same.support[i]];
+  return same;
 }
 
 double SeedPoints::greatest_distance(const DistanceCenter& center) const {

@@ -36,6 +36,10 @@ class SeedPoints {
   /// earlier call, after which points may have been added.
   SmallBall smallest_ball(const LocalFrame& frame, const SmallBall* start = nullptr) const;
 
+  /// Returns the smallest ball of the support of a ball from smallest_ball(). Its bits depend only on the
+  /// points of the support, and not on how the support was found.
+  SmallBall ball_of_support(const LocalFrame& frame, const SmallBall& ball) const;
+
   /// Returns the largest squared distance of the points from `center`.
   double greatest_distance(const DistanceCenter& center) const;
 

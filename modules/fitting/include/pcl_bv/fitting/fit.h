@@ -71,7 +71,8 @@ Fitted<Sphere> fit_sphere(const PointView& points, const SphereOptions& options 
 ///
 /// Larsson, Capannini, Källberg 2016. Computes the smallest ball of a few points, adds the farthest outside
 /// point in each octant to these few points, and repeats this until no point is outside. The loop always
-/// ends. Most clouds take two passes. Further passes mostly inspect only the points near the surface.
+/// ends. A large cloud first takes passes over a sample of its points. Most clouds take two passes over all
+/// points. Further passes mostly inspect only the points near the surface.
 Certified<Sphere, SphereCertificate> fit_smallest_sphere(const PointView& points,
                                                          const Execution& execution = {});
 

@@ -110,7 +110,8 @@ struct SphereCertificate {
   std::array<double, 4> weights{};       ///< The weights w_i.
   /// Lower bound of the radius of any enclosing sphere, proven by exact arithmetic on the points and weights.
   double lower_bound = 0;
-  /// Number of passes that searched for points outside. The pass for the extremal points is not counted.
+  /// Number of passes that searched for points outside: in a sample of the points, among all points, or among
+  /// those near the surface. The pass for the extremal points is not counted.
   int passes = 0;
 };
 

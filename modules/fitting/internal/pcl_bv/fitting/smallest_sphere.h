@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/partial.h"
@@ -17,6 +18,8 @@
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
+
+class DistanceScan;
 
 /// A point outside a sphere. If squared_distance < 0, there is no such point.
 struct FarPoint {
@@ -34,14 +37,42 @@ using OctantPoints = std::array<FarPoint, 8>;
 void update_farthest(const FarPoint& other, FarPoint& best);
 void update_farthest(const OctantPoints& other, OctantPoints& best);
 
-/// A query that overwrites `found` with the farthest point in each octant, among the valid points with a
-/// squared distance of at least `limit`. Returns whether there is any such point.
-using FarthestQuery = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
+/// Number of blocks of a cloud, of which about one is in its sample: a power of two, or 1 for clouds that are
+/// too small for a sample. `points` is the number of valid points of the whole cloud.
+std::size_t blocks_per_sampled(std::size_t points);
 
-/// Answers a FarthestQuery for the points of a view. The indices are those of PointView::index(). Takes one
-/// pass over the points. Throws std::invalid_argument for a view with an index list.
-bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
-                     const Execution& execution = {});
+/// Returns whether the sample has the points with these indices: kBlockPoints * block and the indices after
+/// it, kBlockPoints in all. If `one_of` is 1, the sample has all points.
+bool in_sample(std::size_t block, std::size_t one_of);
+
+/// A question about the points of a sample.
+struct FarQuery {
+  DistanceCenter center;
+  double limit = 0;        ///< Points with a smaller squared distance are ignored.
+  std::size_t one_of = 1;  ///< As in in_sample().
+};
+
+/// A query that overwrites `found` with the farthest point in each octant, among the valid points of the
+/// sample with a squared distance of at least FarQuery::limit. Returns whether there is any such point.
+using FarthestQuery = std::function<bool(const FarQuery& query, OctantPoints& found)>;
+
+/// Answers queries for the points of a view. The indices are those of PointView::index(). Keeps the points of
+/// the sample and those near the surface. So usually one query takes a pass over the sample, and one takes a
+/// pass over all points.
+class FarthestFinder {
+ public:
+  /// Copies the view and the execution, not the points. Throws std::invalid_argument for a view with an index
+  /// list.
+  explicit FarthestFinder(const PointView& points, const Execution& execution = {});
+  ~FarthestFinder();
+  FarthestFinder(FarthestFinder&&) noexcept;
+
+  /// Answers as FarthestQuery does. Exceptions of the points' source are passed on.
+  bool operator()(const FarQuery& query, OctantPoints& found);
+
+ private:
+  std::unique_ptr<DistanceScan> scan_;
+};
 
 /// Computes the smallest sphere of a cloud from the cloud's supports and a query for its points. Throws
 /// std::invalid_argument unless `supports` has the set dop26 and SupportDetail::points. The result has the
