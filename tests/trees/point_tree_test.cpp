@@ -80,6 +80,20 @@ TYPED_TEST(PointTreeOf, FindsWhatIsNearAsIfEachPointWereAsked) {
   });
 }
 
+// The times of all points are clamped to the largest double. So the smallest index is the first hit.
+TEST(PointTree, MeetsFirstTheSmallestIndexIfTimesOverflow) {
+  double p[64][3] = {};
+  for (int i = 0; i < 64; ++i)
+    p[i][0] = 63 - i;
+  for (const Isa isa : usable_isas()) {
+    const PointTree tree(PointView::of(p[0], sizeof p[0], 64), {Serial{}, isa});
+    const auto hit = tree.first_hit({-1e163, 0, 0}, {1e-147, 0, 0}, 0);
+    ASSERT_TRUE(hit) << isa_name(isa);
+    EXPECT_EQ(hit->index, 0) << isa_name(isa);
+    EXPECT_GT(hit->t, 1e308) << isa_name(isa);
+  }
+}
+
 // The times of both points are 0. So the point that is reached later is the first hit.
 TEST(PointTree, MeetsFirstTheSmallestIndexIfTimesUnderflow) {
   const double p[2][3] = {{1.0001e-20, 0, 0}, {1e-20, 0, 0}};

@@ -67,14 +67,14 @@ void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const Swept
   const BoxLevels& boxes = packed_tree(tree).boxes;
   const PointView places = packed_tree(tree).view();
   // Squares of longer lengths may be infinite as floats.
-  const bool in_range = places.scalar == ScalarType::float64 || ray.radius + ball.reach < 0x1p62;
+  const bool in_range = places.scalar == ScalarType::float64 || ray.radius + ball.offset_bound < 0x1p62;
   for (std::size_t i = 0; i < places.count; ++i) {
     if (!shown.points[i] || !in_range) continue;
     const Vector3d from_origin = vector(load_point(places, i)) - ray.origin;
     ASSERT_LE(from_origin.cross(ray.direction.normalized()).norm(),
-              ray.radius * (1 + 1e-9) + 0x1p-17 * ball.reach + 1e-12 * ray.origin.lpNorm<1>() + 2e-19);
+              ray.radius * (1 + 1e-9) + 0x1p-17 * ball.offset_bound + 1e-12 * ray.origin.lpNorm<1>() + 2e-19);
   }
-  const double size = ball.reach * boxes.scale;
+  const double size = ball.offset_bound * boxes.scale;
   if (!(size < 0x1p59)) return;
   const double pad = ray.radius * boxes.scale + 0x1p-18 * size, last = static_cast<double>(shown.latest);
   for (std::size_t n = 0; n < shown.packets.size(); ++n) {
@@ -171,7 +171,7 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
         EXPECT_GE(std::abs(near - far) / 2, r + size * 0x1p-20);
         EXPECT_LE(std::abs(near - far) / 2, r * 1.001 + size * 0x1p-18);
       }
-      EXPECT_NEAR(ball.reach * boxes.scale, size, 1e-12 * size);
+      EXPECT_NEAR(ball.offset_bound * boxes.scale, size, 1e-12 * size);
       EXPECT_EQ(ball.length, 40);
       // Of a step from (0, -2, 0) to (0, -1, 0): -40 is -1.25 * 2^5.
       EXPECT_FLOAT_EQ(ball.inverse[1], -0.8F);
@@ -202,16 +202,16 @@ TYPED_TEST(SweptBallOf, BoundsTheTouchesOfAllPoints) {
         const auto inside = Sphere(p, radius).intersect(origin, direction);
         const TouchBounds touch = ball.touch(coordinates(p), kInfinity);
         ASSERT_TRUE(touch.is_possible() || !inside);
-        ASSERT_TRUE(inside || touch.most == kInfinity);
-        certain += static_cast<std::size_t>(touch.most < kInfinity);
+        ASSERT_TRUE(inside || touch.max == kInfinity);
+        certain += static_cast<std::size_t>(touch.max < kInfinity);
         if (!inside) continue;
         ++touched;
         const TouchBounds measured = ball.bounds_of_time(inside->enter);
-        ASSERT_LE(touch.least, measured.most);
-        ASSERT_GE(touch.most, measured.least);
+        ASSERT_LE(touch.min, measured.max);
+        ASSERT_GE(touch.max, measured.min);
         if (!std::isfinite(ball.error)) continue;
-        ASSERT_LE(touch.least, inside->enter * ball.length);
-        ASSERT_GE(touch.most, inside->enter * ball.length);
+        ASSERT_LE(touch.min, inside->enter * ball.length);
+        ASSERT_GE(touch.max, inside->enter * ball.length);
       }
     }
   });

@@ -14,13 +14,14 @@
 namespace pcl_bv::detail {
 namespace {
 
-// The largest reach, in the frame of the boxes, for which floats are precise enough. Beyond it, the ball
-// enters all boxes at distance 0.
+// The largest offset bound, in the frame of the boxes, for which floats are precise enough. Beyond it, the
+// ball enters all boxes at distance 0.
 constexpr double kFar = 0x1p60;
 
-// Up to this binary exponent of the direction, and from its negative on, times have no other errors than
-// relative ones.
+// Up to this binary exponent of the direction and this offset bound, and from their negative and inverse on,
+// times have no other errors than relative ones: they neither underflow nor overflow.
 constexpr int kMaxExponent = 500;
+constexpr double kMaxOffset = 0x1p400;
 
 }  // namespace
 
@@ -40,8 +41,10 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
     position[axis] = (start[axis] - boxes.origin[axis]) * scale;
     size += std::abs(position[axis]);
   }
-  reach = size / scale;
-  error = std::abs(exponent) <= kMaxExponent ? 0x1p-38 * reach : kInfinity;
+  offset_bound = size / scale;
+  const bool is_ordered =
+      std::abs(exponent) <= kMaxExponent && offset_bound > 1 / kMaxOffset && offset_bound < kMaxOffset;
+  error = is_ordered ? 0x1p-38 * offset_bound : kInfinity;
   const bool is_far = !(size < kFar);
   const double pad = is_far ? 2 * kFar : radius * scale + 0x1p-19 * size;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -24,8 +24,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Returns, as bits, the boxes of a group that the ball enters within `latest` steps. Writes the numbers of
-// steps.
+// Returns, as bits, the boxes of a group that the ball enters within `latest` steps. Writes the steps of
+// all boxes, entered or not.
 HWY_INLINE std::uint32_t entered_boxes(const BoxGroup& group, const SweptBall& ball, float latest,
                                        float* steps) {
   const Floats d;
@@ -66,15 +66,16 @@ struct CentreLine {
     }
     // `rest` has an error of 2^-48 of the start point. It exceeds that of the points if these are near each
     // other but far from 0.
-    const double far = ball.radius + (sizeof(T) == 4 ? 0x1p-18 * ball.reach + 0x1p-45 * offset : ball.error);
+    const double far =
+        ball.radius + (sizeof(T) == 4 ? 0x1p-18 * ball.offset_bound + 0x1p-45 * offset : ball.error);
     largest_square = rounded(far * far + double{std::numeric_limits<T>::min()});
   }
 
  private:
   static T rounded(double x) {
-    constexpr double kMost = std::numeric_limits<T>::max();
-    return std::abs(x) <= kMost ? static_cast<T>(x)
-                                : std::copysign(std::numeric_limits<T>::infinity(), T(x > 0 ? 1 : -1));
+    constexpr double kMax = std::numeric_limits<T>::max();
+    return std::abs(x) <= kMax ? static_cast<T>(x)
+                               : std::copysign(std::numeric_limits<T>::infinity(), T(x > 0 ? 1 : -1));
   }
 };
 
@@ -101,7 +102,7 @@ HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const CentreLin
 }
 
 // A group whose box the ball enters, but whose boxes were not tested yet. One number, because it is loaded as
-// a whole just after it was stored: its parts would have to wait for each other. Groups compare by the steps
+// a whole just after it was stored, and the processor forwards only whole stores. Groups compare by the steps
 // until the ball enters.
 class EnteredGroup {
  public:

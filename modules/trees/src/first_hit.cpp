@@ -17,8 +17,8 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
-// Finds the first touch. Bounds of the touches decide between nearly all points, so that mostly only one
-// point is measured as Sphere::intersect() measures.
+// Finds the first touch. Sphere::intersect() is called only for points whose bounds overlap those of the
+// earliest touch so far, mostly for one point.
 class FirstHit final : public PacketVisitor {
  public:
   FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -30,14 +30,14 @@ class FirstHit final : public PacketVisitor {
 
   std::optional<PointHit> among(UsableIsa isa) {
     visit_along(isa, tree_, ball_, *this);
-    measure_first();
+    measure_pending();
     return hit_.index < 0 ? std::nullopt : std::optional(PointHit{hit_.index, hit_.t});
   }
 
   float visit(std::size_t packet, std::uint32_t points) override {
     for (; points != 0; points &= points - 1)
-      take(packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(points)));
-    return ball_.latest_entry(bounds_.most);
+      consider(packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(points)));
+    return ball_.latest_entry(bounds_.max);
   }
 
  private:
@@ -52,23 +52,23 @@ class FirstHit final : public PacketVisitor {
     return tree_.scalar == ScalarType::float32 ? of(tree_.floats) : of(tree_.doubles);
   }
 
-  void take(std::size_t at) {
-    const TouchBounds touch = ball_.touch(point(at), bounds_.most);
+  void consider(std::size_t at) {
+    const TouchBounds touch = ball_.touch(point(at), bounds_.max);
     if (!touch.is_possible()) return;
-    if (touch.most < bounds_.least) {
+    if (touch.max < bounds_.min) {
       bounds_ = touch;
-      unmeasured_ = at;
+      pending_ = at;
     } else {
-      measure_first();
+      measure_pending();
       measure(at);
     }
   }
 
-  void measure_first() {
-    if (unmeasured_ == kNone) return;
+  void measure_pending() {
+    if (pending_ == kNone) return;
     hit_.index = -1;
-    measure(unmeasured_);
-    unmeasured_ = kNone;
+    measure(pending_);
+    pending_ = kNone;
   }
 
   void measure(std::size_t at) {
@@ -83,9 +83,9 @@ class FirstHit final : public PacketVisitor {
   const PackedTree& tree_;
   const Eigen::Vector3d &origin_, &direction_;
   SweptBall ball_;
-  TouchBounds bounds_{kInfinity, kInfinity};  // of the first touch so far
-  std::size_t unmeasured_ = kNone;            // the point of this touch if it is not `hit_`
-  PointHit hit_{-1, 0};                       // the first point that was measured
+  TouchBounds bounds_{kInfinity, kInfinity};  // of the earliest touch so far
+  std::size_t pending_ = kNone;               // the point of this touch if it was not measured yet
+  PointHit hit_{-1, 0};                       // the earliest measured point; stale while `pending_` is set
 };
 
 // Returns the point with the smallest index inside a sphere that does not move.

@@ -14,6 +14,7 @@
 #include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/power_of_two.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/ray_through_sphere.h"
 #include "ray_clip.h"
@@ -56,10 +57,16 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
-// Returns Eigen's v.stableNorm(), which neither overflows nor underflows, without a call for usual numbers.
+// Returns |v| without overflow or underflow, by dividing by the largest component first. Sizes whose inverse
+// could overflow or lose digits are first scaled by a power of two.
 double safe_norm3(const Coordinates& v) {
   const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(size > 0x1p-1000 && size < 0x1p1000)) return Eigen::Vector3d(v.x, v.y, v.z).stableNorm();
+  if (!(size > 0 && size < kInfinity)) return size;
+  if (!(size > 0x1p-1000 && size < 0x1p1000)) {
+    const int exponent = size < 1 ? 500 : -500;
+    const auto scaled = [&](double x) { return times_power_of_two(x, exponent); };
+    return times_power_of_two(safe_norm3({scaled(v.x), scaled(v.y), scaled(v.z)}), -exponent);
+  }
   const double inverse = 1 / size;
   return size * norm3(Coordinates{v.x * inverse, v.y * inverse, v.z * inverse});
 }
@@ -72,7 +79,7 @@ double safe_norm3(const Coordinates& v) {
 void clip_by_sphere(RayClip& ray, const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);
-  // Not a vector of Eigen: to load two numbers at once just after they were stored one by one is slow.
+  // Coordinates, because Eigen loads two doubles at once, which waits for the two stores before.
   const Coordinates q = {origin[0] - center[0], origin[1] - center[1], origin[2] - center[2]};
   const double square = dot3(u, u), nearest = -dot3(q, u) / square;
   const double h = safe_norm3({q.x + nearest * u[0], q.y + nearest * u[1], q.z + nearest * u[2]});
