@@ -166,7 +166,10 @@ Failure Attempt::fit() {
 // Returns whether all ranks have answered the query.
 bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& found) {
   OctantPoints own;
-  const Failure now = run_and_catch([&] { (*farthest_)(query, own); });
+  const Failure now = run_and_catch([&] {
+    if (!farthest_) farthest_.emplace(points_->view(), execution_);
+    (*farthest_)(query, own);
+  });
   if (now) failure = now;
   return !ranks_.merge_farthest(own, now.has_value(), found);
 }
@@ -174,7 +177,6 @@ bool Attempt::run_query(const FarQuery& query, Failure& failure, OctantPoints& f
 // The first rank runs the solver and broadcasts the bytes of the solver's queries. Each rank answers a query
 // for its own points. An empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted<AnyVolume>& fitted) {
-  if (!farthest_) farthest_.emplace(points_->view(), execution_);
   Failure failure;
   OctantPoints found;
   if (ranks_.first()) {

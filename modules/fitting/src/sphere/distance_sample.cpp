@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/vector3.h"
 #include "sphere/distance_scan.h"
 
 namespace pcl_bv::detail {
@@ -49,17 +48,18 @@ std::vector<RunOfPositions> sampled_positions(const PointView& points, std::size
   return runs;
 }
 
-double least_of(const OctantPoints& found) {
-  double least = kInfinity;
+double smallest_of(const OctantPoints& found) {
+  double smallest = kInfinity;
   for (const FarPoint& p : found)
-    least = std::min(least, p.squared_distance);
-  return least;
+    smallest = std::min(smallest, p.squared_distance);
+  return smallest;
 }
 
 }  // namespace
 
 void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
   if (sample_one_of_ != query.one_of) {
+    sample_one_of_ = 1;  // in case a source throws
     sample_.clear();
     for (const auto& [begin, count] : sampled_positions(points_, query.one_of))
       sample_.emplace_back(points_, begin, count);
@@ -67,7 +67,7 @@ void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
   }
   std::array<std::uint32_t, kBlockPoints> positions;
   for (const LoadedPoints& part : sample_) {
-    const double limit = std::max(query.limit, least_of(found));
+    const double limit = std::max(query.limit, smallest_of(found));
     const std::size_t count = list_distant(isa_, part.view(), query.center, limit, filter_, positions.data());
     for (std::size_t i = 0; i < count; ++i) {
       const Coordinates p = load_point(part.view(), positions[i]);
@@ -77,20 +77,20 @@ void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
   }
 }
 
-// Returns a squared distance, at most `limit`, that is exceeded by those points which can be outside the
-// final ball, as far as the sample can tell. Sets `crowded` to whether too many points are so near the
-// surface that float arithmetic cannot reject them.
+// Returns an estimate, from the sample, of the squared distance that all points exceed which a later ball can
+// leave outside; at most `limit`. It affects only the time. Sets `crowded` to whether too many points are so
+// near the surface that float arithmetic cannot reject them.
 double DistanceScan::near_surface(const DistanceCenter& center, double limit, bool& crowded) const {
-  const double share = kListed * static_cast<double>(sample_one_of_) / static_cast<double>(points_.count);
-  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared), 0.0);  // heap, the least first
+  if (sample_.empty()) return limit;
+  const double share =
+      std::min(1.0, kListed * static_cast<double>(sample_one_of_) / static_cast<double>(points_.count));
+  std::vector<double> largest(1 + static_cast<std::size_t>(share * kCompared), 0.0);  // a min-heap
   std::size_t compared = 0, unrejected = 0;
   const std::size_t step = std::max<std::size_t>(1, sample_.size() * kBlockPoints / kCompared);
   for (const LoadedPoints& part : sample_) {
     for (std::size_t i = 0; i < part.view().count; i += step, ++compared) {
       const Coordinates p = load_point(part.view(), i);
-      const Coordinates q = {(p.x - center.x) * center.scale, (p.y - center.y) * center.scale,
-                             (p.z - center.z) * center.scale};
-      const double squared = dot3(q, q);
+      const double squared = squared_distance(p, center);
       unrejected += squared >= limit * (1 - 0x1p-17);
       if (!(squared > largest.front() && squared < limit)) continue;  // not NaN
       std::pop_heap(largest.begin(), largest.end(), std::greater<>());
@@ -98,7 +98,7 @@ double DistanceScan::near_surface(const DistanceCenter& center, double limit, bo
       std::push_heap(largest.begin(), largest.end(), std::greater<>());
     }
     crowded = unrejected > compared / 16;
-    if (!crowded && has_bounds()) return limit;  // which scan_and_list() does not need
+    if (!crowded && has_bounds()) return limit;  // scan_all() is used, so the estimate is not needed
   }
   return largest.front() > 0 ? largest.front() : limit;
 }
@@ -106,23 +106,23 @@ double DistanceScan::near_surface(const DistanceCenter& center, double limit, bo
 // Scans all points and lists those near the surface. Returns false, and does nothing, without a sample, or if
 // scan_all() is faster because it can store bounds.
 bool DistanceScan::scan_and_list(const DistanceCenter& center, double limit, OctantPoints& found) {
-  if (sample_one_of_ == 1) return false;
+  if (sample_one_of_ == 1 || crowded_surface_) return false;
   bool crowded = false;
-  const double least = near_surface(center, limit, crowded);
+  const double near = near_surface(center, limit, crowded);
   if (!crowded && has_bounds()) return false;
   const FloatFilter filter = crowded ? FloatFilter::off : filter_;
-  const std::size_t most = 64 + std::min(points_.count / 16, std::size_t{1} << 20);
+  const std::size_t capacity = 64 + std::min(points_.count / 16, std::size_t{1} << 20);
   shell_.clear();
   std::mutex mutex;
   std::atomic<bool> too_many = false;
-  visit_far_blocks(center, least, [&](std::size_t first, std::size_t count) {
+  visit_far_blocks(center, near, [&](std::size_t first, std::size_t count) {
     const LoadedPoints part = blocks(first, count);
     std::vector<FarPoint> listed;
     OctantPoints best;
     std::array<std::uint32_t, kBlockPoints> positions;
     for (std::size_t b = 0; b < count; ++b) {
       const PointView block = block_of(part.view(), b);
-      const double from = too_many ? std::max(limit, least_of(best)) : least;
+      const double from = too_many ? std::max(limit, smallest_of(best)) : near;
       const std::size_t far = list_distant(isa_, block, center, from, filter, positions.data());
       for (std::size_t i = 0; i < far; ++i) {
         const Coordinates p = load_point(block, positions[i]);
@@ -133,12 +133,13 @@ bool DistanceScan::scan_and_list(const DistanceCenter& center, double limit, Oct
     }
     const std::lock_guard lock(mutex);
     update_farthest(best, found);
-    shell_.insert(shell_.end(), listed.begin(), listed.end());
-    if (shell_.size() > most) too_many = true;
+    if (!too_many) shell_.insert(shell_.end(), listed.begin(), listed.end());
+    if (shell_.size() > capacity) too_many = true;
   });
   listed_ = !too_many;
+  crowded_surface_ = too_many;
   shell_center_ = center;
-  shell_distance_ = std::sqrt(least);
+  shell_distance_ = std::sqrt(near);
   return true;
 }
 

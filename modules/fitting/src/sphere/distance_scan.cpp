@@ -268,7 +268,8 @@ bool DistanceScan::farthest(const FarQuery& query, OctantPoints& found) {
   } else {
     // A point that is not in shell_ is nearer than shell_distance_ plus the movement of the centre since
     // shell_ was listed. The list remains complete while this sum is below `distance`.
-    listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
+    listed_ = listed_ && shell_center_.scale == center.scale &&
+              (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
     listed_ = listed_ || (scanned_ && list_shell(center, distance));
     if (listed_) {
       scan_shell(center, limit, found);

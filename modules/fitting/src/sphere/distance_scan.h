@@ -100,6 +100,7 @@ class DistanceScan {
   DistanceCenter shell_center_;
   double shell_distance_ = 0;
   bool listed_ = false;
+  bool crowded_surface_ = false;  // whether scan_and_list() found too many points to list
 };
 
 }  // namespace pcl_bv::detail

@@ -4,7 +4,8 @@
 // The orthant scan (Larsson, Capannini, Källberg 2016) computes the exact ball of a few points, scans all
 // points, and adds the farthest outside point in each octant to the few points. It repeats this until no
 // point is outside. First it does so with a sample of the points: of a ball around s of n points, about 4 n /
-// s points are outside (Clarkson 1995), so one pass over all points is usually enough.
+// s points are outside if the sample is random (Clarkson 1995). Blocks of points are not, but one pass over
+// all points is usually enough.
 
 #include "pcl_bv/fitting/smallest_sphere.h"
 
@@ -27,7 +28,7 @@ namespace {
 constexpr double kNotOutside = 1 + 0x1p-48;
 
 // Passes over fewer points take less time than a sample saves.
-constexpr std::size_t kLeastSampled = 32 * kBlockPoints;
+constexpr std::size_t kMinSampledPoints = 32 * kBlockPoints;
 
 // Fills in the certificate. The lower bound has a margin for the rounding of the weights, of the bound itself
 // and of the local coordinates.
@@ -54,13 +55,25 @@ bool outside_everywhere(const OctantPoints& found) {
   return std::all_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
 }
 
+// Returns the smallest ball of the candidates, with bits that depend only on its support. Near-degenerate
+// supports can lose a point when they are solved alone, so that another candidate is outside; then the ball
+// stays as it was found.
+SmallBall ball_of(const SeedPoints& candidates, const LocalFrame& frame, const SmallBall& start) {
+  const SmallBall found = candidates.smallest_ball(frame, &start);
+  const SmallBall alone = candidates.ball_of_support(frame, found);
+  const auto greatest_distance = [&](const SmallBall& ball) {
+    return candidates.greatest_distance(frame.center(frame.global(ball.center)));
+  };
+  return greatest_distance(alone) <= greatest_distance(found) * kNotOutside ? alone : found;
+}
+
 Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints candidates,
              std::size_t one_of, SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
   double best_distance = -1;  // squared distance of the farthest point
   SmallBall ball;
   for (;;) {
-    ball = candidates.ball_of_support(frame, candidates.smallest_ball(frame, &ball));
+    ball = ball_of(candidates, frame, ball);
     certify(ball, candidates, frame, certificate);
     const Eigen::Vector3d center = frame.global(ball.center);
     const double limit = candidates.greatest_distance(frame.center(center)) * kNotOutside;
@@ -99,10 +112,10 @@ void update_farthest(const OctantPoints& other, OctantPoints& best) {
 }
 
 std::size_t blocks_per_sampled(std::size_t points) {
-  // The time for the sample and for the points outside its ball is least if the sample grows as the root of
-  // the number of points.
+  // The time for the sample and for the points outside its ball is smallest if the sample grows as the root
+  // of the number of points.
   std::size_t one_of = 1;
-  while (points >= kLeastSampled && 4 * one_of * one_of <= points / 128)
+  while (points >= kMinSampledPoints && 4 * one_of * one_of <= points / 128)
     one_of *= 2;
   return one_of;
 }

@@ -37,15 +37,15 @@ using OctantPoints = std::array<FarPoint, 8>;
 void update_farthest(const FarPoint& other, FarPoint& best);
 void update_farthest(const OctantPoints& other, OctantPoints& best);
 
-/// Number of blocks of a cloud, of which about one is in its sample: a power of two, or 1 for clouds that are
-/// too small for a sample. `points` is the number of valid points of the whole cloud.
+/// Returns n: about one of n blocks of a cloud is in its sample. n is a power of two, or 1 for clouds that
+/// are too small for a sample. `points` is the number of valid points of the whole cloud.
 std::size_t blocks_per_sampled(std::size_t points);
 
-/// Returns whether the sample has the points with these indices: kBlockPoints * block and the indices after
-/// it, kBlockPoints in all. If `one_of` is 1, the sample has all points.
+/// Returns whether block number `block` is in the sample: the kBlockPoints indices from kBlockPoints * block
+/// on. `one_of` is the result of blocks_per_sampled(). If it is 1, the sample has all points.
 bool in_sample(std::size_t block, std::size_t one_of);
 
-/// A question about the points of a sample.
+/// A query for the farthest points of a sample.
 struct FarQuery {
   DistanceCenter center;
   double limit = 0;        ///< Points with a smaller squared distance are ignored.
@@ -58,7 +58,8 @@ using FarthestQuery = std::function<bool(const FarQuery& query, OctantPoints& fo
 
 /// Answers queries for the points of a view. The indices are those of PointView::index(). Keeps the points of
 /// the sample and those near the surface. So usually one query takes a pass over the sample, and one takes a
-/// pass over all points.
+/// pass over all points. The points must outlive the finder and must not change. One thread at a time may use
+/// it.
 class FarthestFinder {
  public:
   /// Copies the view and the execution, not the points. Throws std::invalid_argument for a view with an index
