@@ -104,9 +104,10 @@ double DistanceScan::near_surface(const DistanceCenter& center, double limit, bo
 }
 
 // Scans all points and lists those near the surface. Returns false, and does nothing, without a sample, or if
-// scan_all() is faster because it can store bounds.
+// scan_all() is faster: because it can store bounds, or because a device rejects more blocks the larger the
+// limit is. On an NVIDIA H100, listing took 178 ms for 10^8 points instead of 1.6 ms.
 bool DistanceScan::scan_and_list(const DistanceCenter& center, double limit, OctantPoints& found) {
-  if (sample_one_of_ == 1 || crowded_surface_) return false;
+  if (sample_one_of_ == 1 || crowded_surface_ || has_device()) return false;
   bool crowded = false;
   const double near = near_surface(center, limit, crowded);
   if (!crowded && has_bounds()) return false;
