@@ -88,11 +88,9 @@ ParallelPolicy DistanceScan::policy(std::size_t expected) const {
   return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
 }
 
-// Calls visit(first block, number of blocks) for runs of consecutive blocks, which together have all points
-// with a squared distance of at least `limit`: all chunks or, with a device, the blocks that it does not
-// reject.
-template <typename Visit>
-void DistanceScan::visit_far_blocks(const DistanceCenter& center, double limit, const Visit& visit) const {
+void DistanceScan::visit_runs(
+    const DistanceCenter& center, double limit,
+    const std::function<void(std::size_t first, std::size_t count)>& visit) const {
   std::vector<std::uint32_t> far;
   if (far_blocks_ != nullptr && far_blocks_->find(center, limit, far)) {
     const std::vector<BlockRun> runs = runs_of(far);

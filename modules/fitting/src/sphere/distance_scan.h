@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <list>
 #include <memory>
 #include <vector>
@@ -64,8 +65,15 @@ class DistanceScan {
   class SharedOctants;
 
   ParallelPolicy policy(std::size_t expected_blocks) const;
+  // Calls visit(first block, number of blocks) for runs of consecutive blocks, which together have all points
+  // with a squared distance of at least `limit`: all chunks or, with a device, the blocks that it does not
+  // reject.
   template <typename Visit>
-  void visit_far_blocks(const DistanceCenter& center, double limit, const Visit& visit) const;
+  void visit_far_blocks(const DistanceCenter& center, double limit, const Visit& visit) const {
+    visit_runs(center, limit, std::cref(visit));  // a reference, because a copy would be allocated
+  }
+  void visit_runs(const DistanceCenter& center, double limit,
+                  const std::function<void(std::size_t first, std::size_t count)>& visit) const;
   LoadedPoints blocks(std::size_t first, std::size_t count) const;
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
