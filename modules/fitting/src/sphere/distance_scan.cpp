@@ -88,9 +88,8 @@ ParallelPolicy DistanceScan::policy(std::size_t expected) const {
   return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
 }
 
-void DistanceScan::visit_runs(
-    const DistanceCenter& center, double limit,
-    const std::function<void(std::size_t first, std::size_t count)>& visit) const {
+void DistanceScan::visit_runs(const DistanceCenter& center, double limit,
+                              const std::function<void(std::size_t first, std::size_t count)>& visit) const {
   std::vector<std::uint32_t> far;
   if (far_blocks_ != nullptr && far_blocks_->find(center, limit, far)) {
     const std::vector<BlockRun> runs = runs_of(far);
