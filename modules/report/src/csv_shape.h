@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "pcl_bv/volumes/aabb.h"
+#include "pcl_bv/volumes/shortest_rotation.h"
 
 namespace pcl_bv::detail {
 
@@ -20,12 +21,11 @@ struct CsvShape {
 };
 
 /// Returns the columns of a cylinder or capsule. `height` is its full height. The axis is flipped to point
-/// upwards, which does not change the shape. Then the simple formula for the rotation from z to the axis is
-/// well conditioned. Eigen's FromTwoVectors() would need a singular value decomposition.
+/// upwards, which does not change the shape.
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
   const Eigen::Vector3d up = (axis.z() < 0 ? Eigen::Vector3d(-axis) : axis).stableNormalized();
-  return {Eigen::Vector3d(2 * radius, 2 * radius, height),
-          Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized(), radius};
+  return {Eigen::Vector3d(2 * radius, 2 * radius, height), shortest_rotation(Eigen::Vector3d::UnitZ(), up),
+          radius};
 }
 
 /// Returns the rotation from the world's axes to three orthogonal axes (columns). If the axes are

@@ -14,6 +14,7 @@
 #include "palette.h"
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/meshes.h"
+#include "pcl_bv/volumes/shortest_rotation.h"
 #include "volume_cells.h"
 
 namespace pcl_bv {
@@ -166,12 +167,10 @@ struct GlbShownPoints {
   std::string colours;
 };
 
-// Returns the rotation from a unit vector to y. For a vector with negative y, computes the rotation to -y
-// first, because that is better conditioned. Eigen's FromTwoVectors() would need a singular value
-// decomposition, which took half of this library's compile time.
+// Returns the rotation from a unit vector to y. A vector with negative y is rotated to -y first.
 Eigen::Matrix3d rotation_to_y(const Eigen::Vector3d& unit) {
-  const Eigen::Vector3d v = unit.y() < 0 ? Eigen::Vector3d(-unit) : unit;
-  const Eigen::Quaterniond rotation = Eigen::Quaterniond(1 + v.y(), -v.z(), 0, v.x()).normalized();
+  const Eigen::Vector3d upper = unit.y() < 0 ? Eigen::Vector3d(-unit) : unit;
+  const Eigen::Quaterniond rotation = shortest_rotation(upper, Eigen::Vector3d::UnitY());
   return (unit.y() < 0 ? Eigen::Quaterniond(0, 1, 0, 0) * rotation : rotation).toRotationMatrix();
 }
 

@@ -6,6 +6,7 @@
 
 #include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/volumes/geometry.h"
+#include "pcl_bv/volumes/shortest_rotation.h"
 
 namespace pcl_bv {
 namespace {
@@ -28,12 +29,10 @@ VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const E
       kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
 }
 
-// Returns the rotation from z to a unit axis. For a downward axis, computes the rotation to the opposite axis
-// first, because that is better conditioned. Does not use Eigen's FromTwoVectors(), because its singular
-// value decomposition for opposite vectors took half of this file's compile time.
+// Returns the rotation from z to a unit axis. For a downward axis, z is first rotated to -z.
 Eigen::Quaterniond rotation_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
-  const Eigen::Quaterniond rotation = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
+  const Eigen::Quaterniond rotation = detail::shortest_rotation(Eigen::Vector3d::UnitZ(), up);
   return axis.z() < 0 ? rotation * Eigen::Quaterniond(0, 1, 0, 0) : rotation;
 }
 
