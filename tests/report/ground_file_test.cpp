@@ -13,14 +13,13 @@
 #include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 class GroundFiles : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-
   static std::vector<LowestPoint> cells() { return {{-3, 7, 2.5}, {4, 7, -1}, {0, -2, 0.25}}; }
 
   void write(const std::vector<LowestPoint>& cells) const {
@@ -49,7 +48,8 @@ class GroundFiles : public testing::Test {
     std::ofstream(path_, std::ios::binary) << bytes;
   }
 
-  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "ground_file_test";
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "file";
   const CellRange all_{-100, -100, 100, 100};
 };
 

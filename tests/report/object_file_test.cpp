@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "temporary_folder.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -20,8 +21,6 @@ using Ranges = std::vector<std::pair<std::size_t, std::size_t>>;
 // A file of a share that has the ground, with right check sums. All points are noise.
 class ObjectFiles : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-
   void write(const Ranges& shares, std::size_t ground_bytes, std::uint64_t points) const {
     PartialFile cloud;
     cloud.add_input("a.pcd", std::numeric_limits<std::size_t>::max());
@@ -59,7 +58,8 @@ class ObjectFiles : public testing::Test {
     }
   }
 
-  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "object_file_test";
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "file";
 };
 
 TEST_F(ObjectFiles, HaveABitOfTheGroundForEachPointOfTheirShare) {
