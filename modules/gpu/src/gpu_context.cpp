@@ -30,13 +30,17 @@ constexpr std::uint32_t kBuffersPerSet = 8;
 // such slices are computed at a time.
 constexpr std::size_t kMostFreeBytes = std::size_t{128} << 20;
 
-}  // namespace
-
-GpuContext::GpuContext(std::string_view which, const GpuOptions& options)
-    : instance_(options.validation), max_binding_(std::min(options.max_binding, kLargestBinding)) {
+const GpuOptions& checked(const GpuOptions& options) {
   if (options.max_binding < kSmallestBinding)
     throw std::invalid_argument("GpuOptions::max_binding is " + std::to_string(options.max_binding) +
                                 ", must be at least 1048576 bytes");
+  return options;
+}
+
+}  // namespace
+
+GpuContext::GpuContext(std::string_view which, const GpuOptions& options)
+    : instance_(checked(options).validation), max_binding_(std::min(options.max_binding, kLargestBinding)) {
   vk = instance_.vk;
   choose(which);
   open_device();
