@@ -127,6 +127,13 @@ Summary summarize_bounds(const PointView& points, const FitExecution& execution)
   return summary;
 }
 
+Summary summarize_few(const PointView& points, BlockOffsets& offsets, const FitExecution& execution) {
+  Summary summary;
+  summary.supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
+  finish(block_moments(execution.isa, points, offsets), summary);
+  return summary;
+}
+
 }  // namespace pcl_bv::detail
 
 namespace pcl_bv {

@@ -7,6 +7,7 @@
 
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/kernels/moments.h"
 
 namespace pcl_bv::detail {
 
@@ -26,5 +27,9 @@ Summary summarize(const PointView& points, const FitExecution& execution);
 /// Computes the summary of summarize(), but its supports may have only dop6 and SupportDetail::bounds. For
 /// 300 points this is three times as fast. Needs a FloatEnvironment.
 Summary summarize_bounds(const PointView& points, const FitExecution& execution);
+
+/// Same for at most kBlockPoints points in memory, all of the cloud. Also stores the offsets of the points
+/// from the first valid point.
+Summary summarize_few(const PointView& points, BlockOffsets& offsets, const FitExecution& execution);
 
 }  // namespace pcl_bv::detail

@@ -47,9 +47,10 @@ HWY_INLINE V<D> relative(D d, const T* from, V<D> origin, V<D> scale) {
   return sizeof(T) == 8 ? hn::Mul(q, scale) : q;
 }
 
-// Sums each of the 9 terms over the groups of a block, in 8 lanes.
-template <typename T>
-void sum_groups(const T* groups, std::size_t points, const Moments& about, double* sums) {
+// Sums each of the 9 terms over the groups of a block, in 8 lanes. If `store`, also stores the offsets.
+template <bool store, typename T>
+void sum_groups(const T* groups, std::size_t points, const Moments& about, double* sums,
+                [[maybe_unused]] BlockOffsets* offsets) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);
   const Tag<double> d;
   const auto scale = hn::Set(d, std::ldexp(1.0, about.exponent));
@@ -66,6 +67,12 @@ void sum_groups(const T* groups, std::size_t points, const Moments& about, doubl
         const auto y = relative(d, group + per_group + first, origin_y, scale);
         const auto z = relative(d, group + 2 * per_group + first, origin_z, scale);
         PCL_BV_EACH_TERM(PCL_BV_STEP)
+        if constexpr (store) {
+          const std::size_t i = g * per_group + first + lane;
+          hn::Store(x, d, offsets->x + i);
+          hn::Store(y, d, offsets->y + i);
+          hn::Store(z, d, offsets->z + i);
+        }
       }
     }
     PCL_BV_EACH_TERM(PCL_BV_KEEP)
@@ -77,10 +84,16 @@ void sum_groups(const T* groups, std::size_t points, const Moments& about, doubl
 #undef PCL_BV_STEP
 #undef PCL_BV_KEEP
 
+// Stores the offsets if they are requested and not scaled.
 template <typename T>
-void add_lanes(const T* groups, std::size_t points, Moments& out) {
+void add_lanes(const T* groups, std::size_t points, Moments& out, BlockOffsets* offsets) {
   HWY_ALIGN double sums[9 * kLanes];
-  sum_groups(groups, points, out, sums);
+  if (offsets != nullptr && out.exponent == 0) {
+    sum_groups<true>(groups, points, out, sums, offsets);
+    offsets->count = (points + kLanes - 1) / kLanes * kLanes;
+  } else {
+    sum_groups<false>(groups, points, out, sums, nullptr);
+  }
   out.sum = {};
   out.product = {};
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -90,10 +103,11 @@ void add_lanes(const T* groups, std::size_t points, Moments& out) {
 }
 
 template <Layout layout, typename T>
-Moments moments_of(const PointView& block) {
+Moments moments_of(const PointView& block, BlockOffsets* offsets) {
   HWY_ALIGN T groups[3 * kBlockPoints];
   Moments out;
   std::size_t first = 0;
+  if (offsets != nullptr) offsets->count = 0;
   while (first < block.count && !is_valid(load_point(block, first)))
     ++first;
   if (first == block.count) return out;
@@ -101,12 +115,13 @@ Moments moments_of(const PointView& block) {
   const T pad[3] = {static_cast<T>(out.origin.x), static_cast<T>(out.origin.y), static_cast<T>(out.origin.z)};
   out.count = copy_to_groups<layout, true>(block, pad, groups);
   sum_without_underflow(block.scalar, out,
-                        [&](Moments& moments) { add_lanes(groups, block.count, moments); });
+                        [&](Moments& moments) { add_lanes(groups, block.count, moments, offsets); });
   return out;
 }
 
-Moments block_moments(const PointView& block) {
-  return for_layout(block, [&]<Layout layout, typename T>() { return moments_of<layout, T>(block); });
+Moments block_moments(const PointView& block, BlockOffsets* offsets) {
+  return for_layout(block,
+                    [&]<Layout layout, typename T>() { return moments_of<layout, T>(block, offsets); });
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR
@@ -118,10 +133,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv::detail {
 
-Moments block_moments(UsableIsa isa, const PointView& block) {
+namespace {
+
+Moments moments_and_offsets(UsableIsa isa, const PointView& block, BlockOffsets* offsets) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(block_moments, &block_moments_reference);
   require_in_memory(block, kBlockPoints);
-  return kTable[isa](block);
+  return kTable[isa](block, offsets);
+}
+
+}  // namespace
+
+Moments block_moments(UsableIsa isa, const PointView& block) {
+  return moments_and_offsets(isa, block, nullptr);
+}
+
+Moments block_moments(UsableIsa isa, const PointView& block, BlockOffsets& offsets) {
+  return moments_and_offsets(isa, block, &offsets);
 }
 
 }  // namespace pcl_bv::detail

@@ -177,6 +177,26 @@ void compete(const Coordinates& p, OctantScan& scan) {
   best = std::max(best, d2);
 }
 
+void grow(const std::array<Direction, 3>& axes, double x, double y, double z, SlabExtents& all) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double s = (axes[k][0] * x + axes[k][1] * y) + axes[k][2] * z;
+    all.low[k] = std::min(all.low[k], s);
+    all.high[k] = std::max(all.high[k], s);
+  }
+}
+
+void store_offsets(const PointView& block, const Moments& moments, BlockOffsets& offsets) {
+  offsets.count = moments.count == 0 ? 0 : (block.count + 7) / 8 * 8;
+  const Coordinates& o = moments.origin;
+  for (std::size_t i = 0; i < offsets.count; ++i) {
+    const Coordinates p = i < block.count ? load_point(block, i) : o;
+    const bool valid = is_valid(p);
+    offsets.x[i] = valid ? p.x - o.x : 0;
+    offsets.y[i] = valid ? p.y - o.y : 0;
+    offsets.z[i] = valid ? p.z - o.z : 0;
+  }
+}
+
 }  // namespace
 
 void deskew_reference(const PointView& points, const float* seconds, const SensorMotion& motion,
@@ -271,13 +291,16 @@ SlabExtents slab_extents_reference(const PointView& points, const Coordinates& o
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);
     if (!is_valid(p)) continue;
-    const double x = p.x - origin.x, y = p.y - origin.y, z = p.z - origin.z;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double s = (axes[k][0] * x + axes[k][1] * y) + axes[k][2] * z;
-      result.low[k] = std::min(result.low[k], s);
-      result.high[k] = std::max(result.high[k], s);
-    }
+    grow(axes, p.x - origin.x, p.y - origin.y, p.z - origin.z, result);
   }
+  return result;
+}
+
+SlabExtents slab_extents_of_offsets_reference(const BlockOffsets& offsets,
+                                              const std::array<Direction, 3>& axes) {
+  SlabExtents result;
+  for (std::size_t i = 0; i < offsets.count; ++i)
+    grow(axes, offsets.x[i], offsets.y[i], offsets.z[i], result);
   return result;
 }
 
@@ -294,7 +317,7 @@ void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* 
   });
 }
 
-Moments block_moments_reference(const PointView& block) {
+Moments block_moments_reference(const PointView& block, BlockOffsets* offsets) {
   Moments out;
   for (std::size_t i = 0; i < block.count; ++i) {
     const Coordinates p = load_point(block, i);
@@ -304,6 +327,7 @@ Moments block_moments_reference(const PointView& block) {
   }
   if (out.count > 0)
     sum_without_underflow(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
+  if (offsets != nullptr) store_offsets(block, out, *offsets);
   return out;
 }
 

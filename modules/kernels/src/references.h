@@ -25,6 +25,8 @@ void chunk_supports_reference(const PointView& chunk, const SupportDirections& s
                               const SupportBounds& bounds, ChunkSupports& out);
 SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
                                    const std::array<Direction, 3>& axes);
+SlabExtents slab_extents_of_offsets_reference(const BlockOffsets& offsets,
+                                              const std::array<Direction, 3>& axes);
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
                                    std::uint32_t* positions);
 void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
@@ -56,7 +58,7 @@ void find_nearest_reference(const PackedTree& tree, const Coordinates& center, N
 
 void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
-Moments block_moments_reference(const PointView& block);
+Moments block_moments_reference(const PointView& block, BlockOffsets* offsets);
 
 /// Calls sum(moments) with the exponents 0, 500 and 1000 until the sum of squares is at least 2^-660. For
 /// floats, calls sum() only once.

@@ -39,6 +39,19 @@ namespace HWY_NAMESPACE {
   result.low[k] = HWY_MIN(result.low[k], hn::GetLane(hn::MinOfLanes(d, low##k)) + 0.0); \
   result.high[k] = HWY_MAX(result.high[k], hn::GetLane(hn::MaxOfLanes(d, high##k)) + 0.0);
 
+void grow_over_offsets(const BlockOffsets& offsets, const std::array<Direction, 3>& axes,
+                       SlabExtents& result) {
+  const Tag<double> d;
+  PCL_BV_EACH_AXIS(PCL_BV_DECLARE)
+  for (std::size_t i = 0; i < offsets.count; i += hn::Lanes(d)) {
+    const auto qx = hn::Load(d, offsets.x + i);
+    const auto qy = hn::Load(d, offsets.y + i);
+    const auto qz = hn::Load(d, offsets.z + i);
+    PCL_BV_EACH_AXIS(PCL_BV_STEP)
+  }
+  PCL_BV_EACH_AXIS(PCL_BV_KEEP)
+}
+
 template <typename T>
 void grow_over_groups(const T* groups, std::size_t points, const Coordinates& origin,
                       const std::array<Direction, 3>& axes, SlabExtents& result) {
@@ -83,6 +96,12 @@ SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
                     [&]<Layout layout, typename T>() { return extents_of<layout, T>(points, origin, axes); });
 }
 
+SlabExtents slab_extents_of_offsets(const BlockOffsets& offsets, const std::array<Direction, 3>& axes) {
+  SlabExtents result;
+  grow_over_offsets(offsets, axes, result);
+  return result;
+}
+
 #endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
@@ -98,6 +117,12 @@ SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinat
   require_in_memory(points);
   require_origin(points, origin);
   return kTable[isa](points, origin, axes);
+}
+
+SlabExtents slab_extents(UsableIsa isa, const BlockOffsets& offsets, const std::array<Direction, 3>& axes) {
+  static constexpr KernelTable kTable =
+      PCL_BV_KERNEL_TABLE(slab_extents_of_offsets, &slab_extents_of_offsets_reference);
+  return kTable[isa](offsets, axes);
 }
 
 }  // namespace pcl_bv::detail

@@ -20,13 +20,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-EstimationResult fit_pca(const PointView& points, Obb& box, const FitExecution& execution) {
-  const Summary summary = summarize_bounds(points, execution);
-  if (summary.supports.used > 0)
-    box = measured_box(principal_axes(summary), points, summary.supports, execution).canonical();
-  return summary.result();
-}
-
 EstimationResult fit_dito14(const PointView& points, Obb& box, const FitExecution& execution) {
   const Supports supports = find_supports(points, DirectionSet::dop14, SupportDetail::points, execution);
   if (supports.used > 0) {
@@ -106,19 +99,18 @@ Obb box_between(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, cons
   return {center, axes, half_extents};
 }
 
-// Measures the box of few points. Projects all points in double arithmetic, which for 300 points takes a
-// third of the time of measure_many(). For an axis n and a point q relative to the first point, the margin
-// for the rounding of n . q is 8 2^-53 of |q|_1. This is twice the possible error (volumes/src/obb.cpp).
-// |q|_1 is at most the sum of the sides of the points' box. The smallest normal number covers products that
-// underflow. Axes that are coordinate axes need no margin, because the supports along them are exact.
-Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
-                UsableIsa isa) {
-  const LoadedPoints loaded(points, 0, points.count);
-  const std::optional<Coordinates> origin = first_valid(loaded.view());
-  require_same_points(origin && within(supports, *origin));
-  const SlabExtents found = slab_extents(
-      isa, loaded.view(), *origin, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))});
-  const Eigen::Vector3d from = vector(*origin);
+std::array<Direction, 3> directions_of(const Eigen::Matrix3d& axes) {
+  return {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))};
+}
+
+// Returns the box of points with the extents `found`, which are relative to the first valid point. For an
+// axis n and a point q relative to the first point, the margin for the rounding of n . q is 8 2^-53 of |q|_1.
+// This is twice the possible error (volumes/src/obb.cpp). |q|_1 is at most the sum of the sides of the
+// points' box. The smallest normal number covers products that underflow. Axes that are coordinate axes need
+// no margin, because the supports along them are exact.
+Obb box_of_extents(const Eigen::Matrix3d& axes, const Coordinates& origin, const Supports& supports,
+                   const SlabExtents& found) {
+  const Eigen::Vector3d from = vector(origin);
   const auto side = [&](std::size_t axis) { return supports.along[axis].high - supports.along[axis].low; };
   const double rounding = 0x1p-50 * ((side(0) + side(1)) + side(2)) + kSmallestNormal;
   Eigen::Vector3d low, high;
@@ -135,13 +127,24 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
   return has_coordinate_axis ? Obb::from_slabs(axes, from, low, high) : box_between(axes, from, low, high);
 }
 
+// Measures the box of few points. Projects all points in double arithmetic, which for 300 points takes a
+// third of the time of measure_many().
+Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
+                UsableIsa isa) {
+  const LoadedPoints loaded(points, 0, points.count);
+  const std::optional<Coordinates> origin = first_valid(loaded.view());
+  require_same_points(origin && within(supports, *origin));
+  return box_of_extents(axes, *origin, supports,
+                        slab_extents(isa, loaded.view(), *origin, directions_of(axes)));
+}
+
 // Measures the box of many points. The support search rejects nearly all points in float arithmetic, and its
 // supports are exact.
 Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const FitExecution& execution) {
   SupportDirections directions;
-  for (int i = 0; i < 3; ++i)
-    directions.add(direction(axes.col(i)));
+  for (const Direction& axis : directions_of(axes))
+    directions.add(axis);
   SupportSearch search(execution.isa, directions, points.count);
   search.run(points, execution);
   require_same_points(supports.moments || search.dropped() == supports.dropped);
@@ -152,6 +155,30 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
     high[i] = along.high;
   }
   return Obb::from_slabs(axes, low, high);
+}
+
+// Needs one copy of the points for the moments and for the measurement.
+EstimationResult fit_few(const PointView& points, Obb& box, const FitExecution& execution) {
+  BlockOffsets offsets;
+  const Summary summary = summarize_few(points, offsets, execution);
+  if (summary.supports.used > 0) {
+    const Eigen::Matrix3d axes = principal_axes(summary);
+    const std::optional<Coordinates> origin = first_valid(points);
+    require_same_points(origin && within(summary.supports, *origin));
+    box = box_of_extents(axes, *origin, summary.supports,
+                         slab_extents(execution.isa, offsets, directions_of(axes)))
+              .canonical();
+  }
+  return summary.result();
+}
+
+EstimationResult fit_pca(const PointView& points, Obb& box, const FitExecution& execution) {
+  if (points.source == nullptr && points.count <= kBlockPoints && !represents_cloud(execution))
+    return fit_few(points, box, execution);
+  const Summary summary = summarize_bounds(points, execution);
+  if (summary.supports.used > 0)
+    box = measured_box(principal_axes(summary), points, summary.supports, execution).canonical();
+  return summary.result();
 }
 
 }  // namespace

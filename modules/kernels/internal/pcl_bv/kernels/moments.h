@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
@@ -20,6 +21,17 @@ struct Moments {
   int exponent = 0;                 ///< 0, 500 or 1000.
   std::array<double, 3> sum{};      ///< Sums of x, y, z of q.
   std::array<double, 6> product{};  ///< Sums of xx, xy, xz, yy, yz, zz of q.
+};
+
+/// The offsets p - origin of the points p of a block, rounded to double. An invalid point has the offset 0.
+/// The first element is that of the first point. Zeros follow the last point, so that `count` is a multiple
+/// of 8. The other elements are not initialised.
+struct BlockOffsets {
+  BlockOffsets() {}
+  std::size_t count = 0;
+  alignas(kGroupBytes) double x[kBlockPoints];
+  alignas(kGroupBytes) double y[kBlockPoints];
+  alignas(kGroupBytes) double z[kBlockPoints];
 };
 
 /// Returns the moments of at most kBlockPoints points, summed in double. The result has the same bits for
@@ -36,6 +48,9 @@ struct Moments {
 /// O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for more than kBlockPoints
 /// points, and if the points are not in memory.
 Moments block_moments(UsableIsa isa, const PointView& block);
+
+/// Same, and stores the offsets from Moments::origin. Without valid points the offsets are empty.
+Moments block_moments(UsableIsa isa, const PointView& block, BlockOffsets& offsets);
 
 }  // namespace detail
 }  // namespace pcl_bv
