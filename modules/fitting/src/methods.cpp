@@ -71,10 +71,10 @@ struct Row {
 
 const std::vector<Row>& rows() {
   using Set = DirectionSet;
-  constexpr bool upright = true, all_points = true, hull = true;
+  constexpr bool upright = true, all_points = true, hull = true, box = true;
   static const std::vector<Row> table = {
-      {{"aabb", {}, "aabb"}, {plain<Aabb, detail::fit_aabb>, Set::dop6}},
-      {{"dop6", {}, "kdop"}, {kdop<KdopSet::dop6>, Set::dop6}},
+      {{"aabb", {}, "aabb"}, {plain<Aabb, detail::fit_aabb>, Set::dop6, !hull, box}},
+      {{"dop6", {}, "kdop"}, {kdop<KdopSet::dop6>, Set::dop6, !hull, box}},
       {{"dop14", {}, "kdop"}, {kdop<KdopSet::dop14>, Set::dop14}},
       {{"dop18", {}, "kdop"}, {kdop<KdopSet::dop18>, Set::dop18}},
       {{"dop26", {}, "kdop"}, {kdop<KdopSet::dop26>, Set::dop26}},
@@ -84,7 +84,7 @@ const std::vector<Row>& rows() {
       {{"sphere-epos26", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::epos26>, Set::dop26}},
       {{"sphere-epos98", {}, "sphere", !upright, all_points}, {sphere<SphereMethod::epos98>, Set::dop26}},
       {{"sphere-exact", {"sphere"}, "sphere"}, {sphere<SphereMethod::exact>, Set::dop26}},
-      {{"obb-pca", {}, "obb"}, {obb<ObbMethod::pca>, {}}},
+      {{"obb-pca", {}, "obb"}, {obb<ObbMethod::pca>, {}, !hull, box}},
       {{"obb-dito14", {}, "obb"}, {obb<ObbMethod::dito14>, Set::dop14}},
       {{"obb-min", {"obb"}, "obb"}, {obb<ObbMethod::minimal>, {}, hull}},
       {{"obb-yaw", {}, "obb", upright}, {obb<ObbMethod::yaw>, Set::dop26}},
@@ -203,15 +203,19 @@ std::optional<DirectionSet> directions_of(const std::vector<const Method*>& amon
 
 FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
                             const FitExecution& execution, Supports& supports) {
-  std::size_t with_supports = 0, with_hull = 0;
+  std::size_t with_supports = 0, with_hull = 0, with_box = 0;
   for (const Method* method : among) {
     with_hull += method->implementation->needs_hull ? 1 : 0;
     with_supports += method->implementation->directions ? 1 : 0;
+    with_box += method->implementation->needs_box ? 1 : 0;
   }
   const std::optional<DirectionSet> widest = directions_of(among);
   const bool hull = with_hull > 1;
-  if (!hull && (with_supports < 2 || *widest == DirectionSet::dop6)) return execution;
-  supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);
+  const bool wide = hull || (with_supports > 1 && *widest != DirectionSet::dop6);
+  if (!wide && (with_box < 2 || execution.supports != nullptr)) return execution;
+  supports =
+      wide ? find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution)
+           : find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
   if (hull && supports.used > 0)
     supports.hull = shared_hull(points, supports, LocalFrame(supports), execution);
   FitExecution shared = execution;

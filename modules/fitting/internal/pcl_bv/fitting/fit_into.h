@@ -55,6 +55,7 @@ struct MethodFit {
   EstimationResult (*fit)(const PointView&, const MethodOptions&, AnyVolume&, const FitExecution&);
   std::optional<DirectionSet> directions;  ///< Directions whose supports the method finds first, if any.
   bool needs_hull = false;                 ///< Whether the method needs the convex hull.
+  bool needs_box = false;  ///< Whether it first needs the bounds along the coordinate axes, without points.
 };
 
 /// Fits the method to the points.
@@ -68,8 +69,9 @@ std::optional<DirectionSet> directions_of(const std::vector<const Method*>& amon
 /// Prepares the fits of several methods to the same points, and returns the execution for these fits. If two
 /// or more methods need the convex hull, computes the supports along dop26 and the hull. Otherwise, if two or
 /// more methods find supports first, computes the supports along all their directions, unless these are only
-/// the coordinate axes. Stores the results in `supports`, which must outlive the returned execution. In all
-/// other cases, `supports` is not used.
+/// the coordinate axes. Otherwise, if two or more methods need the box of the points and `execution` has no
+/// supports, computes this box. Stores the results in `supports`, which must outlive the returned execution.
+/// In all other cases, `supports` is not used.
 FitExecution share_supports(const PointView& points, const std::vector<const Method*>& among,
                             const FitExecution& execution, Supports& supports);
 
