@@ -29,29 +29,6 @@ struct Part {
   MomentTree moments;
 };
 
-void finish(Moments moments, Summary& summary) {
-  if (moments.count == 0) return;
-  const double extent = widest_side(summary.supports);
-  if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
-  summary.covariance_scale = std::ldexp(1.0, moments.exponent);
-  const double n = static_cast<double>(moments.count);
-  const double from[3] = {moments.origin.x, moments.origin.y, moments.origin.z};
-  double mean[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    mean[axis] = moments.sum[axis] / n;
-    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.covariance_scale,
-                                        summary.supports.along[axis].low, summary.supports.along[axis].high) +
-                             0.0;
-  }
-  std::size_t k = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j, ++k) {
-      const double value = moments.product[k] / n - mean[i] * mean[j];
-      summary.covariance(i, j) = summary.covariance(j, i) = i == j ? std::max(value, 0.0) : value;
-    }
-  }
-}
-
 // Makes one pass over the points. Calls search(chunk) and computes the moments of each chunk in parallel.
 // Calls merge(found) in the order of the chunks. `count` is the amount of work, as for worthwhile(). Returns
 // the moments of all points.
@@ -77,11 +54,36 @@ Moments pass(const PointView& points, const FitExecution& execution, std::size_t
 Summary known_summary(const Supports& supports) {
   Summary summary;
   summary.supports = supports;
-  finish(*supports.moments, summary);
+  static_cast<Spread&>(summary) = spread_of(*supports.moments, supports);
   return summary;
 }
 
 }  // namespace
+
+Spread spread_of(Moments moments, const Supports& supports) {
+  Spread spread;
+  if (moments.count == 0) return spread;
+  const double extent = widest_side(supports);
+  if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
+  spread.covariance_scale = std::ldexp(1.0, moments.exponent);
+  const double n = static_cast<double>(moments.count);
+  const double from[3] = {moments.origin.x, moments.origin.y, moments.origin.z};
+  double mean[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    mean[axis] = moments.sum[axis] / n;
+    spread.centroid[axis] = std::clamp(from[axis] + mean[axis] / spread.covariance_scale,
+                                       supports.along[axis].low, supports.along[axis].high) +
+                            0.0;
+  }
+  std::size_t k = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j, ++k) {
+      const double value = moments.product[k] / n - mean[i] * mean[j];
+      spread.covariance(i, j) = spread.covariance(j, i) = i == j ? std::max(value, 0.0) : value;
+    }
+  }
+  return spread;
+}
 
 Summary summarize(const PointView& points, const FitExecution& execution) {
   require_matching_supports(points, execution);
@@ -97,7 +99,7 @@ Summary summarize(const PointView& points, const FitExecution& execution) {
       [&](const ChunkSupports& found) { search.merge(found); });
   summary.supports = supports_of_search(search, set, points, search.dropped());
   summary.supports.rank = point_rank(points, summary.supports, execution);
-  finish(moments, summary);
+  static_cast<Spread&>(summary) = spread_of(moments, summary.supports);
   return summary;
 }
 
@@ -111,7 +113,7 @@ Summary summarize_bounds(const PointView& points, const FitExecution& execution)
     const Moments moments = pass<Nothing>(
         points, execution, kMaxDirections * points.count, [](const PointView&) { return Nothing(); },
         [](const Nothing&) {});
-    finish(moments, summary);
+    static_cast<Spread&>(summary) = spread_of(moments, summary.supports);
     return summary;
   }
   summary.supports = empty_bounds(points);
@@ -123,14 +125,7 @@ Summary summarize_bounds(const PointView& points, const FitExecution& execution)
       [&](const AxisExtents& found) { merge_bounds(found, summary.supports); });
   finish_bounds(summary.supports);
   summary.supports.rank = point_rank(points, summary.supports, execution);
-  finish(moments, summary);
-  return summary;
-}
-
-Summary summarize_few(const PointView& points, BlockOffsets& offsets, const FitExecution& execution) {
-  Summary summary;
-  summary.supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
-  finish(block_moments(execution.isa, points, offsets), summary);
+  static_cast<Spread&>(summary) = spread_of(moments, summary.supports);
   return summary;
 }
 

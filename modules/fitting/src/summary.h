@@ -11,12 +11,16 @@
 
 namespace pcl_bv::detail {
 
-/// Supports, centroid and covariance of a cloud, with the meaning of CloudSummary.
-struct Summary {
-  Supports supports;  ///< With dop26 and SupportDetail::points, except after summarize_bounds().
+/// Centroid and covariance of a cloud, with the meaning of CloudSummary.
+struct Spread {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double covariance_scale = 1;
+};
+
+/// Supports, centroid and covariance of a cloud.
+struct Summary : Spread {
+  Supports supports;  ///< With dop26 and SupportDetail::points, except after summarize_bounds().
 
   EstimationResult result() const { return result_of(supports); }
 };
@@ -28,8 +32,7 @@ Summary summarize(const PointView& points, const FitExecution& execution);
 /// 300 points this is three times as fast. Needs a FloatEnvironment.
 Summary summarize_bounds(const PointView& points, const FitExecution& execution);
 
-/// Same for at most kBlockPoints points in memory, all of the cloud. Also stores the offsets of the points
-/// from the first valid point.
-Summary summarize_few(const PointView& points, BlockOffsets& offsets, const FitExecution& execution);
+/// Returns the centroid and the covariance of points with these moments and supports.
+Spread spread_of(Moments moments, const Supports& supports);
 
 }  // namespace pcl_bv::detail

@@ -157,19 +157,19 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
   return Obb::from_slabs(axes, low, high);
 }
 
-// Needs one copy of the points for the moments and for the measurement.
+// Copies the points once, for the moments and for the measurement.
 EstimationResult fit_few(const PointView& points, Obb& box, const FitExecution& execution) {
-  BlockOffsets offsets;
-  const Summary summary = summarize_few(points, offsets, execution);
-  if (summary.supports.used > 0) {
-    const Eigen::Matrix3d axes = principal_axes(summary);
-    const std::optional<Coordinates> origin = first_valid(points);
-    require_same_points(origin && within(summary.supports, *origin));
-    box = box_of_extents(axes, *origin, summary.supports,
-                         slab_extents(execution.isa, offsets, directions_of(axes)))
-              .canonical();
+  std::optional<Supports> own;
+  const Supports& supports = find_box(points, execution, own);
+  if (supports.used > 0) {
+    BlockOffsets offsets;
+    const Moments moments = block_moments(execution.isa, points, offsets);
+    require_same_points(moments.count == supports.used && within(supports, moments.origin));
+    const Eigen::Matrix3d axes = principal_axes(spread_of(moments, supports));
+    const SlabExtents found = slab_extents(execution.isa, offsets, directions_of(axes));
+    box = box_of_extents(axes, moments.origin, supports, found).canonical();
   }
-  return summary.result();
+  return result_of(supports);
 }
 
 EstimationResult fit_pca(const PointView& points, Obb& box, const FitExecution& execution) {
@@ -190,8 +190,8 @@ Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Sup
                                                         : measure_many(axes, points, supports, execution);
 }
 
-Eigen::Matrix3d principal_axes(const Summary& summary) {
-  return symmetric_eigen(summary.covariance).vectors;
+Eigen::Matrix3d principal_axes(const Spread& spread) {
+  return symmetric_eigen(spread.covariance).vectors;
 }
 
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,

@@ -53,7 +53,8 @@ EstimationResult fit_custom(const PointView& points, const std::shared_ptr<const
 }  // namespace
 
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const FitExecution& execution) {
-  const Supports supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
+  std::optional<Supports> own;
+  const Supports& supports = find_box(points, execution, own);
   box = aabb_of(supports);
   return result_of(supports);
 }

@@ -159,6 +159,14 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
   return supports;
 }
 
+const Supports& find_box(const PointView& points, const FitExecution& execution,
+                         std::optional<Supports>& own) {
+  require_matching_supports(points, execution);
+  if (execution.supports != nullptr) return *execution.supports;
+  own.emplace(find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution));
+  return *own;
+}
+
 Supports find_supports_among(const PointView& points, const std::vector<PointView>& candidates,
                              DirectionSet set, std::size_t dropped, const FitExecution& execution) {
   const FloatEnvironment environment;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/fitting/result.h"
@@ -121,6 +122,11 @@ struct FitExecution : Execution {
 /// are flat to 2^-30 of their extent, the rank can take up to five more passes (point_rank()).
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const FitExecution& execution = {});
+
+/// Returns supports whose first three elements are those of find_supports() along dop6 with
+/// SupportDetail::bounds: FitExecution::supports if not null, and otherwise `own`, to which they are written.
+const Supports& find_box(const PointView& points, const FitExecution& execution,
+                         std::optional<Supports>& own);
 
 /// Returns the supports that find_supports() finds for `points` with SupportDetail::points, if the caller has
 /// rejected points. `candidates` must have every support point, as views of parts of `points` with at most
