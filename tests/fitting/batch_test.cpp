@@ -91,6 +91,8 @@ TEST(Clusters, AreFittedWithTheBitsOfSingleFits) {
                        [](auto& v) { return fit_sphere(v, SphereMethod::epos6); });
     expect_single_fits(fit_obb(points, clusters, ObbMethod::yaw, execution), views,
                        [](auto& v) { return fit_obb(v, ObbMethod::yaw); });
+    expect_single_fits(fit_obb(points, clusters, ObbMethod::pca, execution), views,
+                       [](auto& v) { return fit_obb(v, ObbMethod::pca); });
     expect_single_fits(fit_prism(points, clusters, {}, execution), views,
                        [](auto& v) { return fit_prism(v); });
     expect_single_fits(fit_hull(points, clusters, execution), views, [](auto& v) { return fit_hull(v); });

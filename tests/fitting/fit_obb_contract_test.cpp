@@ -19,6 +19,7 @@
 #include "numbers.h"
 #include "obbs.h"
 #include "pcl_bv/fitting/fit.h"
+#include "sources.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -139,6 +140,48 @@ TEST(Obb, OfAnIndexListIsThatOfItsPoints) {
     sliced = *fit_obb(slice, method);
     EXPECT_EQ(listed, sliced);
   }
+}
+
+template <typename T>
+std::vector<TestCloud<T>> small_clouds() {
+  std::vector<TestCloud<T>> clouds = nasty_clouds<T>();
+  for (std::size_t n = 0; n <= 35; ++n) {
+    clouds.push_back(gaussian<T>(n, n));
+    TestCloud<T> flat = gaussian<T>(n, n), bad = flat, twice = flat;
+    for (std::size_t i = 0; i < n; ++i) {
+      flat.xyz[3 * i + n % 3] = 2;
+      if (i % 5 == n % 5) bad.xyz[3 * i + n % 3] = std::numeric_limits<T>::quiet_NaN();
+    }
+    twice.xyz.insert(twice.xyz.end(), flat.xyz.begin(), flat.xyz.end());
+    clouds.insert(clouds.end(),
+                  {flat, bad, twice, {"NaN", std::vector<T>(3 * n, std::numeric_limits<T>::quiet_NaN())}});
+  }
+  for (const std::size_t n : {1023, 1024, 1025, 2047, 2048, 2049})
+    clouds.push_back(gaussian<T>(n, n));
+  return clouds;
+}
+
+// Points of a source are copied for each step. Points in memory are copied once, if they are few.
+template <typename T>
+void expect_pca_of_the_source() {
+  for (const TestCloud<T>& cloud : small_clouds<T>()) {
+    const CopyingSource<T> source(cloud);
+    Obb expected, found, scalar;
+    const EstimationResult a = take(fit_obb(source.view(), ObbMethod::pca), expected);
+    const EstimationResult b = take(fit_obb(cloud.view(), ObbMethod::pca), found);
+    take(fit_obb(cloud.view(), ObbMethod::pca, {Serial{}, Isa::scalar}), scalar);
+    SCOPED_TRACE(cloud.name);
+    EXPECT_TRUE(found == expected && found == scalar);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.rank, b.rank);
+    EXPECT_EQ(a.used, b.used);
+    EXPECT_EQ(a.dropped, b.dropped);
+  }
+}
+
+TEST(Obb, OfPcaHasTheSameBitsFromASourceAndFromMemory) {
+  expect_pca_of_the_source<float>();
+  expect_pca_of_the_source<double>();
 }
 
 TEST(Obb, OfAClusterAllocatesNothingForDito14AndYaw) {

@@ -178,6 +178,9 @@ TEST(Methods, SupportsAndHullsAreSharedOnlyWhereTwoWantThem) {
   EXPECT_FALSE(shares({named("dop26")}));
   EXPECT_FALSE(shares({named("dop26"), named("obb-pca")}));
   EXPECT_FALSE(shares({named("aabb"), named("sphere-ritter")}));  // six directions are cheap
+  EXPECT_TRUE(shares({named("aabb"), named("obb-pca")}));
+  EXPECT_EQ(supports.set, DirectionSet::dop6);
+  EXPECT_EQ(supports.detail, SupportDetail::bounds);
   EXPECT_TRUE(shares({named("aabb"), named("dop14")}));
   EXPECT_EQ(supports.set, DirectionSet::dop14);
   EXPECT_TRUE(shares({named("dop14"), named("dop18")}));
@@ -186,6 +189,21 @@ TEST(Methods, SupportsAndHullsAreSharedOnlyWhereTwoWantThem) {
   EXPECT_EQ(supports.hull, nullptr);
   EXPECT_TRUE(shares({named("obb-min"), named("capsule")}));
   EXPECT_NE(supports.hull, nullptr);
+}
+
+TEST(Methods, ASharedBoxSparesAPassAndReplacesNoKnownSupports) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(1000, 13);
+  const test::CopyingSource<float> source(cloud);
+  const PointView points = source.view();
+  const std::vector<const Method*> both{find_method("aabb"), find_method("obb-pca")};
+  Supports supports;
+  const FitExecution shared = share_supports(points, both, {}, supports);
+  const std::size_t before = source.loads;
+  AnyVolume volume;
+  fit_method(*both[0], points, {}, volume, shared);
+  EXPECT_EQ(source.loads, before);
+  const Supports known = find_supports(points, DirectionSet::dop26, SupportDetail::points);
+  EXPECT_EQ(share_supports(points, both, FitExecution({}, &known), supports).supports, &known);
 }
 
 TEST(Methods, TheKernelsDirectionsAreTheVolumes) {

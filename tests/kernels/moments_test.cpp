@@ -55,8 +55,29 @@ class MomentsTest : public testing::TestWithParam<Isa> {
       expect_definition_of_block(points.slice(begin, std::min(kBlockPoints, points.count - begin)));
   }
 
+  void expect_offsets(const PointView& points, const Moments& moments) {
+    BlockOffsets offsets;
+    std::fill_n(offsets.x, kBlockPoints, 7);  // what no offset may be left of
+    std::fill_n(offsets.y, kBlockPoints, 7);
+    std::fill_n(offsets.z, kBlockPoints, 7);
+    const Moments again = block_moments(GetParam(), points, offsets);
+    EXPECT_EQ(again.count, moments.count);
+    EXPECT_EQ(again.exponent, moments.exponent);
+    EXPECT_TRUE(again.sum == moments.sum && again.product == moments.product);
+    ASSERT_EQ(offsets.count, moments.count == 0 ? 0 : (points.count + 7) / 8 * 8);
+    for (std::size_t i = 0; i < offsets.count; ++i) {
+      const Coordinates p = i < points.count ? load_point(points, i) : moments.origin;
+      const Coordinates q = is_valid(p) ? p : moments.origin;
+      const Coordinates& o = moments.origin;
+      const double expected[] = {q.x - o.x, q.y - o.y, q.z - o.z};
+      const double found[] = {offsets.x[i], offsets.y[i], offsets.z[i]};
+      EXPECT_EQ(std::memcmp(found, expected, sizeof found), 0) << "point " << i;
+    }
+  }
+
   void expect_definition_of_block(const PointView& points) {
     const Moments moments = block_moments(GetParam(), points);
+    expect_offsets(points, moments);
     std::vector<Coordinates> valid;
     for (std::size_t i = 0; i < points.count; ++i) {
       if (is_valid(load_point(points, i))) valid.push_back(load_point(points, i));

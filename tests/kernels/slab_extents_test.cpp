@@ -82,6 +82,31 @@ TEST(SlabExtents, OfDoublesAreTheSameBitsOnEverySetAndLayout) {
   expect_same_on_every_set_and_layout<double>();
 }
 
+template <typename T>
+void expect_offsets_give_the_same() {
+  const FloatEnvironment environment;
+  std::vector<test::TestCloud<T>> clouds = test::nasty_clouds<T>();
+  for (std::size_t n = 1; n <= 40; ++n)
+    clouds.push_back(test::gaussian<T>(n, n));
+  for (const test::TestCloud<T>& cloud : clouds) {
+    const PointView block = cloud.view().slice(0, std::min(cloud.size(), kBlockPoints));
+    const Axes axes = some_axes(cloud.size());
+    for (const Isa isa : usable_isas()) {
+      SCOPED_TRACE(cloud.name + ", " + std::string(isa_name(isa)));
+      BlockOffsets offsets;
+      const Moments moments = block_moments(isa, block, offsets);
+      const SlabExtents right =
+          moments.count > 0 ? slab_extents(isa, block, moments.origin, axes) : SlabExtents();
+      expect_equal(slab_extents(isa, offsets, axes), right);
+    }
+  }
+}
+
+TEST(SlabExtents, OfOffsetsAreThoseOfTheirPoints) {
+  expect_offsets_give_the_same<float>();
+  expect_offsets_give_the_same<double>();
+}
+
 // Products that cancel only if none is fused with a sum.
 TEST(SlabExtents, NeverFuses) {
   const FloatEnvironment environment;
