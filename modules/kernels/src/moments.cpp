@@ -94,11 +94,11 @@ void add_lanes(const T* groups, std::size_t points, Moments& out, BlockOffsets* 
   } else {
     sum_groups<false>(groups, points, out, sums, nullptr);
   }
-  out.sum = {};
-  out.product = {};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (std::size_t k = 0; k < 9; ++k)
-      (k < 3 ? out.sum[k] : out.product[k - 3]) += sums[k * kLanes + lane];
+  for (std::size_t k = 0; k < 9; ++k) {
+    double sum = 0;  // a register; sums in memory would wait for each store
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      sum += sums[k * kLanes + lane];
+    (k < 3 ? out.sum[k] : out.product[k - 3]) = sum;
   }
 }
 
